@@ -111,8 +111,8 @@ hand_in(html=_html, plot=_plot)
 def __getattr__(name: str) -> Any:
     """Import on first use, so that ``heeltoe --help`` does not wait for the plots."""
     if name not in _HOME:
-        said = "" if name.startswith("_") else near(name, _HOME)
-        raise AttributeError(f"module 'heeltoe' has no attribute {name!r}{said}", name=name, obj=None)
+        hint = "" if name.startswith("_") else near(name, _HOME)
+        raise AttributeError(f"module 'heeltoe' has no attribute {name!r}{hint}", name=name, obj=None)
     value = getattr(import_module(f"heeltoe.{_HOME[name]}"), name)
     globals()[name] = value
     return value

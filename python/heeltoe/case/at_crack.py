@@ -45,15 +45,15 @@ def anchor_at_crack(anchor: Anchor, section: CutSection) -> AnchorAtCrack:
     if crossing is None:
         assert anchor.distance is not None
         return AnchorAtCrack(anchor.distance, anchor.inclination, *strengths, anchor.capacity)
-    distance, *forces = (number(np.where(crossing.there, force, 0.0)) for force in (crossing.distance, *strengths))
-    if np.all(crossing.there):
+    distance, *forces = (number(np.where(crossing.crossed, force, 0.0)) for force in (crossing.distance, *strengths))
+    if np.all(crossing.crossed):
         forces = list(strengths)
     return AnchorAtCrack(distance, _angle(crossing), forces[0], forces[1], forces[2], anchor.capacity)
 
 
 def _angle(crossing: Crossing) -> float:
     # Cracks of columns have one inclination, as has the anchor.
-    angles = np.unique(np.where(crossing.there, crossing.inclination, 0.0))
+    angles = np.unique(np.where(crossing.crossed, crossing.inclination, 0.0))
     return float(angles[np.abs(angles).argmax()])
 
 

@@ -126,8 +126,8 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
         ]
         foreign = [path for path in foreign if path not in expected]
         # The water of an elastic dam is Westergaard's in any case.
-        told = [path for path in expected if values[path] != "westergaard"]
-        notices = [Notice(_EXPECTED[path], field=path, value=shown(values[path])) for path in told]
+        expectations = [path for path in expected if values[path] != "westergaard"]
+        notices = [Notice(_EXPECTED[path], field=path, value=shown(values[path])) for path in expectations]
     if foreign:
         names = [name for model, name in READERS.items() if model in models]
         notices.append(Notice("fields-unused", readers=" and ".join(names), fields=", ".join(foreign)))

@@ -453,8 +453,8 @@ def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
             far = partial(_beyond_toe, f"anchors[{place}].distance", anchor.distance, section.crack_width)
             yield anchor.distance > section.crack_width * (1.0 + ON_LINE), far
             continue
-        for each in case.single_crack_cases if case.further_cracks else (case,):
-            yield too_flat(anchor, each.cut), partial(flat, place, anchor, each.cut)
+        for cracked in case.single_crack_cases if case.further_cracks else (case,):
+            yield too_flat(anchor, cracked.cut), partial(flat, place, anchor, cracked.cut)
 
 
 def _ends_of_crack(path: str, case: Case, *, is_first: bool) -> tuple[float, float]:

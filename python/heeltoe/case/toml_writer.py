@@ -123,7 +123,7 @@ def _value(value: Any) -> str:
         inner = ", ".join(f"{_key(str(name))} = {_value(item)}" for name, item in value.items() if item is not None)
         return f"{{ {inner} }}" if inner else "{}"
     if isinstance(value, list | tuple):
-        return f"[{', '.join(_value(each) for each in value if each is not None)}]"
+        return f"[{', '.join(_value(item) for item in value if item is not None)}]"
     return repr(value) if isinstance(value, int | float) else _text(str(value))
 
 

@@ -92,7 +92,7 @@ def _about_the_anchors(case: Case) -> Iterator[Notice]:
     for place, anchor in enumerate(case.anchors):
         field, number = f"anchors[{place}]", place + 1
         crossings = [crosses(anchor, alone.cut) for alone in case.single_crack_cases]
-        if all(crossing is not None and not crossing.there for crossing in crossings):
+        if all(crossing is not None and not crossing.crossed for crossing in crossings):
             yield Notice("anchor-misses", field=field, number=number)
             continue
         head, _ = anchor_line(anchor, section, 0.0)

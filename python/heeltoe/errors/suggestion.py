@@ -11,5 +11,8 @@ def near(name: str, known: Iterable[str]) -> str:
     from difflib import get_close_matches
 
     names = list(known)
-    found = get_close_matches(name, names, n=1) or [each for each in names if name and each.startswith(f"{name}_")][:1]
-    return f', did you mean "{found[0]}"?' if found else ""
+    matches = (
+        get_close_matches(name, names, n=1)
+        or [candidate for candidate in names if name and candidate.startswith(f"{name}_")][:1]
+    )
+    return f', did you mean "{matches[0]}"?' if matches else ""

@@ -21,7 +21,7 @@ class Crossing:
 
     Attributes
     ----------
-    there
+    crossed
         Whether it does, with an end on either side.
     distance
         From the heel along the crack [m].
@@ -29,7 +29,7 @@ class Crossing:
         Of the line to the normal of the crack, positive where its upper end leans downstream [rad].
     """
 
-    there: Any
+    crossed: Any
     distance: Any
     inclination: Any
 
@@ -44,10 +44,10 @@ def crossing(section: CutSection, one: Place, other: Place) -> Crossing:
     slack = ON_LINE * section.crack_width
     apart = ((low < -slack) & (high > slack)) | ((high < -slack) & (low > slack))
     distance = along - low / np.where(apart, rise, 1.0) * ahead
-    there = apart & (distance >= -slack) & (distance <= section.crack_width + slack)
+    crossed = apart & (distance >= -slack) & (distance <= section.crack_width + slack)
     up = np.where(np.asarray(rise) >= 0.0, 1.0, -1.0)
     inclination = np.arctan2(up * ahead, np.abs(rise))
-    return Crossing(there, np.clip(distance, 0.0, section.crack_width), inclination)
+    return Crossing(crossed, np.clip(distance, 0.0, section.crack_width), inclination)
 
 
 def head(section: CutSection, distance: float, inclination: float) -> Place:

@@ -172,6 +172,6 @@ def run_blocks(
 
     `threads` of 0 means all cores; the numbers, (n,) by name, are the same bits for any number of them.
     """
-    motions = [(each.time, each.horizontal, each.up) for each in shakings]
+    motions = [(shaking.time, shaking.horizontal, shaking.up) for shaking in shakings]
     settle, most, jam = limits.settle, limits.event_limit, limits.jam
     return _kernel.run_rigid_many(blocks, motions, which, scales, settle, most, jam, threads)

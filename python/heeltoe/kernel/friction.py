@@ -41,5 +41,5 @@ def shear_stress(
     """Return the shear stresses that a law bears at rest and sliding, (2, ...) [Pa], at normal stresses [Pa], paths
     slipped [m] and speeds [m/s], with the bond whole or broken."""
     every = np.broadcast_arrays(stress, speed, path, bonded)
-    flat = [np.ascontiguousarray(each, dtype=np.float64).reshape(-1) for each in every]
+    flat = [np.ascontiguousarray(array, dtype=np.float64).reshape(-1) for array in every]
     return law.shear_stress(*flat).T.reshape(2, *every[0].shape)

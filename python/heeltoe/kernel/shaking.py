@@ -45,7 +45,7 @@ class Shaking:
 
     def scaled(self, factor: float) -> Shaking:
         """Return the same motion, weaker or stronger."""
-        up, turning = (None if each is None else factor * each for each in (self.up, self.turning))
+        up, turning = (None if component is None else factor * component for component in (self.up, self.turning))
         before = None if self.before is None else self.before.scaled(factor)
         return replace(self, horizontal=factor * self.horizontal, up=up, turning=turning, before=before)
 

@@ -98,12 +98,12 @@ def _swung(case: Case, motion: GroundMotion, moduli: tuple[float, ...]) -> _Swun
     concrete = case.concrete
 
     def build() -> _Swung:
-        found = beam(case)
-        periods = found.periods / np.sqrt(np.array(moduli))[:, None]
+        dam_beam = beam(case)
+        periods = dam_beam.periods / np.sqrt(np.array(moduli))[:, None]
         if periods[:, 0].max() < STIFF_S:
-            return found, periods, None, None
+            return dam_beam, periods, None, None
         spectrum = response_spectrum(motion, periods.ravel(), concrete.damping)
-        return found, periods, spectrum.pseudo_acceleration.reshape(periods.shape), _mean_period(motion)
+        return dam_beam, periods, spectrum.pseudo_acceleration.reshape(periods.shape), _mean_period(motion)
 
     key = (case.section, concrete.density, concrete.poisson, concrete.damping, water, motion, moduli)
     return _KEPT.get(key, build)

@@ -84,8 +84,8 @@ def static_forces(case: Case) -> tuple[Resultant, ...]:
         uplift(case),
     ]
     over = np.any(nappe_heads(case)[0] > 0.0)
-    for there, force in ((over, nappe), (case.ice, ice), (case.silt, silt), (case.anchors, prestress)):
-        if there:
+    for cause, force in ((over, nappe), (case.ice, ice), (case.silt, silt), (case.anchors, prestress)):
+        if cause:
             forces.append(force(case))
     return tuple(forces)
 

@@ -102,10 +102,10 @@ def run(
         *block, better = _until_the_same_end(names, case, shaking, output_step, first)
         if not block:
             return _alone(better, case, Chosen(asked=model, why=why))
-        found = _completed(better, case, names, Chosen(asked=model, why=why))
+        response = _completed(better, case, names, Chosen(asked=model, why=why))
         # The better model is judged.
         simpler = replace(_completed(block[0], case, names, Chosen(asked=model, why=_BESIDE)), limits=())
-        return replace(found, beside=simpler)
+        return replace(response, beside=simpler)
 
     if names[-1] != "flexible" or follows_drains(case, shaking) or not runs_both_signs(case, shaking):
         return _by_sign(case, shaking, one_way)
@@ -130,17 +130,17 @@ def _elastic_by_sign(
     ways["reversed"] = (turned, rest(turned))
     worst = max(ways, key=lambda sign: ways[sign][1].badness(case))
     took = perf_counter() - began
-    found = run(*ways[worst])
+    response = run(*ways[worst])
     other = "recorded" if worst == "reversed" else "reversed"
-    if ways[other][1].badness(case) > badness(found):
+    if ways[other][1].badness(case) > badness(response):
         # Its evidence has made the worse way the better one: both are judged with theirs.
-        judged = {worst: found, other: run(*ways[other])}
+        judged = {worst: response, other: run(*ways[other])}
         return replace(worse_way({sign: judged[sign] for sign in ways}), seconds=perf_counter() - began)
     signs = [
-        numbers_of_sign(sign, found, governs=True) if sign == worst else rested.sign_numbers(case, sign)
+        numbers_of_sign(sign, response, governs=True) if sign == worst else rested.sign_numbers(case, sign)
         for sign, (_, rested) in ways.items()
     ]
-    return replace(found, signs=tuple(signs), seconds=found.seconds + took)
+    return replace(response, signs=tuple(signs), seconds=response.seconds + took)
 
 
 def _by_sign(case: Case, shaking: Earthquake, run: Callable[[Earthquake], R]) -> R:
@@ -233,17 +233,17 @@ def _until_the_same_end(
 ) -> list[Response]:
     """Run models until all of them are at rest, one as long as the other; `first` is what the elastic dam has done
     without evidence, where that is known."""
-    found = []
+    responses = []
     for name in names:
         known = first if name == "flexible" and first is not None and not shaking.silence else None
-        found.append(_timed(name, case, shaking, output_step, known))
-        shaking = shaking.silent(found[-1].silence_s)
+        responses.append(_timed(name, case, shaking, output_step, known))
+        shaking = shaking.silent(responses[-1].silence_s)
 
-    def as_long(each: Response) -> Response:
-        again = _timed(each.model, case, shaking, output_step)
-        return replace(again, seconds=each.seconds + again.seconds)
+    def as_long(response: Response) -> Response:
+        again = _timed(response.model, case, shaking, output_step)
+        return replace(again, seconds=response.seconds + again.seconds)
 
-    return [each if each.silence_s == shaking.silence else as_long(each) for each in found]
+    return [response if response.silence_s == shaking.silence else as_long(response) for response in responses]
 
 
 def _timed(
@@ -251,12 +251,12 @@ def _timed(
 ) -> Response:
     began = perf_counter()
     if first is None:
-        found = MODELS[model](case, shaking, output_step)
+        response = MODELS[model](case, shaking, output_step)
     else:
         from heeltoe.models.flexible.model import run_flexible
 
-        found = run_flexible(case, shaking, output_step, first)
-    return replace(found, seconds=perf_counter() - began)
+        response = run_flexible(case, shaking, output_step, first)
+    return replace(response, seconds=perf_counter() - began)
 
 
 def rigid(
@@ -345,13 +345,15 @@ def earthquake(
         Where there is no motion, or one that cannot be used.
     """
     expect(case, Case, "not-a-case", "case")
-    for name, given in (("motion", motion), ("vertical", vertical), ("rotation", rotation)):
-        if given is not None:
-            expect(given, GroundMotion, "not-a-motion", name)
+    for name, component in (("motion", motion), ("vertical", vertical), ("rotation", rotation)):
+        if component is not None:
+            expect(component, GroundMotion, "not-a-motion", name)
     if motion is None:
         motion, vertical = resolve_all(case)
     elif not motion.parts and case.motion is not None:
-        motion = motion.with_warnings(*(each for each in _left_out(case, vertical) if each not in motion.warnings))
+        motion = motion.with_warnings(
+            *(notice for notice in _left_out(case, vertical) if notice not in motion.warnings)
+        )
     own = None if motion.parts or case.motion is None else case.motion.duration
     return Earthquake(motion, vertical, own or motion.duration, rotation)
 
@@ -410,17 +412,17 @@ def _sequence(case: Case, response: R) -> tuple[R, tuple[Notice, ...]]:
 
     followed = response.drainage_by_motion is not None
     if not case.further_cracks:
-        found = judged_stages(case, response)
-        return response.with_crack(sequence=found), tuple(about_the_sequence(case, found, followed=followed))
-    each = [judged_stages(alone, response.at_crack(place)) for place, alone in enumerate(case.single_crack_cases)]
-    said = [
+        judged = judged_stages(case, response)
+        return response.with_crack(sequence=judged), tuple(about_the_sequence(case, judged, followed=followed))
+    by_crack = [judged_stages(alone, response.at_crack(place)) for place, alone in enumerate(case.single_crack_cases)]
+    notices = [
         notice
-        for alone, found in zip(case.single_crack_cases, each, strict=True)
-        for notice in about_the_sequence(alone, found, followed=followed, several=True)
+        for alone, judged in zip(case.single_crack_cases, by_crack, strict=True)
+        for notice in about_the_sequence(alone, judged, followed=followed, several=True)
     ]
-    for place, found in enumerate(each):
-        response = response.with_crack(place, sequence=found)
-    return response, tuple(said)
+    for place, judged in enumerate(by_crack):
+        response = response.with_crack(place, sequence=judged)
+    return response, tuple(notices)
 
 
 def _slides_on(case: Case, response: Response) -> Iterator[Notice]:
@@ -446,14 +448,14 @@ def _anchors_crossed(case: Case, response: Response) -> Iterator[Notice]:
 
 def _slid_off(response: Response) -> tuple[Notice, ...]:
     """Say where little or nothing is left below the part above a crack."""
-    found = []
+    notices = []
     for crack in response.cracks:
         slip = max(abs(crack.peak_slip_downstream_m), abs(crack.peak_slip_upstream_m))
         if slid_off(response.outcome, slip, crack.crack_width_m):
-            found.append(Notice("slid-off", slip_m=slip, width_m=crack.crack_width_m))
+            notices.append(Notice("slid-off", slip_m=slip, width_m=crack.crack_width_m))
         elif response.outcome == "ok" and slip > _FAR * crack.crack_width_m:
-            found.append(Notice("slid-far", share=slip / crack.crack_width_m))
-    return tuple(found)
+            notices.append(Notice("slid-far", share=slip / crack.crack_width_m))
+    return tuple(notices)
 
 
 def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Response:
@@ -466,31 +468,31 @@ def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Res
             return run_two_blocks(case, through, output_step)
         return run_rigid(case, through, output_step)
 
-    found = until_rest(run, reach_of_block, earthquake, case.analysis.silence)
+    response = until_rest(run, reach_of_block, earthquake, case.analysis.silence)
     # Of bounces that amplify the last digit no run is the answer: a twin shows it.
-    twin = twin_of(case, found, run, earthquake)
+    twin = twin_of(case, response, run, earthquake)
     if twin is None:
-        return found
+        return response
     bounce, slip = twin
     other = Sentence("has no result") if slip is None else Sentence.of("slides {twin_m:.4g mm}", twin_m=slip)
-    notice = Notice("not-determined", other=other, slip_m=found.residual_slip_m, restitution=bounce)
-    return replace(found, warnings=(notice, *found.warnings))
+    notice = Notice("not-determined", other=other, slip_m=response.residual_slip_m, restitution=bounce)
+    return replace(response, warnings=(notice, *response.warnings))
 
 
 def _decoupled(case: Case, earthquake: Earthquake, output_step: float | None) -> DecoupledResponse:
     from heeltoe.models.decoupled.model import block_of_chain, run_decoupled
 
-    found = run_decoupled(case, earthquake, output_step)
-    if found.outcome != "ok" or not found.impacts or not case.crack.restitution:
-        return found
+    response = run_decoupled(case, earthquake, output_step)
+    if response.outcome != "ok" or not response.impacts or not case.crack.restitution:
+        return response
     # Blows are where the block and the dam differ most, and the restitution is seldom known.
     dead = case.model_copy(update={"crack": case.crack.model_copy(update={"restitution": 0.0})})
-    other = block_of_chain(dead, earthquake.silent(found.silence_s), output_step)
-    slip, without = found.residual_slip_m, other.residual_slip_m
+    other = block_of_chain(dead, earthquake.silent(response.silence_s), output_step)
+    slip, without = response.residual_slip_m, other.residual_slip_m
     if other.outcome != "ok" or abs(slip - without) <= max(_DECIDES * abs(slip), _SLIGHT_M):
-        return found
+        return response
     notice = Notice("restitution-decides", slip_m=slip, restitution=case.crack.restitution, dead_slip_m=without)
-    return replace(found, warnings=(notice, *found.warnings))
+    return replace(response, warnings=(notice, *response.warnings))
 
 
 def _live(case: Case, earthquake: Earthquake) -> DecoupledResponse:
@@ -508,8 +510,8 @@ def _flexible(case: Case, earthquake: Earthquake, output_step: float | None) -> 
     if not follows_drains(case, earthquake):
         return run_flexible(case, earthquake, output_step)
     rested, shares = drained(case, earthquake, rest_of(case, earthquake))
-    found = run_flexible(case, replace(earthquake, drainage=rested.earthquake.drainage), output_step)
-    return with_shares(found, shares)
+    response = run_flexible(case, replace(earthquake, drainage=rested.earthquake.drainage), output_step)
+    return with_shares(response, shares)
 
 
 #: The models by name.

@@ -75,17 +75,18 @@ def determined(slip: Floats | float, twin: Floats | float) -> NDArray[np.bool_]:
 
 
 def twin_of(
-    case: Case, found: R, run: Callable[[Earthquake], R], earthquake: Earthquake
+    case: Case, response: R, run: Callable[[Earthquake], R], earthquake: Earthquake
 ) -> tuple[float, float | None] | None:
-    """Return the largest restitution of a block's cracks, and the slip of a twin in a motion that is stronger by
-    :data:`HAIR` [m], None without a result, where that is not the slip `found`; None where the slip is determined."""
+    """Return the largest restitution of a block's cracks, and the slip [m] of a twin in a motion that is stronger by
+    :data:`HAIR`, where that differs from the slip of the `response`; None where the slip is determined. The slip of a
+    twin without a result is None."""
     bounce = max(alone.crack.restitution for alone in case.single_crack_cases)
-    if bounce < BOUNCY or found.outcome != "ok" or not found.impacts:
+    if bounce < BOUNCY or response.outcome != "ok" or not response.impacts:
         return None
-    twin = run(earthquake.silent(found.silence_s).scaled(1.0 + HAIR))
+    twin = run(earthquake.silent(response.silence_s).scaled(1.0 + HAIR))
     if twin.outcome != "ok":
         return bounce, None
-    return None if determined(found.residual_slip_m, twin.residual_slip_m) else (bounce, twin.residual_slip_m)
+    return None if determined(response.residual_slip_m, twin.residual_slip_m) else (bounce, twin.residual_slip_m)
 
 
 def slid_off(outcome: str, peak_slip: float, width: float) -> bool:

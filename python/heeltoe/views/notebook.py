@@ -70,14 +70,14 @@ def _(response: Response) -> str:
     if response.beside is not None:
         rows += [(f"{response.beside.model} beside it", response.meaning())]
     rows += [("warning", text) for text in listed(response.responses)]
-    for each in HEADLINES:
+    for headline in HEADLINES:
         texts = []
         for run in reversed(response.responses):
-            cell = numbers(each.key if run is response else f"beside.{each.key}", sign=each.way)
+            cell = numbers(headline.key if run is response else f"beside.{headline.key}", sign=headline.way)
             if isinstance(cell, Value):
                 texts.append(cell.text if response.beside is None else f"{cell.text} ({run.model})")
         if texts:
-            rows.append((each.full, ", ".join(texts)))
+            rows.append((headline.full, ", ".join(texts)))
     drawing = ""
     if response.histories:
         time = response.histories["time_s"]
@@ -86,16 +86,16 @@ def _(response: Response) -> str:
 
 
 @html.register
-def _(found: Statics) -> str:
+def _(statics: Statics) -> str:
     """Show which static checks are not met, and the warnings."""
-    missed = [str(check.sentence) for check in found.checks if not check.met]
+    missed = [str(check.sentence) for check in statics.checks if not check.met]
     rows = [
-        ("criteria", found.criteria),
-        ("checks", f"{len(found.checks) - len(missed)} of {len(found.checks)} are met"),
+        ("criteria", statics.criteria),
+        ("checks", f"{len(statics.checks) - len(missed)} of {len(statics.checks)} are met"),
     ]
     rows += [("not met", text) for text in missed]
-    rows += [("warning", str(warning)) for warning in found.warnings]
-    return _page(found.title or "Untitled case", rows, "")
+    rows += [("warning", str(warning)) for warning in statics.warnings]
+    return _page(statics.title or "Untitled case", rows, "")
 
 
 def line(x: Floats, y: Floats, label: str) -> str:

@@ -65,11 +65,11 @@ def _(response: Response, units: str) -> Mapping[str, Figure]:
 
 
 @_figures.register
-def _(found: Solved, units: str) -> Mapping[str, Figure]:
+def _(solved: Solved, units: str) -> Mapping[str, Figure]:
     from heeltoe.views.content.solve import field_scale
     from heeltoe.views.figures.solve import solve_figure
 
-    return _one("solve", lambda: solve_figure(found, field_scale(found, units), units))
+    return _one("solve", lambda: solve_figure(solved, field_scale(solved, units), units))
 
 
 @_figures.register
@@ -94,15 +94,15 @@ def _(motion: GroundMotion, units: str) -> Mapping[str, Figure]:
 
 
 @_figures.register
-def _(found: Statics, units: str) -> Mapping[str, Figure]:
+def _(statics: Statics, units: str) -> Mapping[str, Figure]:
     from heeltoe.views.figures.statics.checks import statics_figure
 
     unit_system(units)
-    return _one("statics", lambda: statics_figure(found))
+    return _one("statics", lambda: statics_figure(statics))
 
 
 @_figures.register
-def _(found: OverturningMap, units: str) -> Mapping[str, Figure]:
+def _(overturning: OverturningMap, units: str) -> Mapping[str, Figure]:
     from heeltoe.views.figures.overturning import overturning_figure
 
-    return _one("overturning", lambda: overturning_figure(found))
+    return _one("overturning", lambda: overturning_figure(overturning))

@@ -99,10 +99,10 @@ def crack_motion_at(chain: Chain, ground: Earthquake, step: float) -> CrackMotio
     return _named(chain, ground.motion, time, crack, step)
 
 
-def relative(found: Floats, exact: Floats, crack: Floats) -> float:
+def relative(approximate: Floats, exact: Floats, crack: Floats) -> float:
     """Return the largest difference over the peak of the crack's horizontal acceleration; 0 where nothing moves."""
     peak = float(np.abs(crack[0]).max())
-    return float(np.abs(found - exact).max(initial=0.0)) / peak if peak else 0.0
+    return float(np.abs(approximate - exact).max(initial=0.0)) / peak if peak else 0.0
 
 
 def _named(chain: Chain, motion: GroundMotion, time: Floats, crack: Floats, asked: float) -> CrackMotion:

@@ -33,8 +33,8 @@ def run_live(case: Case, earthquake: Earthquake) -> DecoupledResponse:
         As :func:`run_decoupled`.
     """
     at_crack = _at_crack(chain(case), earthquake)
-    found = run_rigid(case, at_crack.felt(case, earthquake), step_of(earthquake))
-    return of_the_chain(found, earthquake)
+    response = run_rigid(case, at_crack.felt(case, earthquake), step_of(earthquake))
+    return of_the_chain(response, earthquake)
 
 
 def _at_crack(part: Chain, earthquake: Earthquake) -> CrackMotion:
@@ -43,15 +43,15 @@ def _at_crack(part: Chain, earthquake: Earthquake) -> CrackMotion:
         return crack_motion(part, earthquake)[0]
     # A chain is kept itself, so that the same one comes back; it is part of what is kept here, and so stays the same.
     key = (_digest(part), _shape(earthquake, peak))
-    found, of = _KEPT.get(key, lambda: (crack_motion(part, earthquake)[0], peak))
+    level_motion, of = _KEPT.get(key, lambda: (crack_motion(part, earthquake)[0], peak))
     if of == peak:
-        return found
+        return level_motion
     factor = peak / of
     return replace(
-        found,
-        horizontal=_scaled(found.horizontal, factor),
-        vertical=_scaled(found.vertical, factor),
-        rotation=_scaled(found.rotation, factor),
+        level_motion,
+        horizontal=_scaled(level_motion.horizontal, factor),
+        vertical=_scaled(level_motion.vertical, factor),
+        rotation=_scaled(level_motion.rotation, factor),
     )
 
 
@@ -62,17 +62,17 @@ def _scaled(motion: GroundMotion, factor: float) -> GroundMotion:
 
 
 def _digest(part: Chain) -> bytes:
-    found = hashlib.sha256()
-    for each in (part.omega, part.participation, part.shapes):
-        found.update(np.ascontiguousarray(each).tobytes())
-    return found.digest() + str(part.damping).encode()
+    digest = hashlib.sha256()
+    for array in (part.omega, part.participation, part.shapes):
+        digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.digest() + str(part.damping).encode()
 
 
 def _shape(earthquake: Earthquake, peak: float) -> bytes:
     """Return what is the same of an earthquake at any strength."""
     shaking = earthquake.shaking
-    found = hashlib.sha256(shaking.time.tobytes())
-    for each in (shaking.horizontal, shaking.up):
-        if each is not None:
-            found.update(np.round(each / peak, _DIGITS).tobytes())
-    return found.digest()
+    digest = hashlib.sha256(shaking.time.tobytes())
+    for component in (shaking.horizontal, shaking.up):
+        if component is not None:
+            digest.update(np.round(component / peak, _DIGITS).tobytes())
+    return digest.digest()

@@ -50,7 +50,7 @@ class _Run:
     earthquake: Earthquake
     at_crack: CrackMotion
     straightness: float
-    found: Response
+    response: Response
 
 
 def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None = None) -> DecoupledResponse:
@@ -77,9 +77,9 @@ def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None 
 
     part, block = chain(case), build_block(case)
     last = _run_until_rest(case, part, block, earthquake, output_step)
-    found, earthquake, at_crack = last.found, last.earthquake, last.at_crack
-    if not found.started:
-        return of_the_chain(found, earthquake)
+    response, earthquake, at_crack = last.response, last.earthquake, last.at_crack
+    if not response.started:
+        return of_the_chain(response, earthquake)
     rough = crack_motion_at(part, earthquake, 2.0 * at_crack.step)
     coarser = walk(case, block, rough.felt(case, earthquake).shaking)
     convergence = CrackMotionConvergence(
@@ -88,21 +88,21 @@ def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None 
         half_the_modes=_of_half_the_modes(part, at_crack, earthquake),
         coarser_step_s=rough.step,
         coarser_residual_slip_m=coarser.summary.slip,
-        change=_change(found.residual_slip_m, coarser.summary.slip),
+        change=_change(response.residual_slip_m, coarser.summary.slip),
     )
     level = _crack_level(case, part, at_crack, earthquake, convergence)
     return of_the_chain(
-        found.with_crack(histories=_histories(found, at_crack, earthquake)),
+        response.with_crack(histories=_histories(response, at_crack, earthquake)),
         earthquake,
         dam=Chain(crack_level=level),
-        warnings=(*found.warnings, *concrete_warnings(case), *_warnings(level)),
-        references=(*found.references, *cited("decoupled", "piecewise exact")),
+        warnings=(*response.warnings, *concrete_warnings(case), *_warnings(level)),
+        references=(*response.references, *cited("decoupled", "piecewise exact")),
     )
 
 
 def block_of_chain(case: Case, earthquake: Earthquake, output_step: float | None = None) -> Response:
     """Return what the block of the chain does, without what :func:`run_decoupled` says of the motion of the crack."""
-    return _run_until_rest(case, chain(case), build_block(case), earthquake, output_step).found
+    return _run_until_rest(case, chain(case), build_block(case), earthquake, output_step).response
 
 
 def _run_until_rest(case: Case, part: Part, block: Block, earthquake: Earthquake, output_step: float | None) -> _Run:
@@ -112,7 +112,9 @@ def _run_until_rest(case: Case, part: Part, block: Block, earthquake: Earthquake
         step = step_of(through) if output_step is None else output_step
         return _Run(through, at_crack, straightness, run_rigid(case, at_crack.felt(case, through), step, block))
 
-    return until_rest(run, lambda each: reach_of_block(each.found), earthquake, case.analysis.silence, swings=True)
+    return until_rest(
+        run, lambda chain_run: reach_of_block(chain_run.response), earthquake, case.analysis.silence, swings=True
+    )
 
 
 def step_of(earthquake: Earthquake) -> float:
@@ -124,42 +126,42 @@ def step_of(earthquake: Earthquake) -> float:
 
 def of_the_chain(block: Response, earthquake: Earthquake, **changes: Any) -> DecoupledResponse:
     """Return what the block has done as what the chain has done."""
-    found = {each.name: getattr(block, each.name) for each in fields(block)}
-    found |= {"model": "decoupled", "motion": earthquake.motion, "vertical": earthquake.vertical}
-    found |= {"silence_s": earthquake.silence}
-    return DecoupledResponse(**(found | changes))
+    values = {column.name: getattr(block, column.name) for column in fields(block)}
+    values |= {"model": "decoupled", "motion": earthquake.motion, "vertical": earthquake.vertical}
+    values |= {"silence_s": earthquake.silence}
+    return DecoupledResponse(**(values | changes))
 
 
 @one_blas_thread()
 def crack_earthquake(case: Case, earthquake: Earthquake) -> Earthquake:
     """Return what shakes the block where `earthquake` shakes the ground."""
-    found, _ = crack_motion(chain(case), earthquake)
-    return found.felt(case, earthquake)
+    at_crack, _ = crack_motion(chain(case), earthquake)
+    return at_crack.felt(case, earthquake)
 
 
 def _crack_level(
-    case: Case, part: Part, found: CrackMotion, earthquake: Earthquake, convergence: CrackMotionConvergence
+    case: Case, part: Part, at_crack: CrackMotion, earthquake: Earthquake, convergence: CrackMotionConvergence
 ) -> CrackLevel:
     g, motion = case.gravity, earthquake.motion
     own = part.periods[:_SHOWN]
     bonded = bonded_chain(case)
     marked = np.concatenate([own, bonded.periods[:_SHOWN]])
     periods = np.unique(np.concatenate([_PERIODS, marked[marked >= _PERIODS[0]]]))
-    blocks = found.felt(case, earthquake)
+    blocks = at_crack.felt(case, earthquake)
     felt = ["horizontal"]
     felt += ["vertical"] if blocks.vertical is not None else []
     felt += ["rotation"] if blocks.rotation is not None else []
     spectra = {
-        f"{name}_g": (response_spectrum(each, periods, SPECTRUM_DAMPING).pseudo_acceleration / g).tolist()
-        for name, each in (("ground", motion), ("crack", found.horizontal))
+        f"{name}_g": (response_spectrum(accelerogram, periods, SPECTRUM_DAMPING).pseudo_acceleration / g).tolist()
+        for name, accelerogram in (("ground", motion), ("crack", at_crack.horizontal))
     }
-    beside = crack_motion_at(bonded, earthquake, found.step)
+    beside = crack_motion_at(bonded, earthquake, at_crack.step)
     return CrackLevel(
-        peak_horizontal_g=found.horizontal.pga / g,
-        peak_vertical_g=found.vertical.pga / g,
-        peak_rotation_rad_s2=found.rotation.pga,
+        peak_horizontal_g=at_crack.horizontal.pga / g,
+        peak_vertical_g=at_crack.vertical.pga / g,
+        peak_rotation_rad_s2=at_crack.rotation.pga,
         ground_peak_g=motion.pga / g,
-        amplification=found.horizontal.pga / motion.pga if motion.pga else None,
+        amplification=at_crack.horizontal.pga / motion.pga if motion.pga else None,
         felt=felt,
         upper_part=case.decoupled.upper_part,
         periods_s=own.tolist(),
@@ -181,10 +183,10 @@ def _crack_level(
     )
 
 
-def _of_half_the_modes(part: Part, found: CrackMotion, earthquake: Earthquake) -> float:
+def _of_half_the_modes(part: Part, felt: CrackMotion, earthquake: Earthquake) -> float:
     """Return what the slower half of the modes misses of the horizontal motion, over its peak."""
-    less = crack_motion_at(part.slower_half(), earthquake, found.asked).horizontal.acceleration
-    exact = found.horizontal.acceleration
+    less = crack_motion_at(part.slower_half(), earthquake, felt.asked).horizontal.acceleration
+    exact = felt.horizontal.acceleration
     return relative(less, exact, exact[None])
 
 
@@ -193,7 +195,7 @@ def _change(slip: float, coarser: float) -> float:
     return abs(slip - coarser) / max(abs(slip), JOINT_METER_M / _CHANGE)
 
 
-def _histories(block: Response, found: CrackMotion, earthquake: Earthquake) -> dict[str, Floats]:
+def _histories(block: Response, felt: CrackMotion, earthquake: Earthquake) -> dict[str, Floats]:
     """Put the ground's own motion where the block has that of the crack, and the crack's beside it."""
     # Where the crest is relative to the ground hangs on the part below, too.
     histories = {name: values for name, values in block.histories.items() if name not in (DISPLACEMENT, ACCELERATION)}
@@ -202,12 +204,12 @@ def _histories(block: Response, found: CrackMotion, earthquake: Earthquake) -> d
     if shaking.up is not None:
         result["vertical_ground_acceleration_m_s2"] = np.interp(moments, shaking.time, shaking.up)
     histories.pop("vertical_ground_acceleration_m_s2", None)
-    for name, each in (
-        ("crack_acceleration_m_s2", found.horizontal),
-        ("vertical_crack_acceleration_m_s2", found.vertical),
-        ("crack_rotation_acceleration_rad_s2", found.rotation),
+    for name, accelerogram in (
+        ("crack_acceleration_m_s2", felt.horizontal),
+        ("vertical_crack_acceleration_m_s2", felt.vertical),
+        ("crack_rotation_acceleration_rad_s2", felt.rotation),
     ):
-        result[name] = np.interp(moments, each.time, each.acceleration)
+        result[name] = np.interp(moments, accelerogram.time, accelerogram.acceleration)
     return result | {name: values for name, values in histories.items() if name not in result}
 
 

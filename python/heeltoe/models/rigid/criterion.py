@@ -88,7 +88,9 @@ class Fit:
     def band(self, numbers: Mapping[str, float], share: float = SHARE) -> tuple[float, float]:
         """Return what the middle of this share of like cases lies within."""
         middle, wide = self.at(numbers), self.missed(numbers)
-        low, high = (math.exp(middle + wide * self._quantile(each)) for each in (0.5 - share / 2.0, 0.5 + share / 2.0))
+        low, high = (
+            math.exp(middle + wide * self._quantile(quantile)) for quantile in (0.5 - share / 2.0, 0.5 + share / 2.0)
+        )
         return low, high
 
     def beyond(self, numbers: Mapping[str, float], value: float) -> float:
@@ -190,21 +192,21 @@ def fits() -> dict[str, dict[Regime, Fit]]:
 
     The ratio is the slip over that of the block where it slides, over the spectral displacement where it holds.
     """
-    told = json.loads(files("heeltoe.models.rigid").joinpath("criterion.json").read_text(encoding="utf-8"))
-    return {model: {regime: fit_of(each) for regime, each in by.items()} for model, by in told.items()}
+    document = json.loads(files("heeltoe.models.rigid").joinpath("criterion.json").read_text(encoding="utf-8"))
+    return {model: {regime: fit_of(numbers) for regime, numbers in by.items()} for model, by in document.items()}
 
 
-def fit_of(told: Mapping[str, Any]) -> Fit:
+def fit_of(document: Mapping[str, Any]) -> Fit:
     """Return a fit from what the file says of it."""
-    ranges = {name: (low, high) for name, (low, high) in told["ranges"].items()}
-    held_back = {place: (share, cases) for place, (share, cases) in told["held_back"].items()}
+    ranges = {name: (low, high) for name, (low, high) in document["ranges"].items()}
+    held_back = {place: (share, cases) for place, (share, cases) in document["held_back"].items()}
     return Fit(
-        told["constant"],
-        told["slopes"],
-        told["spread"],
-        told["widening"],
-        tuple(told["quantiles"]),
+        document["constant"],
+        document["slopes"],
+        document["spread"],
+        document["widening"],
+        tuple(document["quantiles"]),
         ranges,
-        told["cases"],
+        document["cases"],
         held_back,
     )

@@ -102,11 +102,11 @@ def run_rows(
     """Run blocks that have been checked; what `rows.which` counts are `earthquakes`. `progress` is told how many more
     are done. Otherwise as :func:`rigid_many`."""
     table = {name: np.zeros(len(rows.numbers)) for name in SUMMARY}
-    follow = any(each.motion.parts for each in earthquakes)
+    follow = any(earthquake.motion.parts for earthquake in earthquakes)
     for part, kind in _parts(rows, limits, _CHUNK if progress else len(rows.numbers), sequences=follow):
         run = _runner(rows, earthquakes, kind, threads)
-        for some, found in rows_until_rest(run, _reach(finite=kind[2]), part, kind[0].silence):
-            for name, values in found.items():
+        for some, columns in rows_until_rest(run, _reach(finite=kind[2]), part, kind[0].silence):
+            for name, values in columns.items():
                 table[name][some] = values
         if progress is not None:
             progress(part.size)

@@ -99,16 +99,18 @@ def _farther(dam: _Dam, swing: Swing) -> Notice:
         return Notice("rigid-unlike", why=why, remedy=dam.remedy)
     likes = [_likeness(dam, swing, mean_period, place) for place in range(swing.periods.size)]
     regime = likes[0].regime
-    elastic, numbers = fits()["flexible"][regime], [each.numbers() for each in likes]
-    outside = next((found for each in numbers if (found := elastic.outside(each)) is not None), None)
+    elastic, numbers = fits()["flexible"][regime], [like.numbers() for like in likes]
+    outside = next((beyond for inputs in numbers if (beyond := elastic.outside(inputs)) is not None), None)
     if outside is not None:
         return Notice("rigid-unlike", why=outside, remedy=dam.remedy)
     if regime == "holds":
-        shares = [elastic.beyond(each, FAR_M / like.displacement) for each, like in zip(numbers, likes, strict=True)]
+        shares = [
+            elastic.beyond(inputs, FAR_M / like.displacement) for inputs, like in zip(numbers, likes, strict=True)
+        ]
         # No share of some hundred cases is known better than that.
-        told = _ends(np.clip(shares, 0.01, 0.99))
+        bounds = _ends(np.clip(shares, 0.01, 0.99))
         known: dict[str, Any] = {"least_m": LEAST_M, "far_m": FAR_M, "cases": elastic.cases}
-        return Notice("rigid-holds", shares=told, remedy=dam.remedy, **known)
+        return Notice("rigid-holds", shares=bounds, remedy=dam.remedy, **known)
     chain: Sentence | str = ""
     if dam.elevation > 0.0:
         times = _band(fits()["decoupled"][regime], numbers)
@@ -155,12 +157,12 @@ def _unlike(case: Case, response: Response) -> str | None:
         "its crack is rough": case.crack.roughness is not None,
         "its uplift changes while it is shaken": case.uplift.during_shaking != "constant",
     }
-    return next((why for why, there in reasons.items() if there), None)
+    return next((why for why, applies in reasons.items() if applies), None)
 
 
 def _band(fit: Fit, numbers: list[dict[str, float]]) -> tuple[float, ...]:
     """Return the least and the largest of the bands, to two digits."""
-    return tuple(float(f"{each:.2g}") for each in _ends(np.array([fit.band(each) for each in numbers])))
+    return tuple(float(f"{end:.2g}") for end in _ends(np.array([fit.band(number) for number in numbers])))
 
 
 def _ends(values: Floats) -> tuple[float, ...]:

@@ -67,8 +67,8 @@ def rows_of(
         numbers = blocks
     else:
         expect(blocks, Sequence, "not-a-list", "blocks")
-        built = [_built(each, row) for row, each in enumerate(blocks)]
-        numbers = np.array([each.parameters() for each in built]).reshape(-1, len(BLOCK))
+        built = [_built(block, row) for row, block in enumerate(blocks)]
+        numbers = np.array([block.parameters() for block in built]).reshape(-1, len(BLOCK))
     if numbers.ndim != 2 or numbers.shape[1] != len(BLOCK) or numbers.dtype.kind not in "fiu":
         raise InputError("blocks-shape", "blocks", f"{_shape(numbers)} of {numbers.dtype}", columns=len(BLOCK))
     numbers = np.ascontiguousarray(numbers, dtype=np.float64)
@@ -88,13 +88,13 @@ def check_limits(limits: Limits) -> None:
         raise InputError("blocks-limit", "limits.event_limit", limits.event_limit, bounds="1 or more")
 
 
-def _built(each: Block | Case, row: int) -> Block:
-    if isinstance(each, Case):
-        check(each, "table")
-        return build_block(each)
-    if not isinstance(each, Block):
-        raise InputError("blocks-shape", f"blocks[{row}]", type(each).__name__, columns=len(BLOCK))
-    return each
+def _built(entry: Block | Case, row: int) -> Block:
+    if isinstance(entry, Case):
+        check(entry, "table")
+        return build_block(entry)
+    if not isinstance(entry, Block):
+        raise InputError("blocks-shape", f"blocks[{row}]", type(entry).__name__, columns=len(BLOCK))
+    return entry
 
 
 def _check_numbers(numbers: Floats) -> None:
@@ -109,29 +109,29 @@ def _check_numbers(numbers: Floats) -> None:
         ("friction_kinetic", (kinetic < 0.0) | (kinetic > friction), "0 to friction_static"),
         ("restitution", (bounce < 0.0) | (bounce > 1.0), "0 to 1"),
     ]
-    found = [(int(bad.argmax()), order) for order, (_, bad, _) in enumerate(wrong) if bad.any()]
-    if found:
-        row, order = min(found)
+    failures = [(int(bad.argmax()), order) for order, (_, bad, _) in enumerate(wrong) if bad.any()]
+    if failures:
+        row, order = min(failures)
         name, _, bounds = wrong[order]
         raise InputError("block-number", f"blocks[{row}].{name}", f"{column[name][row]:g}", bounds=bounds)
 
 
 def _which(motion_of: Sequence[int] | Integers | None, count: int, motions: int) -> Integers:
-    given = np.zeros(count, dtype=np.int64) if motion_of is None else np.asarray(motion_of)
-    if given.shape != (count,):
-        raise InputError("blocks-many", "motion_of", _shape(given), count=count)
-    bad = np.flatnonzero(~((given >= 0) & (given < motions) & (given == np.floor(given))))
+    chosen = np.zeros(count, dtype=np.int64) if motion_of is None else np.asarray(motion_of)
+    if chosen.shape != (count,):
+        raise InputError("blocks-many", "motion_of", _shape(chosen), count=count)
+    bad = np.flatnonzero(~((chosen >= 0) & (chosen < motions) & (chosen == np.floor(chosen))))
     if bad.size:
         bounds = f"0 to {motions - 1}" if motions else "a motion"
-        raise InputError("blocks-motion", f"motion_of[{bad[0]}]", f"{given[bad[0]]:g}", bounds=bounds)
-    return np.ascontiguousarray(given, dtype=np.int64)
+        raise InputError("blocks-motion", f"motion_of[{bad[0]}]", f"{chosen[bad[0]]:g}", bounds=bounds)
+    return np.ascontiguousarray(chosen, dtype=np.int64)
 
 
 def _scales(scales: Sequence[float] | Floats | None, count: int) -> Floats:
-    given = np.ones(count) if scales is None else np.asarray(scales, dtype=np.float64)
-    if given.shape not in ((count,), (count, 2)):
-        raise InputError("blocks-many", "scales", _shape(given), count=count)
-    pairs = np.column_stack([given, given]) if given.ndim == 1 else np.ascontiguousarray(given)
+    factors = np.ones(count) if scales is None else np.asarray(scales, dtype=np.float64)
+    if factors.shape not in ((count,), (count, 2)):
+        raise InputError("blocks-many", "scales", _shape(factors), count=count)
+    pairs = np.column_stack([factors, factors]) if factors.ndim == 1 else np.ascontiguousarray(factors)
     bad = np.argwhere(~np.isfinite(pairs))
     if bad.size:
         row, column = bad[0]
@@ -139,5 +139,5 @@ def _scales(scales: Sequence[float] | Floats | None, count: int) -> Floats:
     return pairs
 
 
-def _shape(given: NDArray[Any]) -> str:
-    return " x ".join(map(str, given.shape)) or "one number"
+def _shape(array: NDArray[Any]) -> str:
+    return " x ".join(map(str, array.shape)) or "one number"

@@ -68,7 +68,7 @@ def _parts(shaking: Shaking) -> Iterator[Shaking]:
     places = _Cut.of(shaking).places
     for first, last in zip((0, *places), (*places, shaking.time.size - 1), strict=True):
         here = slice(first, last + 1)
-        up, turning = (None if each is None else each[here] for each in (shaking.up, shaking.turning))
+        up, turning = (None if component is None else component[here] for component in (shaking.up, shaking.turning))
         yield Shaking(shaking.time[here], shaking.horizontal[here], up, turning)
 
 

@@ -24,7 +24,7 @@ from heeltoe.result.response import CrackResponse, Energy
 #: Modes of motion by their numbers.
 MODE_NAMES = np.array(MODES, dtype=object)
 #: What :func:`heeltoe.result.contract.headlines` reads of a kernel's table.
-_COLUMNS = tuple({each.column for each in HEADLINES} & set(SUMMARY))
+_COLUMNS = tuple({headline.column for headline in HEADLINES} & set(SUMMARY))
 
 
 def opening(case: Case, width: Floats, rotation: Floats) -> Floats:
@@ -34,12 +34,12 @@ def opening(case: Case, width: Floats, rotation: Floats) -> Floats:
     return width * rotation
 
 
-def with_openings(found: dict[str, Floats], case: Case, width: Floats) -> dict[str, Floats]:
+def with_openings(columns: dict[str, Floats], case: Case, width: Floats) -> dict[str, Floats]:
     """Return the headline numbers of blocks, (n,) by name, with the openings that their rotations make."""
     # Rocking downstream, about the toe, opens the crack at the upstream face.
-    return found | {
-        "opening_upstream_m": opening(case, width, found["rocking_downstream_rad"]),
-        "opening_downstream_m": opening(case, width, found["rocking_upstream_rad"]),
+    return columns | {
+        "opening_upstream_m": opening(case, width, columns["rocking_downstream_rad"]),
+        "opening_downstream_m": opening(case, width, columns["rocking_upstream_rad"]),
     }
 
 

@@ -41,10 +41,10 @@ def law_warnings(case: Case, block: Block) -> list[Notice]:
         return []
     stress = block.normal_force / block.width
     why = range_of(law, stress)
-    said = [] if why is None else [Notice("law-range", stress_pa=stress, why=why, where="")]
+    notices = [] if why is None else [Notice("law-range", stress_pa=stress, why=why, where="")]
     if law.name in ("barton-bandis", "lift joint"):
-        said.append(Notice("law-by-mean", law=law.name))
-    return said
+        notices.append(Notice("law-by-mean", law=law.name))
+    return notices
 
 
 def advice_of(block: Block, run: BlockRun, outcome: str) -> Sentence | None:
@@ -75,21 +75,21 @@ def advice_of(block: Block, run: BlockRun, outcome: str) -> Sentence | None:
 
 def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:
     """Return what a reader of a rigid run must know."""
-    raw, said = run.summary, []
+    raw, notices = run.summary, []
     if raw.energy_limited_impacts:
-        said.append(Notice("restitution-lowered", impacts=int(raw.energy_limited_impacts)))
+        notices.append(Notice("restitution-lowered", impacts=int(raw.energy_limited_impacts)))
     if raw.jams:
-        said.append(Notice("paradox-jammed", jams=int(raw.jams)))
-    said += law_warnings(case, block)
-    said += _about_rare_choices(case, run)
-    said += _about_the_slip(case, run)
+        notices.append(Notice("paradox-jammed", jams=int(raw.jams)))
+    notices += law_warnings(case, block)
+    notices += _about_rare_choices(case, run)
+    notices += _about_the_slip(case, run)
     # Integration is exact to a part of the crack's width, of which tiny motions are a tiny part.
     if raw.energy_residual > (1e-9 if run.exact else 1e-6):
-        said.append(Notice("energy-open", residual=raw.energy_residual))
-    said += about_the_anchors(anchors_of(case, run))
+        notices.append(Notice("energy-open", residual=raw.energy_residual))
+    notices += about_the_anchors(anchors_of(case, run))
     if case.analysis.rotation == "small":
-        said += _about_the_rotation(block, run)
-    return said
+        notices += _about_the_rotation(block, run)
+    return notices
 
 
 def _about_rare_choices(case: Case, run: BlockRun) -> list[Notice]:
@@ -107,23 +107,23 @@ def _about_rare_choices(case: Case, run: BlockRun) -> list[Notice]:
 
 def _about_the_slip(case: Case, run: BlockRun) -> list[Notice]:
     """Say where the slip is of little use."""
-    raw, said = run.summary, []
+    raw, notices = run.summary, []
     in_the_air, sliding = abs(raw.slip_drifting), abs(raw.slip_sliding) + abs(raw.slip_slide_rocking)
     if case.crack.restitution > 0.0 and in_the_air > max(sliding, _SLIP_TO_TALK_ABOUT):
-        said.append(Notice("slip-in-the-air", slip_m=in_the_air, restitution=case.crack.restitution))
-    return said
+        notices.append(Notice("slip-in-the-air", slip_m=in_the_air, restitution=case.crack.restitution))
+    return notices
 
 
 def _about_the_rotation(block: Block, run: BlockRun) -> list[Notice]:
     """Say where the block turns so far that its weight pulls it back noticeably less."""
-    said = []
+    notices = []
     for rotation, distance, corner in (
         (-run.summary.rotation_min, block.toe_distance, "toe"),
         (run.summary.rotation_max, block.heel_distance, "heel"),
     ):
         slenderness = math.atan2(distance, block.height)
         if rotation > _SHARE_OF_SLENDERNESS * slenderness:
-            said.append(
+            notices.append(
                 Notice(
                     "rotation-large",
                     rotation_rad=rotation,
@@ -132,4 +132,4 @@ def _about_the_rotation(block: Block, run: BlockRun) -> list[Notice]:
                     slenderness_rad=slenderness,
                 )
             )
-    return said
+    return notices

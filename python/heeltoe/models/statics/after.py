@@ -41,9 +41,9 @@ def joints_after(
             still = alone.model_copy(update={"motion": None, "aftershocks": ()})
             asked = alone.statics.residual_friction is not None and alone.statics.residual_slip is None
             return statics(still, 0.0, slip_source=_NO_CRACK) if asked else statics(still)
-        found = statics_after(alone, *run_alone(alone))
-        source = found.slip_source and f"{found.slip_source}, run with this joint as the only crack"
-        return replace(found, slip_source=source)
+        result = statics_after(alone, *run_alone(alone))
+        source = result.slip_source and f"{result.slip_source}, run with this joint as the only crack"
+        return replace(result, slip_source=source)
 
     return statics_of_sections(case, judge)
 
@@ -69,8 +69,8 @@ def statics_after(case: Case, *runs: Response) -> Statics:
     if trusted is None:
         model, outcome = runs[0].model, runs[0].outcome
         source = f"the {model} model ends {outcome!r}, zero is taken"
-        found = statics(case, 0.0, slip_source=source, beside=beside)
-        return replace(found, warnings=(Notice("slip-untold", model=model, outcome=outcome), *found.warnings))
+        result = statics(case, 0.0, slip_source=source, beside=beside)
+        return replace(result, warnings=(Notice("slip-untold", model=model, outcome=outcome), *result.warnings))
     source, ligament = slip_source(trusted), ligament_of(trusted)
     # What still holds has not slid: its faces are apart by what the concrete gives.
     slip = trusted.residual_slip_m if ligament is None else 0.0

@@ -36,15 +36,15 @@ def flood(case: Case) -> Solved:
     choice = case.statics
     assert choice.flood_depth is not None
     text = f"reservoir {{depth_m:g m}} deep, an {choice.flood_rarity} load"
-    said = [Sentence.of(text, depth_m=choice.flood_depth)]
+    assumptions = [Sentence.of(text, depth_m=choice.flood_depth)]
     over = choice.flood_depth - (case.cut.crest_elevation - case.cut.base_elevation)
     if over > 0.0:
         nappe = case.reservoir.nappe if case.reservoir else "none"
         text = 'the water {over_m:.3g m} above the crest presses on it by reservoir.nappe = "{nappe}"'
-        said.append(Sentence.of(text, over_m=over, nappe=nappe))
+        assumptions.append(Sentence.of(text, over_m=over, nappe=nappe))
     if case.ice is not None:
-        said.append(Sentence("no ice in the flood"))
-    return _still("flood", choice.flood_rarity, flooded(case), tuple(said))
+        assumptions.append(Sentence("no ice in the flood"))
+    return _still("flood", choice.flood_rarity, flooded(case), tuple(assumptions))
 
 
 def flooded(case: Case) -> Case:
@@ -80,7 +80,7 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
         bonded_to=still.end - opened[1],
     )
     water = water_in_earthquake(before.settled.profile, still_water(case, still.start, still.end), opened, law)
-    found: list[Solved] = []
+    solved: list[Solved] = []
     ways = (("downstream", -1.0), ("upstream", 1.0))
     for earthquake, (way, sign) in product(case.statics.pseudo_static, ways):
         horizontal, vertical = earthquake.seismic_coefficient, earthquake.vertical_seismic_coefficient
@@ -89,7 +89,7 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
         tried = []
         for name, up in ((", lifting", -1.0), (", pressing", 1.0)) if vertical else (("", 0.0),):
             ground = sign * horizontal, up * vertical
-            given = Given(
+            question = Given(
                 f"{called}pseudo-static {way}{name}",
                 loads,
                 case.crack.apparent_friction,
@@ -98,9 +98,9 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
                 sources_of(case) | sources_of_inertia(case, *ground),
                 peak_of(case.crack),
             )
-            tried.append(solve_case(given, case, (*_dry(case), *_inertia(case, *ground)), contact, water))
-        found += governing(tried) if vertical else tried
-    return tuple(found)
+            tried.append(solve_case(question, case, (*_dry(case), *_inertia(case, *ground)), contact, water))
+        solved += governing(tried) if vertical else tried
+    return tuple(solved)
 
 
 def _rarity(case: Case, earthquake: StaticsEarthquake) -> tuple[Loads, tuple[Sentence, ...]]:
@@ -144,34 +144,34 @@ def post_seismic(case: Case, slip: float, source: str, ligament: tuple[float, fl
     if falling and law is None and choice.residual_friction is None:
         friction = math.tan(max(math.atan(friction) - falling, 0.0))
         kind = "kinetic, on a flank of the asperities that falls in the direction of the push, tan(φ - i)"
-    told = f"friction {friction:g}, {kind}" if law is None else "friction that all slip leaves, by crack.law"
+    words = f"friction {friction:g}, {kind}" if law is None else "friction that all slip leaves, by crack.law"
     bond = case.crack.bond if ligament is not None else None
-    said = [Sentence.of("slip {slip_m:.4f m} {way}: {source}", slip_m=size, way=way, source=source)]
+    assumptions = [Sentence.of("slip {slip_m:.4f m} {way}: {source}", slip_m=size, way=way, source=source)]
     if bond is None:
-        said.append(Sentence(f"{told}; the crack has slid: no cohesion, no tensile strength"))
+        assumptions.append(Sentence(f"{words}; the crack has slid: no cohesion, no tensile strength"))
     else:
         assert ligament is not None
         text = (
             "{told}; the joint holds over {left_m:.3f m} of its {width_m:.3f m}; there alone count the static cohesion "
             "and tensile strength of crack.bond"
         )
-        said.append(Sentence.of(text, told=told, left_m=ligament[1] - ligament[0], width_m=width))
+        assumptions.append(Sentence.of(text, told=words, left_m=ligament[1] - ligament[0], width_m=width))
     if size:
         text = (
             "the block stands on {left_m:.3f m} of its {width_m:.3f m}, whether or not the ground goes on beyond the "
             "toe; uplift acts as its pattern on what is left, free water on the rest"
         )
-        said.append(Sentence.of(text, left_m=width - size, width_m=width))
+        assumptions.append(Sentence.of(text, left_m=width - size, width_m=width))
     if case.uplift.pattern == "drained" and size:
         if choice.drain_diameter is None:
-            said.append(Sentence("drains as before: statics.drain_diameter is not given"))
+            assumptions.append(Sentence("drains as before: statics.drain_diameter is not given"))
         else:
             share = drainage_left(case, slip)
             text = "slip over a drain diameter of {diameter_m:g m} leaves {share:.3g} of the drainage"
-            said.append(Sentence.of(text, diameter_m=choice.drain_diameter, share=share))
+            assumptions.append(Sentence.of(text, diameter_m=choice.drain_diameter, share=share))
             case = with_drainage(case, share)
     if case.anchors and size:
-        said.append(Sentence("prestress of the anchors as before the slip"))
+        assumptions.append(Sentence("prestress of the anchors as before the slip"))
     start, end = (0.0, width - size) if slip >= 0.0 else (size, width)
     contact = Contact(start, end, bonded_from=end)
     if bond is not None and ligament is not None:
@@ -183,10 +183,12 @@ def post_seismic(case: Case, slip: float, source: str, ligament: tuple[float, fl
             "after the slip the two faces no longer match, and the block touches a few places of them: it is judged on "
             "the straight line from heel to toe, and its kinks count for nothing"
         )
-        said.append(Sentence(text))
+        assumptions.append(Sentence(text))
     cohesion = 0.0 if bond is None else bond.cohesion
-    given = Given("post-seismic", "post-earthquake", friction, cohesion, tuple(said), sources_of(case), law, matches)
-    return solve_case(given, case, _dry(case), contact, water)
+    question = Given(
+        "post-seismic", "post-earthquake", friction, cohesion, tuple(assumptions), sources_of(case), law, matches
+    )
+    return solve_case(question, case, _dry(case), contact, water)
 
 
 def _falls(case: Case, slip: float) -> float:
@@ -234,10 +236,10 @@ def _inertia(case: Case, horizontal: float, vertical: float) -> tuple[Resultant,
     return tuple(forces)
 
 
-def _still(name: str, loads: Loads, case: Case, said: tuple[Sentence, ...]) -> Solved:
+def _still(name: str, loads: Loads, case: Case, assumptions: tuple[Sentence, ...]) -> Solved:
     """Return a case of still water on the crack as it is before the earthquake."""
     contact = _contact(case)
     water = still_water(case, contact.start, contact.end)
     friction, cohesion = case.crack.apparent_friction, case.statics.cohesion
-    given = Given(name, loads, friction, cohesion, said, sources_of(case), peak_of(case.crack))
-    return solve_case(given, case, _dry(case), contact, water)
+    question = Given(name, loads, friction, cohesion, assumptions, sources_of(case), peak_of(case.crack))
+    return solve_case(question, case, _dry(case), contact, water)

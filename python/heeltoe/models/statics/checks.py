@@ -68,23 +68,23 @@ class Check:
         return {**vars(self), "margin": self.margin, "sentence": str(self.sentence)}
 
 
-def check_case(found: LoadCase, case: Case) -> tuple[Check, ...]:
+def check_case(outcome: LoadCase, case: Case) -> tuple[Check, ...]:
     """Return the checks of a load case by the criteria that a case chooses, equilibrium first.
 
     A sliding factor is judged by the factors for cohesion only where cohesion is in its resistance. Of two signs of a
     vertical seismic coefficient each check counts where it is worse.
     """
     strength = case.statics.compressive_strength
-    checks = [_equilibrium(found)]
-    for row in criteria_of(case, found.loads, cohesion=found.cohesive_force_n > 0.0):
+    checks = [_equilibrium(outcome)]
+    for row in criteria_of(case, outcome.loads, cohesion=outcome.cohesive_force_n > 0.0):
         if row.check == "compression":
             if strength is not None:
-                checks.append(_compression(found, row, strength))
+                checks.append(_compression(outcome, row, strength))
         elif row.check == "resultant":
-            checks.append(_resultant(found, row))
+            checks.append(_resultant(outcome, row))
         else:
-            checks.append(_factor(found, row))
-    return tuple(check for check in checks if found.governs is None or check.name in found.governs)
+            checks.append(_factor(outcome, row))
+    return tuple(check for check in checks if outcome.governs is None or check.name in outcome.governs)
 
 
 def fallen(words: str, **quantities: float) -> Check:
@@ -93,55 +93,55 @@ def fallen(words: str, **quantities: float) -> Check:
     return Check("post-seismic", "equilibrium", None, None, True, False, "equilibrium", "", text)
 
 
-def _equilibrium(found: LoadCase) -> Check:
+def _equilibrium(outcome: LoadCase) -> Check:
     quantities = {}
-    if found.outcome == "stands":
+    if outcome.outcome == "stands":
         words = "the block stands"
-        if found.cracked_length_m:
-            words += f" with {{length_m:.2f m}} of its crack open from the {found.cracked_from}"
-            quantities["length_m"] = found.cracked_length_m
-    elif found.outcome == "floats":
+        if outcome.cracked_length_m:
+            words += f" with {{length_m:.2f m}} of its crack open from the {outcome.cracked_from}"
+            quantities["length_m"] = outcome.cracked_length_m
+    elif outcome.outcome == "floats":
         words = "the water lifts the block with {lift_n:.4g kN/m} more than holds it down"
-        quantities["lift_n"] = -found.normal_force_n
+        quantities["lift_n"] = -outcome.normal_force_n
     else:
-        words = f"the crack opens through from the {found.cracked_from}"
-        eccentricity = found.eccentricity_m
+        words = f"the crack opens through from the {outcome.cracked_from}"
+        eccentricity = outcome.eccentricity_m
         if eccentricity is not None:
-            beyond = abs(eccentricity) - found.contact_width_m / 2.0
+            beyond = abs(eccentricity) - outcome.contact_width_m / 2.0
             end = "toe" if eccentricity > 0.0 else "heel"
             words += f"; the resultant is {{away_m:.2f m}} {'beyond' if beyond > 0.0 else 'inside'} the {end}"
             quantities["away_m"] = abs(beyond)
-    met = found.outcome == "stands"
-    sentence = Sentence.of("{load_case}: " + words, load_case=found.name, **quantities)
-    return Check(found.name, "equilibrium", None, None, True, met, "equilibrium", "", sentence)
+    met = outcome.outcome == "stands"
+    sentence = Sentence.of("{load_case}: " + words, load_case=outcome.name, **quantities)
+    return Check(outcome.name, "equilibrium", None, None, True, met, "equilibrium", "", sentence)
 
 
-def _factor(found: LoadCase, row: Criterion) -> Check:
+def _factor(outcome: LoadCase, row: Criterion) -> Check:
     name = f"{row.check} factor"
     values = {
-        "sliding": (found.sliding_factor, "nothing pushes along the crack"),
-        "overturning": (found.overturning_factor, "nothing turns the block over"),
-        "flotation": (found.flotation_factor, "nothing pushes up"),
+        "sliding": (outcome.sliding_factor, "nothing pushes along the crack"),
+        "overturning": (outcome.overturning_factor, "nothing turns the block over"),
+        "flotation": (outcome.flotation_factor, "nothing pushes up"),
     }
     value, nothing = values[row.check]
     if value is None:
-        return _check(found, name, None, row, True, nothing)
+        return _check(outcome, name, None, row, True, nothing)
     met = value >= row.required * (1.0 - _ROUNDING)
     digits = _digits(value - row.required)
     words = (
         f"{name} {value:.{digits}f} is {abs(value - row.required):.{digits}f} {'above' if met else 'below'} "
         f"the {row.required:.2f} of {{source}}"
     )
-    return _check(found, name, value, row, met, words)
+    return _check(outcome, name, value, row, met, words)
 
 
-def _resultant(found: LoadCase, row: Criterion) -> Check:
-    eccentricity = found.eccentricity_m
+def _resultant(outcome: LoadCase, row: Criterion) -> Check:
+    eccentricity = outcome.eccentricity_m
     if eccentricity is None:
-        return _check(found, "resultant", None, row, False, "no resultant, the block floats; {source} asks for one")
-    width = found.contact_width_m
+        return _check(outcome, "resultant", None, row, False, "no resultant, the block floats; {source} asks for one")
+    width = outcome.contact_width_m
     value = abs(eccentricity) / width
-    met = value <= row.required * (1.0 + _ROUNDING) and found.outcome == "stands"
+    met = value <= row.required * (1.0 + _ROUNDING) and outcome.outcome == "stands"
     away = value * width - row.required * width
     digits = _digits(away)
     side = "downstream" if eccentricity >= 0.0 else "upstream"
@@ -150,16 +150,18 @@ def _resultant(found: LoadCase, row: Criterion) -> Check:
         f"resultant {place} the middle is {{away_m:.{digits}f m}} "
         f"{'outside' if away > 0.0 else 'inside'} {_zone(row.required)} of {{source}}"
     )
-    if found.outcome != "stands":
-        words += f", but the block {found.outcome}" if found.outcome == "floats" else ", but the crack opens through"
-    return _check(found, "resultant", value, row, met, words, eccentricity_m=abs(eccentricity), away_m=abs(away))
+    if outcome.outcome != "stands":
+        words += (
+            f", but the block {outcome.outcome}" if outcome.outcome == "floats" else ", but the crack opens through"
+        )
+    return _check(outcome, "resultant", value, row, met, words, eccentricity_m=abs(eccentricity), away_m=abs(away))
 
 
-def _compression(found: LoadCase, row: Criterion, strength: float) -> Check:
-    if found.heel_stress_pa is None or found.toe_stress_pa is None:
+def _compression(outcome: LoadCase, row: Criterion, strength: float) -> Check:
+    if outcome.heel_stress_pa is None or outcome.toe_stress_pa is None:
         words = "no stress to compare with {source}: the block does not stand"
-        return _check(found, "compression", None, row, False, words)
-    stress = max(found.heel_stress_pa, found.toe_stress_pa)
+        return _check(outcome, "compression", None, row, False, words)
+    stress = max(outcome.heel_stress_pa, outcome.toe_stress_pa)
     if row.largest_pa is not None:
         row = replace(row, required=min(row.required, row.largest_pa / strength))
     value, allowed = stress / strength, row.required * strength
@@ -171,7 +173,7 @@ def _compression(found: LoadCase, row: Criterion, strength: float) -> Check:
         "{source}"
     )
     stresses = {"stress_pa": stress, "apart_pa": abs(stress - allowed), "allowed_pa": allowed}
-    return _check(found, "compression", value, row, met, words, **stresses)
+    return _check(outcome, "compression", value, row, met, words, **stresses)
 
 
 def _zone(share: float) -> str:
@@ -179,10 +181,10 @@ def _zone(share: float) -> str:
 
 
 def _check(
-    found: LoadCase, name: str, value: float | None, row: Criterion, met: bool, words: str, **quantities: float
+    outcome: LoadCase, name: str, value: float | None, row: Criterion, met: bool, words: str, **quantities: float
 ) -> Check:
-    sentence = Sentence.of("{load_case}: " + words, load_case=found.name, source=row.source, **quantities)
-    return Check(found.name, name, value, row.required, row.at_least, met, row.source, row.note, sentence)
+    sentence = Sentence.of("{load_case}: " + words, load_case=outcome.name, source=row.source, **quantities)
+    return Check(outcome.name, name, value, row.required, row.at_least, met, row.source, row.note, sentence)
 
 
 def _digits(difference: float) -> int:

@@ -163,8 +163,8 @@ class _State:
             if self.margin(low, side) >= 0.0:
                 return (low if self._other_end_holds(low, side) else None), iterations
             if self.margin(before, side) >= 0.0:
-                root, found = brentq(self.margin, low, before, args=(side,), xtol=1e-14, rtol=1e-14, full_output=True)
-                iterations += found.iterations
+                root, report = brentq(self.margin, low, before, args=(side,), xtol=1e-14, rtol=1e-14, full_output=True)
+                iterations += report.iterations
                 return (float(root) if self._other_end_holds(float(root), side) else None), iterations
         return None, iterations
 

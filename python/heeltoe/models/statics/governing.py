@@ -16,22 +16,22 @@ def _smallest(value: float | None) -> float:
     return -math.inf if value is None else -value
 
 
-def _eccentricity(found: LoadCase) -> float:
-    return math.inf if found.eccentricity_m is None else abs(found.eccentricity_m) / found.contact_width_m
+def _eccentricity(load_case: LoadCase) -> float:
+    return math.inf if load_case.eccentricity_m is None else abs(load_case.eccentricity_m) / load_case.contact_width_m
 
 
-def _stress(found: LoadCase) -> float:
-    if found.heel_stress_pa is None or found.toe_stress_pa is None:
+def _stress(load_case: LoadCase) -> float:
+    if load_case.heel_stress_pa is None or load_case.toe_stress_pa is None:
         return math.inf
-    return max(found.heel_stress_pa, found.toe_stress_pa)
+    return max(load_case.heel_stress_pa, load_case.toe_stress_pa)
 
 
 # What is the worse the larger it is, by the names of the checks.
 _WORSE: dict[str, Callable[[LoadCase], float]] = {
-    "equilibrium": lambda found: float(_OUTCOMES.index(found.outcome)),
-    "sliding factor": lambda found: _smallest(found.sliding_factor),
-    "overturning factor": lambda found: _smallest(found.overturning_factor),
-    "flotation factor": lambda found: _smallest(found.flotation_factor),
+    "equilibrium": lambda load_case: float(_OUTCOMES.index(load_case.outcome)),
+    "sliding factor": lambda load_case: _smallest(load_case.sliding_factor),
+    "overturning factor": lambda load_case: _smallest(load_case.overturning_factor),
+    "flotation factor": lambda load_case: _smallest(load_case.flotation_factor),
     "resultant": _eccentricity,
     "compression": _stress,
 }
@@ -42,9 +42,9 @@ def governing(tried: Sequence[Solved]) -> tuple[Solved, ...]:
     them where several are as bad."""
     governed: list[list[str]] = [[] for _ in tried]
     for name, worse in _WORSE.items():
-        values = [worse(each.load_case) for each in tried]
+        values = [worse(solved.load_case) for solved in tried]
         governed[values.index(max(values))].append(name)
     return tuple(
-        replace(each, load_case=replace(each.load_case, governs=tuple(names)))
-        for each, names in zip(tried, governed, strict=True)
+        replace(solved, load_case=replace(solved.load_case, governs=tuple(names)))
+        for solved, names in zip(tried, governed, strict=True)
     )

@@ -41,7 +41,9 @@ class Joint:
 
     def governing_of(self, check: str) -> Check | None:
         """Return the check of a name with the smallest margin over the load cases; None where there is none."""
-        return min((each for each in self._with_margin() if each.name == check), key=_margin, default=None)
+        return min(
+            (candidate for candidate in self._with_margin() if candidate.name == check), key=_margin, default=None
+        )
 
     def _with_margin(self) -> list[Check]:
         return [check for check in self.statics.checks if check.margin is not None]
@@ -75,8 +77,8 @@ class Joints:
     @property
     def checks(self) -> tuple[str, ...]:
         """Names of the checks that have a margin anywhere."""
-        found = [check.name for joint in self.joints for check in joint.statics.checks if check.margin is not None]
-        return tuple(dict.fromkeys(found))
+        names = [check.name for joint in self.joints for check in joint.statics.checks if check.margin is not None]
+        return tuple(dict.fromkeys(names))
 
     @property
     def warnings(self) -> tuple[Notice, ...]:
@@ -90,8 +92,8 @@ class Joints:
 
     def governing_of(self, check: str) -> tuple[Joint, Check] | None:
         """Return the joint at which a check has its smallest margin, and that check."""
-        found = [(joint, worst) for joint in self.joints if (worst := joint.governing_of(check))]
-        return min(found, key=lambda each: _margin(each[1]), default=None)
+        judged = [(joint, worst) for joint in self.joints if (worst := joint.governing_of(check))]
+        return min(judged, key=lambda pair: _margin(pair[1]), default=None)
 
     def to_json(self) -> dict[str, Any]:
         """Return plain numbers, strings and lists; of each joint what its checks say by themselves."""
@@ -101,9 +103,9 @@ class Joints:
             "ok": self.ok,
             "governing_elevation_m": self.governing.elevation_m,
             "governing": {
-                name: {"elevation_m": found[0].elevation_m, **found[1].to_json()}
+                name: {"elevation_m": worst[0].elevation_m, **worst[1].to_json()}
                 for name in self.checks
-                if (found := self.governing_of(name))
+                if (worst := self.governing_of(name))
             },
             "sections": [
                 {"elevation_m": joint.elevation_m, "statics": joint.statics.to_json()} for joint in self.ranked
@@ -192,16 +194,18 @@ def _joint(case: Case, place: int, judge: Judge) -> Joint:
     return Joint(section.elevation, moved, judge(moved, _crack_at(case, section.elevation)))
 
 
-def _named(found: Statics, own: Mapping[str, Notice]) -> Statics:
+def _named(joint_statics: Statics, own: Mapping[str, Notice]) -> Statics:
     """Return the checks of one of several cracks, with the fields that have no effect named as the whole case does."""
-    named = (own.get(why, notice) if (why := _unused(notice)) else notice for notice in found.warnings)
-    return replace(found, warnings=tuple(dict.fromkeys(named)))
+    named = (own.get(why, notice) if (why := _unused(notice)) else notice for notice in joint_statics.warnings)
+    return replace(joint_statics, warnings=tuple(dict.fromkeys(named)))
 
 
 def _unused(notice: Notice) -> str | None:
     """Return why fields have no effect, of a notice that says so of some; None of any other."""
-    told = dict(notice.quantities)
-    return str(told.get("why") or told["readers"]) if notice.code in ("fields-idle", "fields-unused") else None
+    quantities = dict(notice.quantities)
+    return (
+        str(quantities.get("why") or quantities["readers"]) if notice.code in ("fields-idle", "fields-unused") else None
+    )
 
 
 def _margin(check: Check | None) -> float:

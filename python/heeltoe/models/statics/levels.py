@@ -18,7 +18,7 @@ def highest_level(case: Case) -> float:
     """Return how deep the reservoir is looked at [m]: to the crest, or to its flood where that is above."""
     section, water = case.cut, case.reservoir
     depths = (case.statics.flood_depth, water.depth if water else None)
-    return max(section.crest_elevation - section.base_elevation, *(each for each in depths if each is not None), 0.0)
+    return max(section.crest_elevation - section.base_elevation, *(depth for depth in depths if depth is not None), 0.0)
 
 
 def critical_water_levels(case: Case) -> dict[str, float | None]:
@@ -47,19 +47,19 @@ def critical_water_levels(case: Case) -> dict[str, float | None]:
 
     def sliding(factor: float) -> Callable[[float], float]:
         def margin(depth: float) -> float:
-            found = state(depth)
-            strength = found.cohesive_force_n + found.friction * max(0.0, found.normal_force_n)
-            if found.sliding_factor is not None and found.pieces_bear == "less":
-                strength = found.sliding_factor * abs(found.shear_force_n)
-            return strength - factor * max(0.0, found.shear_force_n)
+            result = state(depth)
+            strength = result.cohesive_force_n + result.friction * max(0.0, result.normal_force_n)
+            if result.sliding_factor is not None and result.pieces_bear == "less":
+                strength = result.sliding_factor * abs(result.shear_force_n)
+            return strength - factor * max(0.0, result.shear_force_n)
 
         return margin
 
     def overturning(depth: float) -> float:
         # A crack that goes through has no resultant to follow: the change of sign is a jump. What an empty reservoir
         # lets fall upstream is not overturned by water.
-        found = state(depth)
-        return 1.0 if found.outcome == "stands" or found.cracked_from == "toe" else -1.0
+        result = state(depth)
+        return 1.0 if result.outcome == "stands" or result.cracked_from == "toe" else -1.0
 
     margins: dict[str, Callable[[float], float]] = {
         "sliding": sliding(1.0),

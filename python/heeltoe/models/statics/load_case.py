@@ -159,7 +159,7 @@ class LoadCase:
             for force, line, turned in zip(self.forces, from_heel.lines, self.sheet("toe").lines, strict=True)
         ]
         extra = {"contact_width_m": self.contact_width_m, "eccentricity_m": self.eccentricity_m}
-        return {**written, **extra, "assumptions": [str(each) for each in self.assumptions]}
+        return {**written, **extra, "assumptions": [str(assumption) for assumption in self.assumptions]}
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,12 +199,14 @@ class _Sliding(NamedTuple):
     rise: float = 0.0
 
 
-def solve_case(given: Given, case: Case, forces: tuple[Resultant, ...], contact: Contact, water: StillWater) -> Solved:
+def solve_case(
+    question: Given, case: Case, forces: tuple[Resultant, ...], contact: Contact, water: StillWater
+) -> Solved:
     """Find the state of the crack and the factors.
 
     Parameters
     ----------
-    given
+    question
         What is known of the load case before.
     case
         The dam; its crack is looked at along the straight line from heel to toe.
@@ -214,7 +216,7 @@ def solve_case(given: Given, case: Case, forces: tuple[Resultant, ...], contact:
         Where the block can stand, and the water there.
     """
     section = case.above
-    settled = settle(contact, across_crack(total(given.name, forces), section), water)
+    settled = settle(contact, across_crack(total(question.name, forces), section), water)
     forces = (*forces, in_crack(case, settled.profile.tolist()))
     across = [across_crack(force, section) for force in forces]
     shear = math.fsum(force.horizontal for force in across)
@@ -223,18 +225,18 @@ def solve_case(given: Given, case: Case, forces: tuple[Resultant, ...], contact:
     closed = (contact.start + settled.heel_crack, contact.end - settled.toe_crack)
     pressed = _in_compression(closed, settled)
     bonded = max(pressed[0], contact.bonded_from), min(pressed[1], contact.bonded_to)
-    friction, cohesion = given.friction, given.cohesion
-    if given.law is not None:
+    friction, cohesion = question.friction, question.cohesion
+    if question.law is not None:
         length = max(0.0, pressed[1] - pressed[0])
-        friction, cohesion = given.law(max(0.0, settled.normal) / length if length else 0.0)
+        friction, cohesion = question.law(max(0.0, settled.normal) / length if length else 0.0)
     cohesive = cohesion * max(0.0, bonded[1] - bonded[0])
-    sliding = _sliding(case, settled, (cohesive, friction), shear, closed if given.matches else None)
+    sliding = _sliding(case, settled, (cohesive, friction), shear, closed if question.matches else None)
     about = "heel" if shear < 0.0 else "toe"
     down = -math.fsum(min(0.0, force.vertical) for force in across)
     up = math.fsum(max(0.0, force.vertical) for force in across)
     load_case = LoadCase(
-        name=given.name,
-        loads=given.loads,
+        name=question.name,
+        loads=question.loads,
         forces=forces,
         outcome=settled.outcome,
         normal_force_n=settled.normal,
@@ -255,8 +257,8 @@ def solve_case(given: Given, case: Case, forces: tuple[Resultant, ...], contact:
         cracked_from="toe" if settled.toe_crack else "heel",
         compressed_length_m=max(0.0, pressed[1] - pressed[0]),
         iterations=settled.iterations,
-        assumptions=given.assumptions,
-        sources=given.sources,
+        assumptions=question.assumptions,
+        sources=question.sources,
         ends_m=(section.from_crack_frame(contact.start, 0.0), section.from_crack_frame(contact.end, 0.0)),
         pressures=tuple((float(x), float(p)) for x, p in settled.profile),
         pieces=pieces(section.polygon - np.array(section.heel)),
@@ -267,10 +269,12 @@ def solve_case(given: Given, case: Case, forces: tuple[Resultant, ...], contact:
     return Solved(load_case, settled)
 
 
-def along_line(found: LoadCase) -> float | None:
+def along_line(solved_case: LoadCase) -> float | None:
     """Return the sliding factor by friction along the straight line from heel to toe, whatever the pieces of a crack
     with kinks bear; None where nothing pushes."""
-    return _along(found.cohesive_force_n, found.friction, found.normal_force_n, found.shear_force_n)
+    return _along(
+        solved_case.cohesive_force_n, solved_case.friction, solved_case.normal_force_n, solved_case.shear_force_n
+    )
 
 
 def _along(cohesive: float, friction: float, normal: float, shear: float) -> float | None:

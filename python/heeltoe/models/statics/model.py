@@ -78,7 +78,9 @@ class Statics(Shown):
 
     def __repr__(self) -> str:
         missed = [check for check in self.checks if not check.met]
-        lines = [f"<Statics: {self.title or 'untitled case'!r}, {', '.join(each.name for each in self.cases)}"]
+        lines = [
+            f"<Statics: {self.title or 'untitled case'!r}, {', '.join(load_case.name for load_case in self.cases)}"
+        ]
         lines.append(f"  {len(self.checks) - len(missed)} of {len(self.checks)} checks are met ({self.criteria})")
         lines += [f"  not met: {check.sentence}" for check in missed[:_MOST_MISSED]]
         if len(missed) > _MOST_MISSED:
@@ -105,7 +107,7 @@ class Statics(Shown):
             "structure": self.structure,
             "site_information": self.site_information,
             "ok": self.ok,
-            "cases": [each.to_json() for each in self.cases],
+            "cases": [load_case.to_json() for load_case in self.cases],
             "checks": [check.to_json() for check in self.checks],
             "critical_acceleration_g": critical,
             "left_out": left_out,
@@ -113,7 +115,7 @@ class Statics(Shown):
             "highest_water_level_m": self.highest_water_level_m,
             "slip_m": self.slip_m,
             "slip_source": self.slip_source,
-            "warnings": [each.to_json() for each in self.warnings],
+            "warnings": [warning.to_json() for warning in self.warnings],
             "references": list(self.references),
             "build": build_info(),
         }
@@ -167,8 +169,8 @@ def statics(
     solved = [before, *([flood(case)] if choice.flood_depth is not None else [])]
     if choice.pseudo_static:
         solved += pseudo_static(case, before)
-    cases = [each.load_case for each in solved]
-    checks = [check for each in cases for check in check_case(each, case)]
+    cases = [outcome.load_case for outcome in solved]
+    checks = [check for load_case in cases for check in check_case(load_case, case)]
     slip, source = _slip(case, slip_m, slip_source)
     if overturned_about is not None:
         slip, source = None, None
@@ -214,20 +216,20 @@ def _peak(case: Case, usual: LoadCase) -> float:
 
 def _said_of(case: Case, cases: Sequence[LoadCase]) -> list[Notice]:
     """Return what is to be said of the choices beside the load cases, the usual one first."""
-    choice, said, usual = case.statics, list(_of_pieces(cases)), cases[0]
+    choice, notices, usual = case.statics, list(_of_pieces(cases)), cases[0]
     if usual.cracked_length_m:
-        said.append(Notice("crack-opens-statically", length_m=usual.cracked_length_m))
+        notices.append(Notice("crack-opens-statically", length_m=usual.cracked_length_m))
     usual_depth = case.reservoir.depth if case.reservoir else 0.0
     if choice.flood_depth is not None and choice.flood_depth < usual_depth:
-        said.append(Notice("flood-low", usual_depth_m=usual_depth))
+        notices.append(Notice("flood-low", usual_depth_m=usual_depth))
     if choice.residual_friction is not None and choice.residual_friction > _peak(case, usual):
-        said.append(Notice("residual-friction-high"))
+        notices.append(Notice("residual-friction-high"))
     if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
-        said.append(Notice("anchors-as-prestress"))
+        notices.append(Notice("anchors-as-prestress"))
     if choice.sections:
-        said.append(Notice("sections-apart", count=len(choice.sections)))
-    said.extend(_about_the_drains(case))
-    return said
+        notices.append(Notice("sections-apart", count=len(choice.sections)))
+    notices.extend(_about_the_drains(case))
+    return notices
 
 
 def _about_the_drains(case: Case) -> Iterator[Notice]:
@@ -259,9 +261,11 @@ def _of_pieces(cases: Sequence[LoadCase]) -> Iterator[Notice]:
         yield Notice("kinks-lock", along=along, angle_deg=angle)
     elif usual.pieces_bear == "more":
         yield Notice("kinks-add", along=along, angle_deg=angle, factor=usual.sliding_factor_on_pieces)
-    for each in cases:
-        if each.pieces_bear == "less":
-            yield Notice("kinks-take", name=each.name, along=along_line(each), factor=each.sliding_factor)
+    for load_case in cases:
+        if load_case.pieces_bear == "less":
+            yield Notice(
+                "kinks-take", name=load_case.name, along=along_line(load_case), factor=load_case.sliding_factor
+            )
 
 
 def _unread(case: Case, rules: Rules) -> tuple[Notice, ...]:

@@ -93,10 +93,10 @@ def criteria_of(case: Case, loads: Loads, *, cohesion: bool) -> tuple[Criterion,
 def _stamp(path: Path) -> tuple[int, int] | None:
     """Return what is another where a file was written again."""
     try:
-        found = path.stat()
+        stamp = path.stat()
     except (OSError, ValueError):
         return None
-    return found.st_mtime_ns, found.st_size
+    return stamp.st_mtime_ns, stamp.st_size
 
 
 @lru_cache(maxsize=16)
@@ -112,7 +112,7 @@ def _read(fields: Mapping[str, Any], name: str) -> Rules:
     if not isinstance(title, str):
         raise InputError("wrong-type", f"{name}: title", shown(title), expected="a text")
     if law not in _LAWS:
-        choices = ", ".join(f'"{each}"' for each in _LAWS)
+        choices = ", ".join(f'"{law}"' for law in _LAWS)
         raise InputError("not-a-choice", f"{name}: uplift_in_earthquake", shown(law), choices=choices)
     title, name, rows = plain(title), plain(name), []
     for table, values in fields.items():
@@ -133,7 +133,7 @@ def _rows(table: str, values: Mapping[str, Any], title: str, name: str) -> list[
     source = values.get("source", table)
     if not isinstance(source, str):
         raise InputError("wrong-type", f"{name}: {table}.source", shown(source), expected="a text")
-    found = []
+    criteria = []
     for loads, value in values.items():
         if loads == "source":
             continue
@@ -145,5 +145,5 @@ def _rows(table: str, values: Mapping[str, Any], title: str, name: str) -> list[
         if not number or not 0.0 < value <= most:
             raise InputError("criteria-number", f"{name}: {table}.{loads}", shown(value), most=f"{most:g}")
         note = f"of the user's own criteria, {name}"
-        found.append(Criterion(loads, check, float(value), title, plain(source), note, cohesion))  # type: ignore[arg-type]
-    return found
+        criteria.append(Criterion(loads, check, float(value), title, plain(source), note, cohesion))  # type: ignore[arg-type]
+    return criteria

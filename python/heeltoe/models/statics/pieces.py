@@ -67,10 +67,10 @@ def borne(pieces: list[tuple[Floats, Floats]], friction: float, settled: Settled
         back, up = math.sin(to_normal), math.cos(to_normal)
         rays += [(way * back, up, (place[0] * up + place[1] * back) / size) for place in piece]
     held, across, turning = np.array(rays).T
-    found = linprog(-held, A_eq=np.array([across, turning]), b_eq=[1.0, settled.position / size])
-    if found.status == _UNBOUNDED:
+    optimum = linprog(-held, A_eq=np.array([across, turning]), b_eq=[1.0, settled.position / size])
+    if optimum.status == _UNBOUNDED:
         return math.inf
-    return max(0.0, -float(found.fun)) * settled.normal if found.success else None
+    return max(0.0, -float(optimum.fun)) * settled.normal if optimum.success else None
 
 
 # As scipy numbers it.

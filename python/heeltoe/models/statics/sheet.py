@@ -151,7 +151,7 @@ def _line(force: Resultant, point: tuple[float, float], size: float, source: Sen
 
 def sources_of(case: Case) -> dict[str, Sentence]:
     """Say where the forces of a case of loads come from, by their names."""
-    said = {
+    sentences = {
         "weight": Sentence.of(
             "{area_m2:.5g m²} of concrete of {density:.5g kg/m³}, at its centroid",
             area_m2=case.above.area,
@@ -165,23 +165,23 @@ def sources_of(case: Case) -> dict[str, Sentence]:
     if case.reservoir is not None:
         text = "{head_m:.4g m} of water over the upstream edge of the crest, {end_m:.4g m} over the downstream one"
         head, end = nappe_heads(case)
-        said["nappe"] = Sentence.of(text, head_m=head, end_m=end)
+        sentences["nappe"] = Sentence.of(text, head_m=head, end_m=end)
     if case.ice is not None:
-        said["ice"] = Sentence.of("{push_n:g kN/m}, {depth_m:g m} below the surface", **_ice(case))
+        sentences["ice"] = Sentence.of("{push_n:g kN/m}, {depth_m:g m} below the surface", **_ice(case))
     if case.silt is not None:
         text = "silt {depth_m:g m} deep as a fluid of {sideways:g kg/m³} sideways"
         # Before a vertical face it has no weight on the dam.
         text += ", {down:g kg/m³} in its weight" if silt(case).vertical else ""
         densities = {"sideways": case.silt.horizontal_density, "down": case.silt.vertical_density}
-        said["silt"] = Sentence.of(text, depth_m=case.silt.depth, **densities)
+        sentences["silt"] = Sentence.of(text, depth_m=case.silt.depth, **densities)
     if case.anchors:
-        said["anchors"] = Sentence("prestress along their axes, where they cross the crack")
-    return said
+        sentences["anchors"] = Sentence("prestress along their axes, where they cross the crack")
+    return sentences
 
 
 def sources_of_inertia(case: Case, horizontal: float, vertical: float) -> dict[str, Sentence]:
     """Say where the forces of a ground acceleration in g, downstream and upward, come from."""
-    said = {
+    sentences = {
         "inertia": Sentence.of(
             "{mass:.5g t/m} times {horizontal:g} g and {vertical:g} g of the ground, at the centroid",
             mass=concrete_mass(case),
@@ -196,10 +196,10 @@ def sources_of_inertia(case: Case, horizontal: float, vertical: float) -> dict[s
         ),
     }
     for name in ("reservoir", "nappe", "tailwater"):
-        said[f"{name} in vertical motion"] = Sentence.of(
+        sentences[f"{name} in vertical motion"] = Sentence.of(
             "{vertical:g} times the pressure of the {name}", vertical=vertical, name=name
         )
-    return said
+    return sentences
 
 
 def _water(case: Case, water: Water | None, end: str) -> Sentence:

@@ -34,10 +34,10 @@ def standing_warnings(case: Case, static: Mapping[str, Any]) -> tuple[Notice, ..
 
 
 def _opened(case: Case, normal_force: float, solved: Solved) -> tuple[Notice, ...]:
-    found = solved.load_case
+    load_case = solved.load_case
     width = case.cut.crack_width
-    change = normal_force - found.normal_force_n
-    if not found.cracked_length_m or abs(change) < _NOTICED * normal_force:
+    change = normal_force - load_case.normal_force_n
+    if not load_case.cracked_length_m or abs(change) < _NOTICED * normal_force:
         return ()
     remedy = "heeltoe statics counts it"
     # Meant to be copied into the case: it stays as it is in all units.
@@ -48,13 +48,13 @@ def _opened(case: Case, normal_force: float, solved: Solved) -> tuple[Notice, ..
         remedy = f'to count it set uplift.pattern = "profile", points = [{drawn}]'
         if case.uplift.intensity != 1.0:
             remedy += " and intensity = 1"
-    said = Notice(
+    notice = Notice(
         "crack-opens",
-        length_m=found.cracked_length_m,
-        corner=found.cracked_from,
-        share=found.cracked_length_m / width,
+        length_m=load_case.cracked_length_m,
+        corner=load_case.cracked_from,
+        share=load_case.cracked_length_m / width,
         lift_n=abs(change),
         more="more" if change > 0.0 else "less",
         remedy=remedy,
     )
-    return (said,)
+    return (notice,)

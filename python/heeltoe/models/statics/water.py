@@ -36,8 +36,8 @@ def force_and_moment(profile: Floats) -> tuple[float, float]:
 
 def _on_pieces(case: Case, profile: Floats) -> tuple[float, float]:
     """Return the same of a pressure that is normal to each piece of a crack with kinks."""
-    found = across_crack(in_crack(case, profile.tolist()), case.cut)
-    return found.vertical, found.moment
+    pressures = across_crack(in_crack(case, profile.tolist()), case.cut)
+    return pressures.vertical, pressures.moment
 
 
 def cut_out(profile: Floats, start: float, end: float) -> list[tuple[float, float]]:

@@ -47,17 +47,17 @@ def annual(curve: Curve, hazard: Mapping[str, Any]) -> dict[str, Any]:
         of the limit at each strength of the hazard curve. None of them where there is no fragility curve.
     """
     strength, rate = np.array(hazard["strength"]), np.array(hazard["annual_rate"])
-    told: dict[str, Any] = {"limit": curve.limit, "value": curve.value, "measure": curve.measure, "why": curve.why}
+    document: dict[str, Any] = {"limit": curve.limit, "value": curve.value, "measure": curve.measure, "why": curve.why}
     if curve.median is None or curve.dispersion is None:
         names = ("annual_rate", "annual_rate_interval", "annual_probability", "return_period_years", "extrapolated")
-        return {**told, **dict.fromkeys(names), "contribution": [], "at": []}
+        return {**document, **dict.fromkeys(names), "contribution": [], "at": []}
     total = _total(curve, strength, rate)
     edges = np.geomspace(strength[0], strength[-1], _GROUPS + 1)
     parts = np.diff(_up_to(curve, strength, rate, np.array([0.0, *edges, np.inf])))
     interval = _interval(curve, strength, rate, total)
     probabilities = curve.probability(strength).tolist()
     return {
-        **told,
+        **document,
         "annual_rate": total,
         "annual_rate_interval": interval,
         "annual_probability": -math.expm1(-total),

@@ -201,14 +201,14 @@ def _uncertainty(name: str, value: float, worth: Mapping[str, Any]) -> float:
 def suite_spectra(walk: Walk, records: Sequence[Mapping[str, Any]]) -> dict[str, Any] | None:
     """Return the response spectra of the records as they shake the dam [m/s2], (records, periods), with their mean, and
     the target; None where the study keeps none."""
-    told = walk.told.get("spectra")
-    if told is None:
+    spectra = walk.told.get("spectra")
+    if spectra is None:
         return None
-    scaled = np.array([np.multiply(record["factor"], told["motions"][record["motion"]]) for record in records])
+    scaled = np.array([np.multiply(record["factor"], spectra["motions"][record["motion"]]) for record in records])
     return {
-        "damping": told["damping"],
-        "period_s": np.array(told["period_s"]),
+        "damping": spectra["damping"],
+        "period_s": np.array(spectra["period_s"]),
         "records": scaled,
         "mean": scaled.mean(axis=0),
-        "target": told["target"],
+        "target": spectra["target"],
     }

@@ -143,7 +143,7 @@ def law_of(distribution: Distribution, read: Callable[[object, str], float], fie
 
     Parameters
     ----------
-    given
+    distribution
         From the study file.
     read
         Returns the number that a value in a field means.

@@ -90,29 +90,29 @@ class StaticsTable(Table):
 
     Attributes
     ----------
-    found
+    dams
         The checks of each, in the order of `cells`.
     """
 
-    found: tuple[Joints, ...]
+    dams: tuple[Joints, ...]
 
     @property
     def title(self) -> str:
         """Of the case."""
-        return self.found[0].title
+        return self.dams[0].title
 
     @property
     def ok(self) -> bool:
         """Whether every check of every dam is met."""
-        return all(joints.ok for joints in self.found)
+        return all(joints.ok for joints in self.dams)
 
     def numbers(self) -> Iterable[dict[str, Any]]:
         """Return how many checks of each dam are not met, what governs, and the least factors."""
-        return map(_numbers, self.found)
+        return map(_numbers, self.dams)
 
     def to_json(self) -> dict[str, Any]:
         """Return all checks in full, with the values that belong to them."""
-        runs = ({**row, **statics_json(joints)} for row, joints in zip(self.rows(), self.found, strict=True))
+        runs = ({**row, **statics_json(joints)} for row, joints in zip(self.rows(), self.dams, strict=True))
         return {"model": "statics", "title": self.title, "ok": self.ok, **self.runs_json(runs)}
 
 

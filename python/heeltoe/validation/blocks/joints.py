@@ -133,11 +133,11 @@ def make_specimen(
     case = read_case(fields)
     upper, lower = dam(case, dam_mesh(case)).bodies
     bodies = upper, lower
-    found = [
+    events = [
         _reduced(body, [(s.axis, _nearest(body, s.place), s) for s in springs if s.body == k], joint)
         for k, body in enumerate(bodies)
     ]
-    reduced, shapes, at = zip(*found, strict=True)
+    reduced, shapes, at = zip(*events, strict=True)
     count = at[0].size
     line = CrackLine((0, count), (0, count), (friction, friction), bond=bond)
     return Specimen(bodies, CrackedDam(reduced[0], reduced[1], (line,), _CONTACTORS), shapes)
@@ -208,9 +208,9 @@ def bonded_bar() -> Iterator[Row]:
     opening = elongation - force / _MODULUS
     yield Row("bar of 1 m: largest force [N]", strength, float(force.max()), 0.005)
     for part in (0.25, 0.5, 0.75):
-        found = float(np.interp(part * reach, opening, force))
+        borne = float(np.interp(part * reach, opening, force))
         yield Row(
-            f"bar of 1 m: force at {part:g} of the last opening [N]", (1.0 - part) * strength, found, 0.005, digits=3
+            f"bar of 1 m: force at {part:g} of the last opening [N]", (1.0 - part) * strength, borne, 0.005, digits=3
         )
     yield Row("bar of 1 m: energy of the joint [J]", energy, moved.run.summary.energy_fracture, 1e-5)
     length = 20.0

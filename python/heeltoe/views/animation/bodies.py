@@ -54,8 +54,8 @@ class Moments:
         """Return values of the samples (n, ...), linear between them, at each moment."""
         after = np.minimum(self.before + 1, len(values) - 1)
         share = self.share.reshape(-1, *(1,) * (values.ndim - 1))
-        found: Floats = (1.0 - share) * values[self.before] + share * values[after]
-        return found
+        between: Floats = (1.0 - share) * values[self.before] + share * values[after]
+        return between
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,8 +91,8 @@ class Part:
 
     def displacements(self, points: Integers) -> Floats:
         """Return the displacements (f, p, 2) [m] of some points at all moments."""
-        found: Floats = self.amplitudes @ self.shapes[:, points].reshape(len(self.shapes), 2 * len(points))
-        return found.reshape(-1, len(points), 2)
+        moved: Floats = self.amplitudes @ self.shapes[:, points].reshape(len(self.shapes), 2 * len(points))
+        return moved.reshape(-1, len(points), 2)
 
     def drawn(self, frame: int, exaggeration: float) -> Floats:
         """Return where the points (n, 2) are drawn [m], displaced so many times as far."""

@@ -59,7 +59,7 @@ class Charts:
                 )
                 right -= 0.05 + 0.022 * len(trace.label)
         # What reaches far would hide what does not.
-        for trace in sorted(traces, key=lambda each: -float(np.abs(each.values).max())):
+        for trace in sorted(traces, key=lambda curve: -float(np.abs(curve.values).max())):
             colour = look.TRACES[trace.role]
             axes.plot(scene.history_times, trace.values, color=colour, linewidth=0.9)
             point = animated(axes.plot([], [], "o", color=colour, markersize=5)[0])

@@ -226,8 +226,8 @@ def _nodes(section: CutSection, history: CrackHistory, moments: Moments) -> tupl
 def _turned(section: CutSection, along: Floats, across: Floats) -> Floats:
     """Return vectors (..., 2) along x and z by their components along and across the crack."""
     down, up = np.array(section.from_crack_frame(1.0, 0.0)), np.array(section.from_crack_frame(0.0, 1.0))
-    found: Floats = along[..., None] * down + across[..., None] * up
-    return found
+    offsets: Floats = along[..., None] * down + across[..., None] * up
+    return offsets
 
 
 def _usual(forces: Floats) -> float:
@@ -255,27 +255,27 @@ def _traces(response: Response, within: NDArray[np.bool_], units: Units) -> tupl
     def metres(chart: str, *named: tuple[str, str, str]) -> tuple[Trace, ...]:
         """Return lengths in one unit that gives them readable numbers."""
         values = [histories[key][within] for *_, key in named]
-        largest = max(float(np.abs(each).max()) for each in values)
+        largest = max(float(np.abs(column).max()) for column in values)
         scale = units.scale("displacement", largest)
         return tuple(
-            Trace(role, chart, label, scale.unit, scale(each))
-            for (role, label, _), each in zip(named, values, strict=True)
+            Trace(role, chart, label, scale.unit, scale(column))
+            for (role, label, _), column in zip(named, values, strict=True)
         )
 
     ground = "ground_acceleration_m_s2"
     if "crack_acceleration_m_s2" in histories:
-        found = accelerations(
+        shaken = accelerations(
             "acceleration", ("ground", "ground", ground), ("crack", "crack", "crack_acceleration_m_s2")
         )
     elif f"vertical_{ground}" in histories:
         ways = (("ground", "horizontal", ground), ("vertical", "vertical", f"vertical_{ground}"))
-        found = accelerations("ground acceleration", *ways)
+        shaken = accelerations("ground acceleration", *ways)
     else:
-        found = accelerations("ground acceleration", ("ground", "", ground))
-    found += metres("slip", ("slip", "", "slip_m"))
+        shaken = accelerations("ground acceleration", ("ground", "", ground))
+    shaken += metres("slip", ("slip", "", "slip_m"))
     if max(float(histories[key][within].max()) for key in ("gap_heel_m", "gap_toe_m")) > _NO_OPENING:
-        found += metres("opening", ("heel", "heel", "gap_heel_m"), ("toe", "toe", "gap_toe_m"))
-    return found
+        shaken += metres("opening", ("heel", "heel", "gap_heel_m"), ("toe", "toe", "gap_toe_m"))
+    return shaken
 
 
 def water_level(section: CutSection, water: Water | None) -> float | None:

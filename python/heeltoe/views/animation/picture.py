@@ -294,8 +294,8 @@ def arrow_outlines(tips: Floats, vectors: Floats, width: float) -> Outline:
 def _broken(segments: Floats) -> Floats:
     """Return points (2, 3 e) of lines (e, 2, 2) as one line with breaks, which is drawn faster than many."""
     ends = np.full((len(segments), 1, 2), np.nan)
-    found: Floats = np.concatenate([segments, ends], axis=1).reshape(-1, 2).T
-    return found
+    path: Floats = np.concatenate([segments, ends], axis=1).reshape(-1, 2).T
+    return path
 
 
 def shore_of(face: Floats, far_top: Floats, level: float) -> tuple[Floats, float]:

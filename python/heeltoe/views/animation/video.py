@@ -60,10 +60,10 @@ def write_mp4(scene: Scene, frames_per_second: float, path: Path) -> None:
     picture = Picture(scene, _MP4_PIXELS)
     width, height = picture.size
     rate = Fraction(frames_per_second).limit_denominator()
-    given = ["-f", "rawvideo", "-pix_fmt", "rgba", "-s", f"{width}x{height}", "-r", f"{rate}", "-i", "-"]
+    options = ["-f", "rawvideo", "-pix_fmt", "rgba", "-s", f"{width}x{height}", "-r", f"{rate}", "-i", "-"]
     wanted = ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "20", "-preset", "veryfast", "-movflags", "+faststart"]
     # The whole path: one that begins with a word and a colon is an address to ffmpeg.
-    command = [ffmpeg().get_ffmpeg_exe(), "-v", "error", "-y", *given, *wanted, str(path.absolute())]
+    command = [ffmpeg().get_ffmpeg_exe(), "-v", "error", "-y", *options, *wanted, str(path.absolute())]
     with _broken_pipes_are_errors(), Popen(command, stdin=PIPE, stderr=PIPE) as process:
         assert process.stdin is not None
         try:
@@ -74,10 +74,10 @@ def write_mp4(scene: Scene, frames_per_second: float, path: Path) -> None:
         except BaseException:
             process.kill()
             raise
-        _, said = process.communicate()
+        _, output = process.communicate()
     if process.returncode:
-        told = said.decode(errors="replace").strip().splitlines() or [f"ffmpeg ended with {process.returncode}"]
-        raise OSError(told[-1].rpartition(": ")[2])
+        lines = output.decode(errors="replace").strip().splitlines() or [f"ffmpeg ended with {process.returncode}"]
+        raise OSError(lines[-1].rpartition(": ")[2])
 
 
 @contextmanager

@@ -56,24 +56,24 @@ def _walk(model: type[BaseModel], above: str, kind: str) -> Iterator[Meaning]:
             yield from _block(path, place, blocks[0], _said(field.description), kind)
         else:
             # A list of blocks of several kinds.
-            places = [f"{path}[{get_args(each.model_fields['step'].annotation)[0]}]" for each in blocks]
+            places = [f"{path}[{get_args(block.model_fields['step'].annotation)[0]}]" for block in blocks]
             yield _named(path, _said(field.description), "a list of blocks", kind, tuple(places))
             for place, block in zip(places, blocks, strict=True):
                 yield from _block(place, place, block, _said(block.__doc__), kind)
 
 
-def _block(path: str, place: str, block: type[BaseModel], said: str, kind: str) -> Iterator[Meaning]:
+def _block(path: str, place: str, block: type[BaseModel], meaning: str, kind: str) -> Iterator[Meaning]:
     inner = list(_walk(block, f"{place}.", kind))
-    parts = tuple(each.name for each in inner if not re.search(r"[.[]", each.name[len(place) + 1 :]))
-    yield _named(path, said, "a list of blocks" if place.endswith("[]") else "a block", kind, parts)
+    parts = tuple(field.name for field in inner if not re.search(r"[.[]", field.name[len(place) + 1 :]))
+    yield _named(path, meaning, "a list of blocks" if place.endswith("[]") else "a block", kind, parts)
     yield from inner
 
 
-def _named(path: str, said: str, holds: str, kind: str, parts: tuple[str, ...]) -> Meaning:
+def _named(path: str, meaning: str, holds: str, kind: str, parts: tuple[str, ...]) -> Meaning:
     return Meaning(
         path,
         kind,
-        said,
+        meaning,
         holds,
         found_in=_found(path, kind),
         not_with=_not_with(path, kind),
@@ -83,7 +83,7 @@ def _named(path: str, said: str, holds: str, kind: str, parts: tuple[str, ...]) 
 
 
 def _listed(field: FieldInfo) -> bool:
-    return any(get_origin(each) is tuple for each in (field.annotation, *get_args(field.annotation)))
+    return any(get_origin(annotation) is tuple for annotation in (field.annotation, *get_args(field.annotation)))
 
 
 def _leaf(path: str, field: FieldInfo, kind: str) -> Meaning:
@@ -113,8 +113,8 @@ def _found(path: str, kind: str) -> str:
         return ""
     if path.partition(".")[0] in _SHOWN:
         return "what is shown alone"
-    found = readers(path.replace("[]", "").partition("[")[0] if "[" in path else path)
-    names = [name for model, name in READERS.items() if model in found]
+    models = readers(path.replace("[]", "").partition("[")[0] if "[" in path else path)
+    names = [name for model, name in READERS.items() if model in models]
     return (
         "all models" if len(names) == len(READERS) else " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
     )
@@ -130,31 +130,33 @@ def _not_with(path: str, kind: str) -> str:
 
 def _quantities(field: object) -> list[str]:
     """Return the quantities that a field holds, in their order."""
-    schemas = [each.json_schema or {} for each in constraints(field) if isinstance(each, WithJsonSchema)]
+    schemas = [
+        constraint.json_schema or {} for constraint in constraints(field) if isinstance(constraint, WithJsonSchema)
+    ]
     return [str(schema["quantity"]) for schema in schemas if "quantity" in schema]
 
 
 def _choices(annotation: Any) -> tuple[str, ...]:
     if get_origin(annotation) is Literal:
         return tuple(map(str, get_args(annotation)))
-    return next((found for each in get_args(annotation) if (found := _choices(each))), ())
+    return next((choices for argument in get_args(annotation) if (choices := _choices(argument))), ())
 
 
 def _holds(field: FieldInfo) -> str:
     listed = get_origin(field.annotation) is tuple or any(
-        get_origin(each) is tuple for each in get_args(field.annotation)
+        get_origin(argument) is tuple for argument in get_args(field.annotation)
     )
     choices = _choices(field.annotation)
     if choices:
         return f"{'one or several' if listed else 'one'} of {', '.join(choices)}"
-    quantities = [DIMENSIONS[each] for each in _quantities(field)]
+    quantities = [DIMENSIONS[quantity] for quantity in _quantities(field)]
     if listed and len(quantities) > 1:
-        return f"rows of {' and '.join(each.kind for each in quantities)}"
+        return f"rows of {' and '.join(quantity.kind for quantity in quantities)}"
     if quantities:
         example = quantities[0].example
         written = f', for example "{example}"' if isinstance(example, str) else ""
         return f"{'a list, each ' if listed else ''}{quantities[0].kind}{written}"
-    kinds = [each for each in _plain(field.annotation) if each in _PLAIN]
+    kinds = [kind for kind in _plain(field.annotation) if kind in _PLAIN]
     if len(set(kinds)) > 1:
         return _UNKNOWN
     return f"{'a list, each ' if listed else ''}{_PLAIN[kinds[0]] if kinds else _UNKNOWN}"
@@ -162,8 +164,8 @@ def _holds(field: FieldInfo) -> str:
 
 def _plain(annotation: Any) -> Iterator[Any]:
     yield annotation
-    for each in get_args(annotation):
-        yield from _plain(each)
+    for argument in get_args(annotation):
+        yield from _plain(argument)
 
 
 def _limits(field: FieldInfo) -> str:
@@ -171,14 +173,14 @@ def _limits(field: FieldInfo) -> str:
     if len(quantities) > 1 or get_origin(field.annotation) is tuple:
         return ""  # of rows each cell has its own
     unit = DIMENSIONS[quantities[0]].unit if quantities else ""
-    found = []
-    for each in constraints(field):
+    limits = []
+    for constraint in constraints(field):
         for name, words in _COMPARED.items():
-            if hasattr(each, name):
-                value = float(getattr(each, name))
+            if hasattr(constraint, name):
+                value = float(getattr(constraint, name))
                 number = shown(f"{value:.10g} {unit}") if unit else f"{value:.10g}"
-                found.append(words.format(number))
-    return ", ".join(dict.fromkeys(found))
+                limits.append(words.format(number))
+    return ", ".join(dict.fromkeys(limits))
 
 
 def _shown(value: object, unit: str) -> str:

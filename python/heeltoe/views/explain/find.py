@@ -17,7 +17,7 @@ from heeltoe.views.explain.meaning import Meaning
 _LONGEST = 200
 # Keys of a result stand below these again, where models stand side by side or runs in a table.
 _AGAIN = ("beside", "cracks", "runs", "sections", "statics", "rigid", "flexible", "decoupled")
-_HEADLINES = frozenset(each.key for each in HEADLINES)
+_HEADLINES = frozenset(headline.key for headline in HEADLINES)
 
 
 @cache
@@ -38,32 +38,32 @@ def explain(name: str) -> tuple[Meaning, ...]:
     """
     wanted = _plain(name.strip())
     if wanted not in ("", "*") and len(wanted) <= _LONGEST:
-        for found in (_of_path(wanted), _of_path(_shorter(wanted)), _ending(wanted)):
-            if found:
-                return found
-    names = dict.fromkeys(each for path, (first, *_) in _by_name().items() for each in (path, first.last))
+        for matches in (_of_path(wanted), _of_path(_shorter(wanted)), _ending(wanted)):
+            if matches:
+                return matches
+    names = dict.fromkeys(key for path, (first, *_) in _by_name().items() for key in (path, first.last))
     raise InputError("explain-unknown", "NAME", shown(name), near=near(wanted[:_LONGEST], names))
 
 
 def _of_path(wanted: str) -> tuple[Meaning, ...]:
     exact = _by_name().get(wanted)
     return exact or tuple(
-        each for name, told in _by_name().items() if "*" in name and _fits(name, wanted) for each in told
+        meaning for name, meanings in _by_name().items() if "*" in name and _fits(name, wanted) for meaning in meanings
     )
 
 
 def _ending(wanted: str) -> tuple[Meaning, ...]:
     ends = (f".{wanted}", f"[{wanted}]")
-    return tuple(each for name, told in _by_name().items() if name.endswith(ends) for each in told)
+    return tuple(meaning for name, meanings in _by_name().items() if name.endswith(ends) for meaning in meanings)
 
 
 @cache
 def _by_name() -> dict[str, tuple[Meaning, ...]]:
-    found: dict[str, tuple[Meaning, ...]] = {}
-    for each in everything():
-        name = _plain(each.name)
-        found[name] = (*found.get(name, ()), each)
-    return found
+    meanings: dict[str, tuple[Meaning, ...]] = {}
+    for meaning in everything():
+        name = _plain(meaning.name)
+        meanings[name] = (*meanings.get(name, ()), meaning)
+    return meanings
 
 
 def _shorter(wanted: str) -> str:
@@ -74,7 +74,7 @@ def _shorter(wanted: str) -> str:
     # Of several motions each has the keys of one, and some of its own.
     if len(parts) > 1 and parts[0] == "motions":
         of_one = _of_path(f"motion.{parts[1]}")
-        parts = [*(["motion"] if any(each.kind == "key of the JSON" for each in of_one) else []), *parts[1:]]
+        parts = [*(["motion"] if any(meaning.kind == "key of the JSON" for meaning in of_one) else []), *parts[1:]]
     return ".".join(parts)
 
 
@@ -84,12 +84,12 @@ def _plain(name: str) -> str:
 
 
 def _fits(pattern: str, name: str) -> bool:
-    parts, given = pattern.split("."), name.split(".")
+    parts, words = pattern.split("."), name.split(".")
     if (
         parts[0] in ("evidence", "spread", "summary")
         and parts[1] == "*"
-        and len(given) > 1
-        and given[1] not in _HEADLINES
+        and len(words) > 1
+        and words[1] not in _HEADLINES
     ):
         return False
-    return len(parts) == len(given) and all(part in ("*", each) for part, each in zip(parts, given, strict=True))
+    return len(parts) == len(words) and all(part in ("*", word) for part, word in zip(parts, words, strict=True))

@@ -88,26 +88,26 @@ _UNITS = {
 
 def keys_of_the_json() -> Iterator[Meaning]:
     """Walk all keys of the JSON."""
-    said: dict[str, str] = {}
+    meanings: dict[str, str] = {}
     units: dict[str, str] = {}
     places: dict[str, list[str]] = {}
     for name, number, where in numbers_of_a_run():
-        said.setdefault(name, number.meaning)
+        meanings.setdefault(name, number.meaning)
         units[name] = number.unit
         places.setdefault(name, []).append(where)
     for above, kind, where in _CLASSES:
         for name, text in told(kind).items():
             if name not in _NOT_THERE and f"{above}{name}" != "asked":
-                said.setdefault(f"{above}{name}", text)
+                meanings.setdefault(f"{above}{name}", text)
                 places.setdefault(f"{above}{name}", []).append(where)
     others = [(f"{command} --json", keys) for command, keys in OF_OTHERS.items()]
     for where, keys in ((_RUN, OF_A_RUN), (_STATICS, OF_STATICS), *others):
         for name, text in keys.items():
-            said[name] = text
+            meanings[name] = text
             if where not in places.setdefault(name, []):
                 places[name].append(where)
-    for name, text in said.items():
-        parts = tuple(each for each in said if re.fullmatch(rf"{re.escape(name)}(\[\])?\.[^.]+", each))
+    for name, text in meanings.items():
+        parts = tuple(key for key in meanings if re.fullmatch(rf"{re.escape(name)}(\[\])?\.[^.]+", key))
         unit = units.get(name) or unit_of(name)
         text = text.replace(f" [{unit}]", "") if unit else text
         where = ", ".join(dict.fromkeys(places[name]))
@@ -131,8 +131,8 @@ def columns() -> Iterator[Meaning]:
         ("column of a study", "runs of heeltoe study", OF_STUDIES),
     )
     for kind, where, table in tables:
-        for name, said in table.items():
-            yield Meaning(name, kind, said, unit_of(name), found_in=where)
+        for name, meaning in table.items():
+            yield Meaning(name, kind, meaning, unit_of(name), found_in=where)
 
 
 def told(kind: type) -> dict[str, str]:
@@ -140,13 +140,13 @@ def told(kind: type) -> dict[str, str]:
     those of its properties."""
     text = inspect.cleandoc(kind.__doc__ or "")
     _, _, section = text.partition("Attributes\n----------\n")
-    found: dict[str, str] = {}
-    for names, said in re.findall(r"^(\S.*)\n((?:    .*\n?|\n)+)", section, re.MULTILINE):
-        found |= {name.strip(): _plain(said) for name in names.split(",")}
+    meanings: dict[str, str] = {}
+    for names, prose in re.findall(r"^(\S.*)\n((?:    .*\n?|\n)+)", section, re.MULTILINE):
+        meanings |= {name.strip(): _plain(prose) for name in names.split(",")}
     for name, thing in vars(kind).items():
         if name in _PROPERTIES.get(kind, ()):
-            found[name] = _plain(thing.__doc__ or "")
-    return found
+            meanings[name] = _plain(thing.__doc__ or "")
+    return meanings
 
 
 def _plain(text: str) -> str:
@@ -157,7 +157,7 @@ def _plain(text: str) -> str:
 
 def unit_of(name: str) -> str:
     """Return the unit that the name of a key or a column ends in; empty where it says none."""
-    parts = [each.removesuffix("[]") for each in name.split(".") if each != "*"]
+    parts = [part.removesuffix("[]") for part in name.split(".") if part != "*"]
     for part in (parts[-1], *parts[-2:-1]):
         for ending, unit in _UNITS.items():
             if part.endswith(ending):

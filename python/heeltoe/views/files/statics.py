@@ -25,7 +25,7 @@ OWN = (*_TABLES, *_FIGURES, *_REPORT)
 
 
 def write_statics(
-    found: Joints,
+    joints: Joints,
     directory: Path,
     figures: Mapping[str, Figure],
     *,
@@ -38,9 +38,9 @@ def write_statics(
     """
 
     def write(fresh: Path) -> None:
-        (fresh / "result.json").write_text(json_text(statics_json(found)) + "\n", encoding="utf-8")
-        write_table(pa.Table.from_pylist(list(_forces(found))), fresh / "sheet.csv")
-        write_table(pa.Table.from_pylist(list(_checks(found))), fresh / "checks.csv")
+        (fresh / "result.json").write_text(json_text(statics_json(joints)) + "\n", encoding="utf-8")
+        write_table(pa.Table.from_pylist(list(_forces(joints))), fresh / "sheet.csv")
+        write_table(pa.Table.from_pylist(list(_checks(joints))), fresh / "checks.csv")
         save_all(figures, fresh)
         if report is not None:
             report(fresh)
@@ -49,27 +49,27 @@ def write_statics(
     return write_whole(write, directory, own)
 
 
-def write_statics_table(found: StaticsTable, directory: Path) -> list[Path]:
+def write_statics_table(table: StaticsTable, directory: Path) -> list[Path]:
     """Write a table of static checks as ``result.json``, ``table.csv`` and ``table.parquet``."""
 
     def write(fresh: Path) -> None:
-        (fresh / "result.json").write_text(json_text(found.to_json()) + "\n", encoding="utf-8")
+        (fresh / "result.json").write_text(json_text(table.to_json()) + "\n", encoding="utf-8")
         for suffix in (".csv", ".parquet"):
-            write_table(found.to_table(), fresh / f"table{suffix}")
+            write_table(table.to_table(), fresh / f"table{suffix}")
 
     return write_whole(write, directory, OWN)
 
 
-def _forces(found: Joints) -> Iterator[dict[str, Any]]:
+def _forces(joints: Joints) -> Iterator[dict[str, Any]]:
     """Return every force of every load case at every section."""
-    for joint in found.ranked:
-        for each in joint.statics.to_json()["cases"]:
-            for force in each["forces"]:
-                yield {"elevation_m": joint.elevation_m, "load_case": each["name"], **force}
+    for joint in joints.ranked:
+        for load_case in joint.statics.to_json()["cases"]:
+            for force in load_case["forces"]:
+                yield {"elevation_m": joint.elevation_m, "load_case": load_case["name"], **force}
 
 
-def _checks(found: Joints) -> Iterator[dict[str, Any]]:
+def _checks(joints: Joints) -> Iterator[dict[str, Any]]:
     """Return every check of every load case at every section."""
-    for joint in found.ranked:
+    for joint in joints.ranked:
         for check in joint.statics.checks:
             yield {"elevation_m": joint.elevation_m, **check.to_json()}

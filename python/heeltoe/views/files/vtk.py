@@ -103,7 +103,9 @@ class _Dam:
     def point_data(self, frame: int) -> dict[str, NDArray[Any]]:
         moved = self.history.displacements(frame)
         bodies = self.history.dam.bodies
-        stress = np.vstack([stresses(body, each.reshape(-1)) for body, each in zip(bodies, moved, strict=True)])
+        stress = np.vstack(
+            [stresses(body, displacement.reshape(-1)) for body, displacement in zip(bodies, moved, strict=True)]
+        )
         major, minor, _ = principal(stress)
         return {
             "displacement": _spatial(np.vstack(moved)),
@@ -130,7 +132,7 @@ class _Crack:
         # The straight pieces from node to node, midside nodes included, that contact knows.
         lines = [np.column_stack([nodes[a : b - 1], nodes[a + 1 : b]]) for a, b in pairwise(first)]
         self.cells = [("vertex", nodes[:, None]), ("line", np.vstack(lines))]
-        self.cell_data = {"part": [_parts(counts), _parts([len(each) for each in lines])]}
+        self.cell_data = {"part": [_parts(counts), _parts([len(line) for line in lines])]}
         self.force = history.forces()
         self.gaps = np.hstack(history.node_gaps())
         self.status = np.hstack(history.node_status()).astype(np.int32)

@@ -130,42 +130,42 @@ def write_run(
     return [path for path in write_whole(write, directory, own) if path.suffix != ".vtu"]
 
 
-def write_overturning(found: OverturningMap, directory: Path) -> list[Path]:
+def write_overturning(overturning: OverturningMap, directory: Path) -> list[Path]:
     """Write a map as ``overturning.csv``, ``.png`` and ``.svg``, all of them or none, and return their paths.
 
     What a run has left in the directory stays, as does what is not heeltoe's.
     """
 
     def write(fresh: Path) -> None:
-        write_table(found.to_table(), fresh / "overturning.csv")
-        save_all({"overturning": overturning_figure(found)}, fresh)
+        write_table(overturning.to_table(), fresh / "overturning.csv")
+        save_all({"overturning": overturning_figure(overturning)}, fresh)
 
     return write_whole(write, directory, ())
 
 
-def write_solved(found: Solved, directory: Path, units: str = "si") -> list[Path]:
+def write_solved(solved: Solved, directory: Path, units: str = "si") -> list[Path]:
     """Write a field that was solved for as ``solve.json``, ``.csv``, ``.png`` and ``.svg``, all or none, and return
     their paths."""
 
     def write(fresh: Path) -> None:
-        (fresh / "solve.json").write_text(json_text(found.to_json()) + "\n", encoding="utf-8")
-        write_table(found.to_table(), fresh / "solve.csv")
-        save_all({"solve": solve_figure(found, field_scale(found, units), units)}, fresh)
+        (fresh / "solve.json").write_text(json_text(solved.to_json()) + "\n", encoding="utf-8")
+        write_table(solved.to_table(), fresh / "solve.csv")
+        save_all({"solve": solve_figure(solved, field_scale(solved, units), units)}, fresh)
 
     return write_whole(write, directory, SOLVED)
 
 
-def write_law(found: Mapping[str, LawCurve], directory: Path) -> list[Path]:
+def write_law(curves: Mapping[str, LawCurve], directory: Path) -> list[Path]:
     """Write the curves of friction laws by their names as PNG and SVG, all or none, and return their paths."""
 
     def write(fresh: Path) -> None:
-        save_all({name: law_figure(curve) for name, curve in found.items()}, fresh)
+        save_all({name: law_figure(curve) for name, curve in curves.items()}, fresh)
 
     return write_whole(write, directory, ())
 
 
 def write_study(
-    found: Opened,
+    study: Opened,
     directory: Path,
     units: str = "si",
     *,
@@ -178,7 +178,7 @@ def write_study(
 
     Parameters
     ----------
-    found, directory
+    study, directory
         The study, and where it is.
     units
         Of the figures, ``"si"`` or ``"us"``.
@@ -189,16 +189,16 @@ def write_study(
     """
 
     def write(fresh: Path) -> None:
-        drawn = study_figures(found, units) if figures or report is not None else {}
-        if found.portfolio is not None:
-            write_table(found.portfolio_table(), fresh / PORTFOLIO)
+        drawn = study_figures(study, units) if figures or report is not None else {}
+        if study.portfolio is not None:
+            write_table(study.portfolio_table(), fresh / PORTFOLIO)
         if figures:
             (fresh / "figures").mkdir()
             save_all(drawn, fresh / "figures")
         if report is not None:
             report(fresh, drawn)
 
-    if not figures and report is None and found.portfolio is None:
+    if not figures and report is None and study.portfolio is None:
         return []
     own = (PORTFOLIO, *(("*.png", "*.svg") if figures else ()), *(STUDY_REPORT if report is not None else ()))
     return write_whole(write, directory, own)
@@ -249,8 +249,8 @@ def _(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
 @_write.register
 def _(grid: SmallStudy, directory: Path, suffix: str, vtk: bool) -> None:
     _write_json(grid, directory)
-    for each in (".csv", ".parquet"):
-        write_table(grid.to_table(), directory / f"table{each}")
+    for ending in (".csv", ".parquet"):
+        write_table(grid.to_table(), directory / f"table{ending}")
 
 
 def _write_json(result: Response | SmallStudy, directory: Path) -> None:

@@ -65,8 +65,8 @@ _ROOM = 300e6
 
 def pdf(document: Document) -> bytes:
     """Return the document as PDF; the same document gives the same bytes with the same fonts."""
-    (found,) = compiled(document, "pdf")
-    return found
+    (content,) = compiled(document, "pdf")
+    return content
 
 
 def pages(document: Document, ppi: float = 100.0) -> list[bytes]:

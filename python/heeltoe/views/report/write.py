@@ -70,21 +70,21 @@ def build_report(
     from heeltoe.views.words.numbers import Numbers
 
     if isinstance(statics, Joints):
-        found = statics
+        judged = statics
     elif statics is not None:
-        found = Joints(case.title, (Joint(case.crack.elevation, case, statics),))
+        judged = Joints(case.title, (Joint(case.crack.elevation, case, statics),))
     else:
-        found = joints_after(case, lambda: tuple(reversed(result.responses)))
-    numbers = Numbers({**result.to_json(), "statics": found.governing.statics.to_json()}, units)
+        judged = joints_after(case, lambda: tuple(reversed(result.responses)))
+    numbers = Numbers({**result.to_json(), "statics": judged.governing.statics.to_json()}, units)
     drawn = all_figures(case, result, units) if figures is None else figures
     runs = tuple(run for run in reversed(result.responses) if has_pictures(run))
     if not drawn:
-        return document(Subject(case, result, numbers, drawings(drawn), found, command))
+        return document(Subject(case, result, numbers, drawings(drawn), judged, command))
     first = {"summary": lambda: summary_figure(case, runs, units)}
     if runs:
         first["motion"] = lambda: history_figure(result.motion, result.vertical, result.gravity, units)
     shown = drawings(Figures(first | {name: partial(drawn.__getitem__, name) for name in drawn}))
-    return document(Subject(case, result, numbers, shown, found, command))
+    return document(Subject(case, result, numbers, shown, judged, command))
 
 
 def write_report(
@@ -141,7 +141,7 @@ def write_report(
 
 
 def write_study_report(
-    found: Opened,
+    study: Opened,
     fresh: Path,
     *,
     base: Path | None = None,
@@ -153,7 +153,7 @@ def write_study_report(
 
     Parameters
     ----------
-    found
+    study
         The study.
     fresh
         Where.
@@ -166,7 +166,7 @@ def write_study_report(
     """
     from heeltoe.views.content.study import study_document, study_subject
 
-    write_kinds(study_document(study_subject(found, base or Path(), units, command, figures)), fresh)
+    write_kinds(study_document(study_subject(study, base or Path(), units, command, figures)), fresh)
 
 
 def write_document(document: Document, directory: Path | str, kinds: Sequence[str] = ("pdf", "html")) -> list[Path]:

@@ -94,25 +94,29 @@ def _damping_line(choice: str, ratios: Sequence[float], rayleigh: tuple[float | 
     return text
 
 
-def print_overturning(found: OverturningMap, console: Console, dam: str = "") -> None:
+def print_overturning(overturning: OverturningMap, console: Console, dam: str = "") -> None:
     """Print which pulses overturn a block, and what is said of the dam itself."""
-    print_title(found.title, "overturning", console)
+    print_title(overturning.title, "overturning", console)
     console.print()
     grid = label_grid()
     if dam:
         grid.add_row("dam", dam)
-    p, slenderness = found.frequency_parameter_1_s, found.slenderness_rad
+    p, slenderness = overturning.frequency_parameter_1_s, overturning.slenderness_rad
     grid.add_row("block", f"slenderness {slenderness:.4g} rad, p = {p:.4g} 1/s")
-    low, high = found.frequency_hz[0], found.frequency_hz[-1]
-    sizes = f"{found.amplitude_g[0]:.3g} to {found.amplitude_g[-1]:.3g} g"
-    grid.add_row("pulses", f"one {found.pulse}, {low:.3g} to {high:.3g} Hz, {sizes}: {found.end.size} runs")
-    least = [(size, hertz) for size, hertz in zip(found.least_g(), found.frequency_hz, strict=True) if size is not None]
+    low, high = overturning.frequency_hz[0], overturning.frequency_hz[-1]
+    sizes = f"{overturning.amplitude_g[0]:.3g} to {overturning.amplitude_g[-1]:.3g} g"
+    grid.add_row("pulses", f"one {overturning.pulse}, {low:.3g} to {high:.3g} Hz, {sizes}: {overturning.end.size} runs")
+    least = [
+        (size, hertz)
+        for size, hertz in zip(overturning.least_g(), overturning.frequency_hz, strict=True)
+        if size is not None
+    ]
     if not least:
         grid.add_row("overturning", "by none of them")
     else:
         size, hertz = min(least)
         grid.add_row("overturning", f"from {size:.3g} g on, at {hertz:.3g} Hz")
-        gaps = found.safe_gap()
+        gaps = overturning.safe_gap()
         widest = max(gaps, key=lambda gap: gap[2] - gap[1], default=None)
         text = (
             "none: every pulse that overturns it is weaker than every pulse that it withstands"

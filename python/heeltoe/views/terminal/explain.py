@@ -19,48 +19,48 @@ from heeltoe.views.terminal.render import label_grid, label_lines
 _NAME = 40
 
 
-def as_json(found: Sequence[Meaning]) -> dict[str, Any]:
+def as_json(meanings: Sequence[Meaning]) -> dict[str, Any]:
     """Return all that is said of some names."""
-    return {"names": [asdict(each) | {"parts": list(each.parts)} for each in found], "build": build_info()}
+    return {"names": [asdict(meaning) | {"parts": list(meaning.parts)} for meaning in meanings], "build": build_info()}
 
 
-def print_meanings(found: Sequence[Meaning], console: Console) -> None:
+def print_meanings(meanings: Sequence[Meaning], console: Console) -> None:
     """Print what a name means, everywhere it means something."""
-    for place, each in enumerate(found):
+    for place, meaning in enumerate(meanings):
         if place:
             console.print()
-        console.print(f"[bold]{escape(each.name)}[/bold]  ({each.kind})", soft_wrap=True)
-        console.print(f"  {escape(each.meaning)}")
+        console.print(f"[bold]{escape(meaning.name)}[/bold]  ({meaning.kind})", soft_wrap=True)
+        console.print(f"  {escape(meaning.meaning)}")
         lines = [
-            ("holds" if each.kind.startswith("field") else "unit", each.holds),
-            ("default", each.default),
-            ("range", each.limits),
-            ("read by" if each.kind == "field of a case" else "found in", each.found_in),
-            ("not with", each.not_with),
-            ("more in", f"docs/{each.page.replace(' equation', ', equation')}" if each.page else ""),
+            ("holds" if meaning.kind.startswith("field") else "unit", meaning.holds),
+            ("default", meaning.default),
+            ("range", meaning.limits),
+            ("read by" if meaning.kind == "field of a case" else "found in", meaning.found_in),
+            ("not with", meaning.not_with),
+            ("more in", f"docs/{meaning.page.replace(' equation', ', equation')}" if meaning.page else ""),
         ]
-        told = [(f"  {label}", escape(text)) for label, text in lines if text]
-        if told:
-            console.print(label_lines(told))
-        if each.parts:
+        rows = [(f"  {label}", escape(text)) for label, text in lines if text]
+        if rows:
+            console.print(label_lines(rows))
+        if meaning.parts:
             console.print()
-            console.print(_parts(each))
+            console.print(_parts(meaning))
 
 
 def _parts(block: Meaning) -> Any:
     grid = label_grid()
     for name in block.parts:
-        inner = next(each for each in explain(name) if each.kind == block.kind)
+        inner = next(candidate for candidate in explain(name) if candidate.kind == block.kind)
         grid.add_row(f"  {escape(name)}", escape(inner.meaning))
     return grid
 
 
-def print_list(found: Sequence[Meaning], console: Console) -> None:
+def print_list(meanings: Sequence[Meaning], console: Console) -> None:
     """Print all names, kind by kind, a line each with the begin of what they mean."""
-    for kind, names in groupby(found, key=lambda each: each.kind):
+    for kind, names in groupby(meanings, key=lambda meaning: meaning.kind):
         console.print(f"[bold]{KINDS[kind]}[/bold]")
         console.print()
-        for each in names:
-            console.print(f"  {escape(f'{each.name:{_NAME}}')}  {escape(each.short)}", soft_wrap=True)
+        for name in names:
+            console.print(f"  {escape(f'{name.name:{_NAME}}')}  {escape(name.short)}", soft_wrap=True)
         console.print()
     console.print("heeltoe explain NAME says more of one")

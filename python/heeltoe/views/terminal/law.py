@@ -19,35 +19,35 @@ _WRITTEN = {"slip path": "{at:.3g mm}", "slip speed": "{at:.3g m/s}", "normal st
 _NAMES = {"slip path": "at_m", "slip speed": "at_m_s", "normal stress": "at_pa"}
 
 
-def print_law(found: LawCurve, console: Console, units: str = "si") -> None:
+def print_law(curve: LawCurve, console: Console, units: str = "si") -> None:
     """Print a sketch of a friction law, and what it comes to."""
-    print_title(found.title, f"law: {found.name}", console)
+    print_title(curve.title, f"law: {curve.name}", console)
     console.print()
-    for line in sketch(found, units):
+    for line in sketch(curve, units):
         console.print(line, markup=False, highlight=False)
     console.print()
     grid = label_grid()
-    stress = written("{stress_pa:.3g MPa}", units, stress_pa=found.normal_stress_pa)
-    grid.add_row("before any slip", f"{found.at_rest:.4g} under a normal stress of {stress}")
-    grid.add_row("sliding", f"{found.friction[0]:.4g} at the left of the curve, {found.friction[-1]:.4g} at its right")
-    for source in found.references:
+    stress = written("{stress_pa:.3g MPa}", units, stress_pa=curve.normal_stress_pa)
+    grid.add_row("before any slip", f"{curve.at_rest:.4g} under a normal stress of {stress}")
+    grid.add_row("sliding", f"{curve.friction[0]:.4g} at the left of the curve, {curve.friction[-1]:.4g} at its right")
+    for source in curve.references:
         grid.add_row("source", source)
     console.print(grid)
 
 
-def sketch(found: LawCurve, units: str = "si") -> list[str]:
+def sketch(curve: LawCurve, units: str = "si") -> list[str]:
     """Return the lines of a sketch: apparent friction over what it goes by."""
-    most = 1.05 * max(float(found.friction.max()), found.at_rest, 1e-9)
+    most = 1.05 * max(float(curve.friction.max()), curve.at_rest, 1e-9)
     rows = [[" "] * _WIDE for _ in range(_HIGH)]
-    columns = np.linspace(found.at[0], found.at[-1], _WIDE)
-    for column, value in enumerate(np.interp(columns, found.at, found.friction)):
+    columns = np.linspace(curve.at[0], curve.at[-1], _WIDE)
+    for column, value in enumerate(np.interp(columns, curve.at, curve.friction)):
         rows[min(int(value / most * _HIGH), _HIGH - 1)][column] = "*"
     lines = [f"{(k + 1) * most / _HIGH:6.2f} |{''.join(rows[k]).rstrip()}" for k in reversed(range(_HIGH))]
-    left, right = (_at(found, place, units) for place in (found.at[0], found.at[-1]))
-    axis = left + found.over.center(_WIDE - len(left) - len(right)) + right
+    left, right = (_at(curve, place, units) for place in (curve.at[0], curve.at[-1]))
+    axis = left + curve.over.center(_WIDE - len(left) - len(right)) + right
     return ["apparent friction", *lines, "  0.00 +" + "-" * _WIDE, " " * 8 + axis]
 
 
-def _at(found: LawCurve, place: float, units: str) -> str:
-    name = _NAMES[found.over]
-    return written(_WRITTEN[found.over].replace("{at:", f"{{{name}:"), units, **{name: float(place)})
+def _at(curve: LawCurve, place: float, units: str) -> str:
+    name = _NAMES[curve.over]
+    return written(_WRITTEN[curve.over].replace("{at:", f"{{{name}:"), units, **{name: float(place)})

@@ -49,9 +49,9 @@ def print_motions(
             continue
         table.add_row(label, *map(safe, texts))
     console.print(table)
-    said = [(each.name, text) for each in motions for text in _doubts(each, units, gravity)]
-    print_warnings((text if name in text else f"{name}: {text}" for name, text in said), console)
+    doubts = [(motion.name, text) for motion in motions for text in _doubts(motion, units, gravity)]
+    print_warnings((text if name in text else f"{name}: {text}" for name, text in doubts), console)
 
 
 def _doubts(motion: GroundMotion, units: str, gravity: float) -> list[str]:
-    return [*(each.text(units) for each in motion.warnings), *suspicions(motion, units, gravity)]
+    return [*(warning.text(units) for warning in motion.warnings), *suspicions(motion, units, gravity)]

@@ -124,7 +124,7 @@ def _bond(crack: Any) -> BondState | None:
 
 def _warnings(response: Response, units: str) -> list[str]:
     """Return the warnings, the grave ones first."""
-    severity = {each.text(units): each.severity for run in response.responses for each in run.warnings}
+    severity = {warning.text(units): warning.severity for run in response.responses for warning in run.warnings}
 
     def rank(text: str) -> int:
         return _GRAVITIES.index(next(own for warning, own in severity.items() if text.endswith(warning)))

@@ -48,9 +48,10 @@ def _count(value: int, units: str) -> str:
 # Heading, name in the rows, sign, how to write it.
 _Column = tuple[str, str, float, Callable[[Any, str], str]]
 _HEADLINES = tuple(
-    (each.heading, each.key, float(each.way), _mrad if each.kind == "rotation" else _length) for each in HEADLINES
+    (headline.heading, headline.key, float(headline.way), _mrad if headline.kind == "rotation" else _length)
+    for headline in HEADLINES
 )
-_SLIPS = sum(each.kind == "slip" for each in HEADLINES)
+_SLIPS = sum(headline.kind == "slip" for headline in HEADLINES)
 _SLIP: tuple[_Column, ...] = (
     *_HEADLINES[:_SLIPS],
     ("sliding", "slip_sliding_m", 1.0, _length),
@@ -60,7 +61,7 @@ _SLIP: tuple[_Column, ...] = (
 _ROCKING: tuple[_Column, ...] = (*_HEADLINES[_SLIPS:], ("impacts", "impacts", 1.0, _count))
 # What stands under --details alone: slips by mode, rotations, impacts.
 _IN_DETAIL = _SLIP[_SLIPS:]
-_ROTATIONS = sum(each.kind == "rotation" for each in HEADLINES)
+_ROTATIONS = sum(headline.kind == "rotation" for headline in HEADLINES)
 # Whether the limits are kept, as the rows have it.
 _KEPT = {True: "yes", False: "[red]NO[/]", None: "-"}
 _UNITS = {"si": "mm", "us": "inches"}
@@ -76,7 +77,7 @@ def print_small(grid: SmallStudy, console: Console, units: str = "si", *, detail
     _print_crack_level(grid, console)
     # One table where there is room for it, else one of the slips and one of the rocking, in parts if need be.
     slip = _SLIP
-    blocks = {each.beside.model for each in grid.responses if each.beside is not None}
+    blocks = {response.beside.model for response in grid.responses if response.beside is not None}
     if len(blocks) == 1:
         # What the simpler model says stands beside what the better one does.
         beside = (f"residual,\n{blocks.pop()}", "beside_residual_slip_m", 1.0, _length)
@@ -115,16 +116,16 @@ def _of_crack(place: int) -> _Column:
 
 def _judged(grid: SmallStudy) -> list[str]:
     """Say how many runs keep within the limits, and how many have no result."""
-    said = []
-    judged = [each for each in grid.responses if each.limits]
+    sentences = []
+    judged = [response for response in grid.responses if response.limits]
     if judged:
-        kept = sum(all(check.met for check in each.limits) for each in judged)
+        kept = sum(all(check.met for check in response.limits) for response in judged)
         as_what = "" if judged[0].elastic else ", each as a rigid block"
-        said.append(f"{kept} of {len(grid.responses)} runs keep within the limits{as_what}.")
-    failed = sum(not each.ok for each in grid.responses)
+        sentences.append(f"{kept} of {len(grid.responses)} runs keep within the limits{as_what}.")
+    failed = sum(not response.ok for response in grid.responses)
     if failed:
-        said.append(f"{failed} of {len(grid.responses)} runs have no result to trust.")
-    return [" ".join(said)] if said else []
+        sentences.append(f"{failed} of {len(grid.responses)} runs have no result to trust.")
+    return [" ".join(sentences)] if sentences else []
 
 
 def _fits(grid: SmallStudy, columns: tuple[_Column, ...], console: Console, units: str) -> bool:
@@ -147,9 +148,9 @@ def _remarks(grid: SmallStudy, units: str) -> list[str]:
     """Return all warnings, once each; what belongs to some of the runs says to which."""
     runs: dict[str, list[str]] = {}
     for cell, response in zip(grid.cells, grid.responses, strict=True):
-        said = [] if response.ok else [f"{response.outcome}: {advice(response, units)}"]
-        said += [each.text(units) for each in response.warnings]
-        for text in dict.fromkeys(said):
+        sentences = [] if response.ok else [f"{response.outcome}: {advice(response, units)}"]
+        sentences += [warning.text(units) for warning in response.warnings]
+        for text in dict.fromkeys(sentences):
             runs.setdefault(text, []).append(", ".join(cell))
     return [text if len(which) == len(grid.cells) else f"{'; '.join(which)}: {text}" for text, which in runs.items()]
 
@@ -163,8 +164,8 @@ def _table(grid: SmallStudy, columns: tuple[_Column, ...], units: str) -> Table:
         header_style="dim",
         border_style="dim",
     )
-    for each in grid.axes:
-        table.add_column(escape(each.path.replace(".", "\n")), no_wrap=True)
+    for axis in grid.axes:
+        table.add_column(escape(axis.path.replace(".", "\n")), no_wrap=True)
     for heading, *_ in columns:
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("in the\nend", no_wrap=True)
@@ -194,7 +195,11 @@ def _end(response: Response) -> str:
 
 def _print_crack_level(grid: SmallStudy, console: Console) -> None:
     """Say how much stronger the crack is shaken than the ground, over all runs."""
-    levels = [each.crack_level for each in grid.responses if isinstance(each, DecoupledResponse) and each.summary]
+    levels = [
+        response.crack_level
+        for response in grid.responses
+        if isinstance(response, DecoupledResponse) and response.summary
+    ]
     factors = sorted(level["amplification"] for level in levels if level["amplification"] is not None)
     if not factors:
         return

@@ -9,9 +9,9 @@ from heeltoe.views.content.solve import solve_answer, solve_table
 from heeltoe.views.terminal.render import print_title, render
 
 
-def print_solved(found: Solved, console: Console, units: str = "si", *, details: bool = False) -> None:
+def print_solved(solved: Solved, console: Console, units: str = "si", *, details: bool = False) -> None:
     """Print where the limit is just met; in detail the runs, too."""
-    print_title(found.title or "Untitled case", f"{found.model} model", console)
-    render(solve_answer(found, units), console)
+    print_title(solved.title or "Untitled case", f"{solved.model} model", console)
+    render(solve_answer(solved, units), console)
     if details:
-        render((solve_table(found, units),), console)
+        render((solve_table(solved, units),), console)

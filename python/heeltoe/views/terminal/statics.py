@@ -16,39 +16,39 @@ from heeltoe.views.words.statics import section_warnings
 
 
 def print_sections(
-    found: Joints, console: Console, units: str = "si", *, sheet: bool = False, details: bool = False
+    joints: Joints, console: Console, units: str = "si", *, sheet: bool = False, details: bool = False
 ) -> None:
     """Print the verdict, the checks that are not met, every section of several, and warnings.
 
     In detail also the load cases, all checks and their basis; with the sheets also the calculation, step by step.
     """
-    several = len(found.joints) > 1
-    print_title(found.title, f"statics at {len(found.joints)} sections" if several else "statics", console)
-    render((Paragraph((Strong("Verdict  "), answer_of(found, units))),), console)
-    missed = missed_of(found, units, MOST_MISSED)
+    several = len(joints.joints) > 1
+    print_title(joints.title, f"statics at {len(joints.joints)} sections" if several else "statics", console)
+    render((Paragraph((Strong("Verdict  "), answer_of(joints, units))),), console)
+    missed = missed_of(joints, units, MOST_MISSED)
     if missed:
         render((Notes("failure", "Not met", tuple(missed)),), console)
     if several:
-        render((section_table(found, units),), console)
-    warnings = section_warnings(found.joints, units)
+        render((section_table(joints, units),), console)
+    warnings = section_warnings(joints.joints, units)
     if details:
         print_warnings(warnings, console)
-        render(statics_sections(found, units), console)
+        render(statics_sections(joints, units), console)
     else:
         screen = Screen(console)
         screen.left -= 3 + len(missed)
         screen.add_warnings(warnings, "load cases, all checks, critical water levels and sources")
     if sheet:
-        render(sheet_sections(found, units), console)
+        render(sheet_sections(joints, units), console)
 
 
-def print_statics_table(found: StaticsTable, console: Console, units: str = "si") -> None:
+def print_statics_table(grid: StaticsTable, console: Console, units: str = "si") -> None:
     """Print a table of static checks: a row for each dam, with what governs it."""
-    print_title(found.title, f"statics of {len(found.cells)} dams", console)
+    print_title(grid.title, f"statics of {len(grid.cells)} dams", console)
     console.print()
-    table, rows = quiet_table(), found.rows()
-    several = any(len(each.joints) > 1 for each in found.found)
-    for axis in found.axes:
+    table, rows = quiet_table(), grid.rows()
+    several = any(len(dam.joints) > 1 for dam in grid.dams)
+    for axis in grid.axes:
         table.add_column(escape(axis.path.replace(".", "\n")), no_wrap=True)
     heads = ["checks\nnot met", "governs", "margin", "least\nsliding", "least\noverturn.", "least\nflotation"]
     cracks, unit = numbers([row["longest_crack_m"] or 0.0 for row in rows], "z.2f m", units)
@@ -56,24 +56,24 @@ def print_statics_table(found: StaticsTable, console: Console, units: str = "si"
     slid = any(row["slip_m"] is not None for row in rows)
     for head in [*heads, f"longest\ncrack, {unit}", *([f"slip,\n{slip_unit}"] if slid else [])]:
         table.add_column(head, justify="left" if head == "governs" else "right")
-    for cell, row, crack, slip in zip(found.cells, rows, cracks, slips, strict=True):
+    for cell, row, crack, slip in zip(grid.cells, rows, cracks, slips, strict=True):
         check = row["governing_check"]
         governs = "-" if check is None else f"{row['governing_load_case']}, {check.removesuffix(' factor')}"
         if several:
             governs += f", at {quantity(row['governing_elevation_m'], '.4g m', units)}"
         factors = [row[f"least_{name}_factor"] for name in ("sliding", "overturning", "flotation")]
-        said = ["-" if each is None else f"{each:.2f}" for each in (row["governing_margin"], *factors)]
+        texts = ["-" if factor is None else f"{factor:.2f}" for factor in (row["governing_margin"], *factors)]
         table.add_row(
             *map(safe, cell),
             str(row["checks_not_met"]),
             safe(governs),
-            *said,
+            *texts,
             crack,
             *([slip if row["slip_m"] is not None else "-"] if slid else []),
             style="" if row["checks_not_met"] == 0 else "red",
         )
     console.print(table)
-    print_warnings(section_warnings([joint for each in found.found for joint in each.joints], units), console)
-    met = sum(each.ok for each in found.found)
-    said_ = f"{met} of {len(found.found)} dams meet all checks ({found.found[0].joints[0].statics.criteria})"
-    console.print(f"\n[bold]Verdict[/bold]  {said_}")
+    print_warnings(section_warnings([joint for dam in grid.dams for joint in dam.joints], units), console)
+    met = sum(dam.ok for dam in grid.dams)
+    verdict = f"{met} of {len(grid.dams)} dams meet all checks ({grid.dams[0].joints[0].statics.criteria})"
+    console.print(f"\n[bold]Verdict[/bold]  {verdict}")

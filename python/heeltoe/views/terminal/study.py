@@ -48,20 +48,20 @@ def progress_text(progress: Progress) -> str:
     return f"{progress.rate:,.0f} runs/s, {duration(progress.left)} left{failed}"
 
 
-def print_study(found: Opened, console: Console, units: str = "si", *, details: bool = False) -> None:
+def print_study(study: Opened, console: Console, units: str = "si", *, details: bool = False) -> None:
     """Print the answers of a study in sentences; in detail its tables, too. Lengths are in ``"si"`` or ``"us"``."""
-    print_title(found.title, "study" if found.suite is None else "suite", console)
-    told = found.told["study"]
-    events = counted(len(found.told["events"]), "event")
+    print_title(study.title, "study" if study.suite is None else "suite", console)
+    plan = study.told["study"]
+    events = counted(len(study.told["events"]), "event")
     # A suite, or several motions of one dam, vary no field.
-    by = f"{told['method']}, {counted(len(told['vary']), 'field')}, {events}" if told["vary"] else events
-    console.print(escape(f"{found.store.count:,} runs; {by}"), style="dim", soft_wrap=True, highlight=False)
-    render(study_answer(found, units), console)
-    warnings = found.told["warnings"]
+    by = f"{plan['method']}, {counted(len(plan['vary']), 'field')}, {events}" if plan["vary"] else events
+    console.print(escape(f"{study.store.count:,} runs; {by}"), style="dim", soft_wrap=True, highlight=False)
+    render(study_answer(study, units), console)
+    warnings = study.told["warnings"]
     if not details:
         Screen(console).add_warnings(warnings, "distributions, fragility, measures of strength and sensitivity")
         return
-    render(study_sections(found, units), console)
+    render(study_sections(study, units), console)
     print_warnings(warnings, console)
 
 

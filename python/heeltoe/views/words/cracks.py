@@ -17,7 +17,7 @@ def crack_rows(response: Response, units: str) -> list[list[str]]:
         mark = " (leads)" if place == response.asked else ""
         slips = (crack.residual_slip_m, crack.peak_slip_downstream_m, -crack.peak_slip_upstream_m)
         openings = (crack.opening_upstream_m, crack.opening_downstream_m)
-        amounts = [*(Amount(slip, "slip") for slip in slips), *(Amount(each, "opening") for each in openings)]
+        amounts = [*(Amount(slip, "slip") for slip in slips), *(Amount(opening, "opening") for opening in openings)]
         cells.append([f"{at}{mark}", *amounts])
     rows = in_one_unit(cells, units)
     return [[*row, str(crack.impacts)] for crack, row in zip(response.cracks, rows, strict=True)]

@@ -95,8 +95,8 @@ def _name(path: str) -> str:
 def _add(largest: dict[str, float], value: Any, name: str) -> None:
     """Note how large each quantity in a value is."""
     if isinstance(value, list | dict):
-        for each in value.values() if isinstance(value, dict) else value:
-            _add(largest, each, name)
+        for item in value.values() if isinstance(value, dict) else value:
+            _add(largest, item, name)
     match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
     if match and match[2] in UNITS:
         kind, number = _kind(float(match[1]), match[2], name)
@@ -129,7 +129,7 @@ def _written(value: Any, name: str, units: str, largest: Mapping[str, float]) ->
         more = f" and {len(value) - _MOST_ITEMS} more" if len(value) > _MOST_ITEMS else ""
         return ", ".join(items) + more
     if isinstance(value, dict):
-        return ", ".join(f"{key} {inner(each)}" for key, each in value.items() if each is not None)
+        return ", ".join(f"{key} {inner(item)}" for key, item in value.items() if item is not None)
     if isinstance(value, float):
         return _number(value)
     match = _QUANTITY.fullmatch(str(value))
@@ -150,7 +150,7 @@ def _quantity(number: float, unit: str, name: str, units: str, largest: Mapping[
     steps = _SI.get(kind)
     if steps is None or not largest[kind]:
         return f"{_number(number)} {_UNITS.get(unit, unit)}"
-    step, unit = next((each for each in steps if largest[kind] >= _ENOUGH.get(each[1], 1.0) * each[0]), steps[-1])
+    step, unit = next((step for step in steps if largest[kind] >= _ENOUGH.get(step[1], 1.0) * step[0]), steps[-1])
     return f"{_number(value / step if step >= 1.0 else value * round(1.0 / step))} {unit}"
 
 

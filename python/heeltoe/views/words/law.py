@@ -26,32 +26,32 @@ def law_lines(response: Response, units: str) -> list[tuple[str, str]]:
     return lines if rough is None else [*lines, ("rough crack", roughness_line(rough, units))]
 
 
-def roughness_line(found: Mapping[str, Any], units: str) -> str:
+def roughness_line(quantities: Mapping[str, Any], units: str) -> str:
     """Say how far a rough crack has dilated, how worn it is, and what its friction was before and is after."""
     text = (
         "dilated by {peak_dilation_m:.3g mm} at most, {residual_dilation_m:.3g mm} in the end; the flanks wore from "
-        f"{math.degrees(found['asperity_angle_before_rad']):.3g} to "
-        f"{math.degrees(found['asperity_angle_after_rad']):.3g} degrees; the apparent friction is "
+        f"{math.degrees(quantities['asperity_angle_before_rad']):.3g} to "
+        f"{math.degrees(quantities['asperity_angle_after_rad']):.3g} degrees; the apparent friction is "
         "{apparent_friction_after:.4g}, before {apparent_friction_before:.4g}"
     )
-    return written(text, units, **found)
+    return written(text, units, **quantities)
 
 
-def law_line(found: Mapping[str, Any], units: str) -> str:
+def law_line(quantities: Mapping[str, Any], units: str) -> str:
     """Say how far the crack has slipped, and what its friction was before and is after."""
     text = (
         "{name}; after {slip_path_m:.4g mm} of slip, to and fro, the apparent friction is "
         "{apparent_friction_after:.4g}, before {apparent_friction_before:.4g}, under {normal_stress_pa:.3g MPa}"
     )
-    if found["cohesion_left_pa"] is not None:
+    if quantities["cohesion_left_pa"] is not None:
         text += "; {cohesion_left_pa:.3g MPa} of cohesion is left"
-    if "slip_path_range_m" in found:
+    if "slip_path_range_m" in quantities:
         names = ("slip_path_range_m", "apparent_friction_before_range", "apparent_friction_after_range")
-        ends = {f"{name}_{k}": found[name][k] for name in names for k in (0, 1)}
+        ends = {f"{name}_{k}": quantities[name][k] for name in names for k in (0, 1)}
         text += (
             "; along the crack {slip_path_range_m_0:.4g mm} to {slip_path_range_m_1:.4g mm} of slip, friction "
             "{apparent_friction_before_range_0:.3g} to {apparent_friction_before_range_1:.3g} before, "
             "{apparent_friction_after_range_0:.3g} to {apparent_friction_after_range_1:.3g} after"
         )
-        found = {**found, **ends}
-    return written(text, units, **found)
+        quantities = {**quantities, **ends}
+    return written(text, units, **quantities)

@@ -72,13 +72,13 @@ class Numbers:
 
     def raw(self, key: str) -> Any:
         """Return what stands in the JSON under a path; None where there is nothing."""
-        found: Any = self.data
+        data: Any = self.data
         for name in key.split("."):
-            if isinstance(found, list) and name.isdigit():
-                found = found[int(name)] if int(name) < len(found) else None
+            if isinstance(data, list) and name.isdigit():
+                data = data[int(name)] if int(name) < len(data) else None
             else:
-                found = found.get(name) if isinstance(found, Mapping) else None
-        return found
+                data = data.get(name) if isinstance(data, Mapping) else None
+        return data
 
     def __call__(self, key: str, quantity: str | None = None, *, sign: float = 1.0) -> Value | str:
         """Return a number with its unit; a dash where there is none.
@@ -104,9 +104,9 @@ class Numbers:
 
     def alike(self, values: Sequence[Value]) -> list[Value]:
         """Return numbers of one quantity in one unit, that of the largest, where they were written in several."""
-        texts, shown = [each.text for each in values], [each.shown for each in values]
+        texts, shown = [amount.text for amount in values], [amount.shown for amount in values]
         written = one_unit(texts, shown, values[0].quantity, self.units.name)
-        return [replace(each, text=text) for each, text in zip(values, written, strict=True)]
+        return [replace(amount, text=text) for amount, text in zip(values, written, strict=True)]
 
     def text(self, number: float, quantity: str) -> str:
         """Write a number in SI as people read it, in the report's units."""
@@ -187,12 +187,12 @@ def in_one_unit(rows: Iterable[Sequence[Cell]], units: str) -> list[list[str]]:
     for part in (part for row in table for cell in row for part in cell):
         if isinstance(part, Amount) and part.value and math.isfinite(part.value):
             amounts.setdefault(part.quantity, {})[part] = part.text(units)
-    said: dict[Amount, str] = {}
-    for quantity, found in amounts.items():
-        values = [part.value or 0.0 for part in found]
-        said |= zip(found, one_unit(list(found.values()), values, quantity, units), strict=True)
+    texts: dict[Amount, str] = {}
+    for quantity, group in amounts.items():
+        values = [part.value or 0.0 for part in group]
+        texts |= zip(group, one_unit(list(group.values()), values, quantity, units), strict=True)
 
     def text(part: str | Amount) -> str:
-        return part if isinstance(part, str) else said.get(part, "-" if part.value is None else part.zero)
+        return part if isinstance(part, str) else texts.get(part, "-" if part.value is None else part.zero)
 
     return [["".join(map(text, cell)) for cell in row] for row in table]

@@ -14,11 +14,11 @@ COLUMNS = ("motion", "peak", "slip in it", "slip after it", "opens upstream", "a
 
 def part_lines(motion: GroundMotion, gravity: float) -> Iterator[str]:
     """Walk the motions of a sequence: name, peak, from when to when, and what was done to each."""
-    for number, each in enumerate(motion.parts, 1):
+    for number, part in enumerate(motion.parts, 1):
         yield "; ".join(
             (
-                f"{number} {plain(each.name)}: {each.pga / gravity:.4g} g, {each.begins:.4g} to {each.ends:.4g} s",
-                *map(plain, each.processing),
+                f"{number} {plain(part.name)}: {part.pga / gravity:.4g} g, {part.begins:.4g} to {part.ends:.4g} s",
+                *map(plain, part.processing),
             )
         )
 
@@ -26,16 +26,16 @@ def part_lines(motion: GroundMotion, gravity: float) -> Iterator[str]:
 def sequence_rows(response: Response, units: str) -> list[list[str]]:
     """Return the rows of :data:`COLUMNS`; slips are positive downstream."""
     rows: list[tuple[Cell, ...]] = []
-    for number, each in enumerate(response.sequence, 1):
+    for number, stage in enumerate(response.sequence, 1):
         rows.append(
             (
-                f"{number} ({each.begins_s:.4g} s)",
-                f"{each.pga_g:.3g} g",
-                Amount(each.slip_m),
-                Amount(each.residual_slip_m),
-                Amount(each.opening_upstream_m, "opening"),
-                "yes" if each.at_rest else "no",
-                "met" if each.static["ok"] else f"{len(each.static['missed'])} not met",
+                f"{number} ({stage.begins_s:.4g} s)",
+                f"{stage.pga_g:.3g} g",
+                Amount(stage.slip_m),
+                Amount(stage.residual_slip_m),
+                Amount(stage.opening_upstream_m, "opening"),
+                "yes" if stage.at_rest else "no",
+                "met" if stage.static["ok"] else f"{len(stage.static['missed'])} not met",
             )
         )
     return in_one_unit(rows, units)

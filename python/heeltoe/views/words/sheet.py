@@ -72,24 +72,24 @@ class Lines:
     rows: tuple[tuple[str, ...], ...]
 
 
-def lines(found: LoadCase, units: str, about: str = "heel") -> Lines:
+def lines(load_case: LoadCase, units: str, about: str = "heel") -> Lines:
     """Return the forces with arms and moments about the heel or the toe of the contact; those without effect are left
     out."""
-    sheet, to = found.sheet(about), sheet_units(units)
+    sheet, to = load_case.sheet(about), sheet_units(units)
     length, force, moment, _ = to.names
     acting = [line for line in sheet.lines if line.horizontal_n or line.vertical_n or line.moment_nm]
     # What has pieces is taken piece by piece: the rows add up to the sum.
-    shown = [each for line in acting for each in line.parts or (line,)]
+    shown = [force_line for line in acting for force_line in line.parts or (line,)]
     every = [*shown, sheet.sum]
-    pushes = _column([each for line in every for each in (line.horizontal_n, line.vertical_n)], to.force)
-    arms = _column([each for line in shown for each in (line.height_m, line.distance_m)], to.length)
+    pushes = _column([component for line in every for component in (line.horizontal_n, line.vertical_n)], to.force)
+    arms = _column([arm for line in shown for arm in (line.height_m, line.distance_m)], to.length)
     turns = _column([line.moment_nm for line in every], to.moment)
     columns = (pushes, arms, pushes, arms, turns)
     rows = [
         (
             line.name,
             *(column(value) for column, value in zip(columns, _numbers(line), strict=True)),
-            _from(found, line, units),
+            _from(load_case, line, units),
         )
         for line in shown
     ]
@@ -111,15 +111,15 @@ def _numbers(line: ForceLine) -> tuple[float | None, ...]:
     return line.horizontal_n, line.height_m, line.vertical_n, line.distance_m, line.moment_nm
 
 
-def _from(found: LoadCase, line: ForceLine, units: str) -> str:
+def _from(load_case: LoadCase, line: ForceLine, units: str) -> str:
     """Say where a force comes from; of the water in the crack its pressures, which a checker integrates."""
-    said = line.source.text(units)
-    points = list(dict.fromkeys(found.pressures))
+    words = line.source.text(units)
+    points = list(dict.fromkeys(load_case.pressures))
     if line.name != "uplift" or len(points) > _MOST_POINTS:
-        return said
+        return words
     to = sheet_units(units)
     listed = ", ".join(f"{_say(p / to.stress, 5)} at {_say(x / to.length, 5)}" for x, p in points)
-    return f"{said}: {listed}, in {to.names[3]} and {to.names[0]} from the heel of the crack"
+    return f"{words}: {listed}, in {to.names[3]} and {to.names[0]} from the heel of the crack"
 
 
 def _column(values: Sequence[float | None], unit: float) -> Callable[[float | None], str]:
@@ -172,25 +172,25 @@ class Step:
     met: bool | None = None
 
 
-def steps(found: LoadCase, checks: Sequence[Check], units: str) -> tuple[Step, ...]:
+def steps(load_case: LoadCase, checks: Sequence[Check], units: str) -> tuple[Step, ...]:
     """Return the steps from the sums of the sheet to the factors, with what is required of each."""
-    return _Steps(found, checks, units).all()
+    return _Steps(load_case, checks, units).all()
 
 
 class _Steps:
     """Writes the steps of one load case."""
 
-    def __init__(self, found: LoadCase, checks: Sequence[Check], units: str) -> None:
-        self.found, self.to = found, sheet_units(units)
+    def __init__(self, load_case: LoadCase, checks: Sequence[Check], units: str) -> None:
+        self.load_case, self.to = load_case, sheet_units(units)
         self.length, self.force, self.moment, self.stress = self.to.names
         self.units = units
-        self.checks = {check.name: check for check in checks if check.load_case == found.name}
-        self.sum = found.sheet().sum
-        (x0, z0), (x1, z1) = found.ends_m
+        self.checks = {check.name: check for check in checks if check.load_case == load_case.name}
+        self.sum = load_case.sheet().sum
+        (x0, z0), (x1, z1) = load_case.ends_m
         self.angle = math.atan2(z1 - z0, x1 - x0)
-        self.normal = found.normal_force_n / self.to.force
-        self.shear = found.shear_force_n / self.to.force
-        self.width = found.contact_width_m / self.to.length
+        self.normal = load_case.normal_force_n / self.to.force
+        self.shear = load_case.shear_force_n / self.to.force
+        self.width = load_case.contact_width_m / self.to.length
 
     def all(self) -> tuple[Step, ...]:
         """Return all steps that the load case has."""
@@ -202,7 +202,7 @@ class _Steps:
         return ("", None) if check is None else (check_cells(check)[3].replace("-", ""), check.met)
 
     def _sums(self) -> list[Step]:
-        across, up = (each / self.to.force for each in (self.sum.horizontal_n, self.sum.vertical_n))
+        across, up = (component / self.to.force for component in (self.sum.horizontal_n, self.sum.vertical_n))
         normal, shear = _say(self.normal), _say(self.shear)
         if abs(math.sin(self.angle)) < 1e-12:
             return [
@@ -226,13 +226,13 @@ class _Steps:
         ]
 
     def _position(self) -> list[Step]:
-        found = self.found
+        load_case = self.load_case
         limit, met = self._judged("resultant")
-        if found.resultant_from_heel_m is None or found.eccentricity_m is None:
+        if load_case.resultant_from_heel_m is None or load_case.eccentricity_m is None:
             return [Step("resultant", "x = −ΣM / N", "N is not positive", "none", limit, met)]
         moment = self.sum.moment_nm / self.to.moment
-        place = (found.resultant_from_heel_m - found.contact_from_m) / self.to.length
-        away = found.eccentricity_m / self.to.length
+        place = (load_case.resultant_from_heel_m - load_case.contact_from_m) / self.to.length
+        away = load_case.eccentricity_m / self.to.length
         share = abs(away) / self.width
         return [
             Step(
@@ -251,18 +251,27 @@ class _Steps:
         ]
 
     def _stresses(self) -> list[Step]:
-        found = self.found
+        load_case = self.load_case
         stands = self.checks.get("equilibrium")
         met = None if stands is None else stands.met
-        if found.heel_stress_pa is None or found.toe_stress_pa is None or found.resultant_from_heel_m is None:
-            return [Step("state of the crack", "stress at the tip", "no length of it holds", found.outcome, "", met)]
-        open_, closed = found.cracked_length_m / self.to.length, self.width - found.cracked_length_m / self.to.length
-        from_heel = found.cracked_from == "heel"
-        place = (found.resultant_from_heel_m - found.contact_from_m) / self.to.length
+        if (
+            load_case.heel_stress_pa is None
+            or load_case.toe_stress_pa is None
+            or load_case.resultant_from_heel_m is None
+        ):
+            return [
+                Step("state of the crack", "stress at the tip", "no length of it holds", load_case.outcome, "", met)
+            ]
+        open_, closed = (
+            load_case.cracked_length_m / self.to.length,
+            self.width - load_case.cracked_length_m / self.to.length,
+        )
+        from_heel = load_case.cracked_from == "heel"
+        place = (load_case.resultant_from_heel_m - load_case.contact_from_m) / self.to.length
         middle = (open_ if from_heel else 0.0) + closed / 2.0
         away = place - middle
         made = []
-        how = "nothing opens" if not open_ else f"from the {found.cracked_from}, {found.iterations} iterations"
+        how = "nothing opens" if not open_ else f"from the {load_case.cracked_from}, {load_case.iterations} iterations"
         made.append(Step("crack open", "c, where its tip holds", how, f"{_say(open_)} {self.length}", "", met))
         made.append(
             Step("length closed", "L = B − c", f"{_say(self.width)} − {_say(open_)}", f"{_say(closed)} {self.length}")
@@ -274,12 +283,12 @@ class _Steps:
         made.append(Step("from the middle of L", formula, shift, f"{_say(away)} {self.length}"))
         limit, met = self._judged("compression")
         for name, sign, value in (
-            ("stress at the heel" if not (open_ and from_heel) else "stress at the tip", "−", found.heel_stress_pa),
-            ("stress at the toe" if from_heel or not open_ else "stress at the tip", "+", found.toe_stress_pa),
+            ("stress at the heel" if not (open_ and from_heel) else "stress at the tip", "−", load_case.heel_stress_pa),
+            ("stress at the toe" if from_heel or not open_ else "stress at the tip", "+", load_case.toe_stress_pa),
         ):
-            governs = value == max(found.heel_stress_pa, found.toe_stress_pa)
+            governs = value == max(load_case.heel_stress_pa, load_case.toe_stress_pa)
             # What is left of a tip at zero is rounding.
-            shown = 0.0 if abs(value) < 1e-9 * abs(found.normal_force_n) / found.contact_width_m else value
+            shown = 0.0 if abs(value) < 1e-9 * abs(load_case.normal_force_n) / load_case.contact_width_m else value
             made.append(
                 Step(
                     name,
@@ -296,50 +305,58 @@ class _Steps:
         return text if self.units != "us" else f"{text} = {_say(value / _PSI, 4)} psi"
 
     def _sliding(self) -> list[Step]:
-        found = self.found
+        load_case = self.load_case
         limit, met = self._judged("sliding factor")
-        if found.sliding_factor is None:
+        if load_case.sliding_factor is None:
             return [Step("sliding", "F = μ N / |T|", "T is zero", "none", limit, met)]
-        cohesive = found.cohesive_force_n / self.to.force
-        held = f"{found.friction:g} · {_say(max(0.0, self.normal))}"
+        cohesive = load_case.cohesive_force_n / self.to.force
+        held = f"{load_case.friction:g} · {_say(max(0.0, self.normal))}"
         formula, worked = "F = μ N / |T|", f"{held} / {_say(abs(self.shear))}"
         if cohesive:
             formula, worked = "F = (C + μ N) / |T|", f"({_say(cohesive)} + {held}) / {_say(abs(self.shear))}"
-        if found.sliding_factor_on_pieces is None:
-            return [Step("sliding", formula, worked, f"{found.sliding_factor:.4f}", limit, met)]
-        borne = found.sliding_factor_on_pieces * abs(self.shear)
-        less = found.pieces_bear == "less"
+        if load_case.sliding_factor_on_pieces is None:
+            return [Step("sliding", formula, worked, f"{load_case.sliding_factor:.4f}", limit, met)]
+        borne = load_case.sliding_factor_on_pieces * abs(self.shear)
+        less = load_case.pieces_bear == "less"
         judged, idle = (limit, met), ("", None)
         by_pieces = ("F = T_p / |T|, T_p what they bear", f"{_say(borne)} / {_say(abs(self.shear))}")
         return [
-            Step("sliding, straight line", formula, worked, f"{along_line(found):.4f}", *(idle if less else judged)),
+            Step(
+                "sliding, straight line", formula, worked, f"{along_line(load_case):.4f}", *(idle if less else judged)
+            ),
             Step(
                 "sliding, on its pieces",
                 *by_pieces,
-                f"{found.sliding_factor_on_pieces:.4f}",
+                f"{load_case.sliding_factor_on_pieces:.4f}",
                 *(judged if less else idle),
             ),
         ]
 
     def _overturning(self) -> Step:
-        found = self.found
-        about = found.overturning_about
+        load_case = self.load_case
+        about = load_case.overturning_about
         sign = 1.0 if about == "toe" else -1.0
-        moments = [sign * line.moment_nm / self.to.moment for line in found.sheet(about).lines]
-        holds, turns = math.fsum(max(0.0, each) for each in moments), -math.fsum(min(0.0, each) for each in moments)
+        moments = [sign * line.moment_nm / self.to.moment for line in load_case.sheet(about).lines]
+        holds, turns = (
+            math.fsum(max(0.0, moment) for moment in moments),
+            -math.fsum(min(0.0, moment) for moment in moments),
+        )
         formula = f"ΣM hold / ΣM turn, about {about}"
-        if found.overturning_factor is None:
+        if load_case.overturning_factor is None:
             return Step("overturning", formula, "nothing turns it", "none")
-        return Step("overturning", formula, f"{_say(holds)} / {_say(turns)}", f"{found.overturning_factor:.4f}")
+        return Step("overturning", formula, f"{_say(holds)} / {_say(turns)}", f"{load_case.overturning_factor:.4f}")
 
     def _flotation(self) -> Step:
         limit, met = self._judged("flotation factor")
         across = [
             (line.vertical_n * math.cos(self.angle) - line.horizontal_n * math.sin(self.angle)) / self.to.force
-            for line in self.found.sheet().lines
+            for line in self.load_case.sheet().lines
         ]
-        down, up = -math.fsum(min(0.0, each) for each in across), math.fsum(max(0.0, each) for each in across)
-        if self.found.flotation_factor is None:
+        down, up = (
+            -math.fsum(min(0.0, component) for component in across),
+            math.fsum(max(0.0, component) for component in across),
+        )
+        if self.load_case.flotation_factor is None:
             return Step("flotation", "ΣV down / ΣV up", "nothing lifts it", "none", limit, met)
         worked = f"{_say(down)} / {_say(up)}"
-        return Step("flotation", "ΣV down / ΣV up", worked, f"{self.found.flotation_factor:.4f}", limit, met)
+        return Step("flotation", "ΣV down / ΣV up", worked, f"{self.load_case.flotation_factor:.4f}", limit, met)

@@ -16,16 +16,22 @@ def spread_rows(response: Response, units: str) -> list[list[str]]:
     spread = response.spread
     assert spread is not None
     rows: list[list[Cell]] = []
-    for each in HEADLINES:
-        found = spread[each.key]
-        if found is None:
+    for headline in HEADLINES:
+        statistics = spread[headline.key]
+        if statistics is None:
             continue
-        values = [response.summary[each.key], found["mean"], found["std"], found["min"], found["max"]]
-        if max(map(abs, values)) < each.least:
+        values = [
+            response.summary[headline.key],
+            statistics["mean"],
+            statistics["std"],
+            statistics["min"],
+            statistics["max"],
+        ]
+        if max(map(abs, values)) < headline.least:
             continue
-        if each.way < 0:
+        if headline.way < 0:
             values = [-values[0], -values[1], values[2], -values[4], -values[3]]
-        rows.append([each.label, *(Amount(value, each.kind) for value in values)])
+        rows.append([headline.label, *(Amount(value, headline.kind) for value in values)])
     return in_one_unit(rows, units)
 
 

@@ -75,9 +75,9 @@ def starts(response: Response) -> dict[tuple[str, str], Start]:
 
 def first_starts(response: Response) -> tuple[Start, Start]:
     """Return what comes first downstream, and what upstream."""
-    found = starts(response)
+    first = starts(response)
     down, up = (
-        min((found[kind, way] for kind in ("sliding", "rocking")), key=lambda each: each.value) for way in _WAYS
+        min((first[kind, way] for kind in ("sliding", "rocking")), key=lambda start: start.value) for way in _WAYS
     )
     return down, up
 

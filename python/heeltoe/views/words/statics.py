@@ -12,17 +12,19 @@ from heeltoe.units.sentences import numbers, quantity
 from heeltoe.units.write import length
 
 
-def basis(found: Statics, units: str) -> list[tuple[str, str]]:
+def basis(statics: Statics, units: str) -> list[tuple[str, str]]:
     """Return labels and texts of what the checks rest on."""
-    critical, water = found.critical_acceleration_g, found.critical_water_level_m
-    lines = [("criteria", f"{found.criteria}, {found.structure} structure, {found.site_information} site information")]
-    bonded = any(each.cohesive_force_n for each in found.cases)
+    critical, water = statics.critical_acceleration_g, statics.critical_water_level_m
+    lines = [
+        ("criteria", f"{statics.criteria}, {statics.structure} structure, {statics.site_information} site information")
+    ]
+    bonded = any(load_case.cohesive_force_n for load_case in statics.cases)
     for kind in ("sliding", "rocking"):
         down, up = critical[f"{kind}_downstream"], critical[f"{kind}_upstream"]
         text = f"{_acceleration(down)} downstream, {_acceleration(up)} upstream"
         # A crack that slides has no cohesion in the models of the earthquake either.
         lines.append((f"{kind} starts at", f"{text}, without cohesion" if bonded and kind == "sliding" else text))
-    none = f"none up to {quantity(found.highest_water_level_m, '.2f m', units)} of water"
+    none = f"none up to {quantity(statics.highest_water_level_m, '.2f m', units)} of water"
     for key, label in (
         ("sliding", "sliding factor 1 at"),
         ("sliding_required", "sliding factor required at"),
@@ -32,36 +34,38 @@ def basis(found: Statics, units: str) -> list[tuple[str, str]]:
         level = water[key]
         depth = none if level is None else f"{quantity(level, '.2f m', units)} of water"
         lines.append((label, f"{depth}, with cohesion" if bonded and key.startswith("sliding") else depth))
-    if found.slip_m is not None:
-        lines.append(("residual slip", f"{length(found.slip_m, units)}: {found.slip_source}"))
+    if statics.slip_m is not None:
+        lines.append(("residual slip", f"{length(statics.slip_m, units)}: {statics.slip_source}"))
     return lines
 
 
 def section_warnings(joints: Sequence[Joint], units: str) -> list[str]:
     """Return every warning of some sections once, those that are not of all of them with where they are."""
-    said: dict[str, dict[float, None]] = {}
+    joints_of: dict[str, dict[float, None]] = {}
     places = dict.fromkeys(joint.elevation_m for joint in joints)
     for joint in joints:
-        for each in joint.statics.warnings:
-            said.setdefault(each.text(units), {})[joint.elevation_m] = None
+        for warning in joint.statics.warnings:
+            joints_of.setdefault(warning.text(units), {})[joint.elevation_m] = None
     return [
         text if len(of) == len(places) else f"crack at {quantity(list(of), '.5g m', units)}: {text}"
-        for text, of in said.items()
+        for text, of in joints_of.items()
     ]
 
 
-def section_rows(found: Joints, units: str) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+def section_rows(joints: Joints, units: str) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Return head and rows of a table of sections, that which governs first: where, which check governs, its margin,
     the least factors, and the longest crack."""
-    heights, unit = numbers([joint.elevation_m for joint in found.ranked], "z.2f m", units)
-    cracks = [max((each.cracked_length_m for each in joint.statics.cases), default=0.0) for joint in found.ranked]
+    heights, unit = numbers([joint.elevation_m for joint in joints.ranked], "z.2f m", units)
+    cracks = [
+        max((load_case.cracked_length_m for load_case in joint.statics.cases), default=0.0) for joint in joints.ranked
+    ]
     lengths, crack_unit = numbers(cracks, "z.2f m", units)
     head = (f"at, {unit}", "governs", "check", "margin", "sliding", "overturning", f"open, {crack_unit}", "not met")
     rows = []
-    for joint, height, reach in zip(found.ranked, heights, lengths, strict=True):
+    for joint, height, reach in zip(joints.ranked, heights, lengths, strict=True):
         worst, missed = joint.governing, sum(not check.met for check in joint.statics.checks)
         least = [
-            min((each for case in joint.statics.cases if (each := getattr(case, name)) is not None), default=None)
+            min((value for case in joint.statics.cases if (value := getattr(case, name)) is not None), default=None)
             for name in ("sliding_factor", "overturning_factor")
         ]
         rows.append(
@@ -70,7 +74,7 @@ def section_rows(found: Joints, units: str) -> tuple[tuple[str, ...], list[tuple
                 "-" if worst is None else worst.load_case,
                 "-" if worst is None else worst.name.removesuffix(" factor"),
                 "-" if worst is None or worst.margin is None else f"{worst.margin:.2f}",
-                *("-" if each is None else f"{each:.2f}" for each in least),
+                *("-" if value is None else f"{value:.2f}" for value in least),
                 reach,
                 f"{missed} of {len(joint.statics.checks)}",
             )
@@ -78,9 +82,9 @@ def section_rows(found: Joints, units: str) -> tuple[tuple[str, ...], list[tuple
     return head, rows
 
 
-def check_rows(found: Statics) -> list[tuple[tuple[str, ...], bool]]:
+def check_rows(statics: Statics) -> list[tuple[tuple[str, ...], bool]]:
     """Return the cells of each check, and whether it is met."""
-    return [(check_cells(check), check.met) for check in found.checks]
+    return [(check_cells(check), check.met) for check in statics.checks]
 
 
 def check_cells(check: Check) -> tuple[str, str, str, str]:
@@ -91,17 +95,17 @@ def check_cells(check: Check) -> tuple[str, str, str, str]:
     return check.load_case, check.name, _value(check, check.value), bound
 
 
-def verdict_of(found: Statics) -> str:
+def verdict_of(statics: Statics) -> str:
     """Say how many checks are met."""
-    count = len(found.checks)
-    missed = sum(not check.met for check in found.checks)
-    said = f"{missed} of {count} checks fail" if missed else f"all {count} checks are met"
-    return f"{said} ({found.criteria})"
+    count = len(statics.checks)
+    missed = sum(not check.met for check in statics.checks)
+    words = f"{missed} of {count} checks fail" if missed else f"all {count} checks are met"
+    return f"{words} ({statics.criteria})"
 
 
-def failed(found: Statics, units: str) -> list[str]:
+def failed(statics: Statics, units: str) -> list[str]:
     """Say what is not met."""
-    return [check.sentence.text(units) for check in found.checks if not check.met]
+    return [check.sentence.text(units) for check in statics.checks if not check.met]
 
 
 def _value(check: Check, value: float | None) -> str:

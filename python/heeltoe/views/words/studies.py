@@ -53,19 +53,19 @@ def limit_of(limit: str, value: float, units: str = "si", of: str = "") -> str:
 
 def limits_of(limits: Sequence[tuple[str, float]], units: str = "si") -> dict[tuple[str, float], str]:
     """Write the limits of one table, lengths in one unit."""
-    said = {each: limit_of(*each, units) for each in limits}
-    of_length = [each for each in said if each[0] != "rotation"]
+    texts = {limit: limit_of(*limit, units) for limit in limits}
+    of_length = [limit for limit in texts if limit[0] != "rotation"]
     amounts = lengths([value for _, value in of_length], units)
-    for each, amount in zip(of_length, amounts, strict=True):
+    for limit, amount in zip(of_length, amounts, strict=True):
         number, unit = amount.split()
-        said[each] = f"{KINDS[each[0]]} {number.rstrip('0').rstrip('.') if '.' in number else number} {unit}"
-    return said
+        texts[limit] = f"{KINDS[limit[0]]} {number.rstrip('0').rstrip('.') if '.' in number else number} {unit}"
+    return texts
 
 
-def left_out(told: dict[str, Any], units: str) -> str:
+def left_out(counts: dict[str, Any], units: str) -> str:
     """Say how many runs measures of strength are not compared by."""
     read_to = length(JOINT_METER_M, units)
-    return f"{told['at_rest']:,} that slide no {read_to} and {told['unknown']:,} without a slip left out"
+    return f"{counts['at_rest']:,} that slide no {read_to} and {counts['unknown']:,} without a slip left out"
 
 
 def strength_scale(measure: str, units: str = "si") -> Scale:
@@ -76,21 +76,21 @@ def strength_scale(measure: str, units: str = "si") -> Scale:
     return unit_system(units).scale({"m/s": "velocity", "m": "length"}[unit])
 
 
-def values_said(given: Any, units: str = "si", path: str = "") -> str:
+def values_said(values: Any, units: str = "si", path: str = "") -> str:
     """Write a list of values of a field, or a distribution, as people read it."""
     name = path.rpartition(".")[2]
-    if isinstance(given, list):
-        return ", ".join(shown_each(given, units, name))
-    there = {key.rstrip("_"): each for key, each in given.items() if each is not None}
-    told = dict(zip(there, shown_each(list(there.values()), units, name), strict=True))
-    kind = told.pop("distribution")
-    ends = [f"from {told.pop('from')} to {told.pop('to')}"] if "from" in told else []
-    return ", ".join([kind, *ends, *(f"{name} {each}" for name, each in told.items())])
+    if isinstance(values, list):
+        return ", ".join(shown_each(values, units, name))
+    options = {key.rstrip("_"): value for key, value in values.items() if value is not None}
+    texts = dict(zip(options, shown_each(list(options.values()), units, name), strict=True))
+    kind = texts.pop("distribution")
+    ends = [f"from {texts.pop('from')} to {texts.pop('to')}"] if "from" in texts else []
+    return ", ".join([kind, *ends, *(f"{name} {text}" for name, text in texts.items())])
 
 
 def ends_of(field: dict[str, Any], units: str) -> list[tuple[float, str]]:
     """Return the least and the largest slip [m] that values of a field make, and those values as people read them."""
     ends = sorted(field["values"], key=lambda end: float(end["demand"]))
     least, *_, most = [ends[0], *ends]
-    texts = shown_each([str(each["value"]) for each in (least, most)], units, field["name"].rpartition(".")[2])
-    return [(float(each["demand"]), text) for each, text in zip((least, most), texts, strict=True)]
+    texts = shown_each([str(end["value"]) for end in (least, most)], units, field["name"].rpartition(".")[2])
+    return [(float(end["demand"]), text) for end, text in zip((least, most), texts, strict=True)]

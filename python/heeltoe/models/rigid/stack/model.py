@@ -94,7 +94,7 @@ def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None
 def walk_two_blocks(case: Case, shaking: Shaking, moments: Floats | None = None) -> tuple[list[Block], StackRun]:
     """Return the block above each crack, from the crest down, and what the kernel makes of them, which counts from the
     ground up. `moments` are those of the histories [s]; none without them."""
-    blocks = [build_block(each) for each in case.single_crack_cases]
+    blocks = [build_block(alone) for alone in case.single_crack_cases]
     upper, lower = blocks
     numbers, wanted = (lower.parameters(), upper.parameters()), np.empty(0) if moments is None else moments
     return blocks, run_stack(numbers, place_of(lower, upper), shaking, wanted, limits_of(case))
@@ -127,10 +127,10 @@ def _advice(blocks: list[Block], run: StackRun, outcome: str, asked: int) -> Sen
         )
     else:
         place = asked
-    said = advice_of(blocks[place], run.cracks[1 - place], outcome)
-    if said is None or outcome not in ADVICE:
-        return said
-    return Sentence.of("at the crack at {at_m:g m}: {said}", at_m=_elevation(blocks[place]), said=said)
+    advice = advice_of(blocks[place], run.cracks[1 - place], outcome)
+    if advice is None or outcome not in ADVICE:
+        return advice
+    return Sentence.of("at the crack at {at_m:g m}: {said}", at_m=_elevation(blocks[place]), said=advice)
 
 
 def _elevation(block: Block) -> float:
@@ -140,7 +140,7 @@ def _elevation(block: Block) -> float:
 
 def _warnings(blocks: list[Block], run: StackRun) -> tuple[Notice, ...]:
     """Return what a reader must know, of either crack, each thing once."""
-    said: list[Notice] = []
+    notices: list[Notice] = []
     for place, block in enumerate(blocks):
-        said += [each for each in warnings_of(block.case, block, run.cracks[1 - place]) if each not in said]
-    return tuple(said)
+        notices += [notice for notice in warnings_of(block.case, block, run.cracks[1 - place]) if notice not in notices]
+    return tuple(notices)
