@@ -9,7 +9,7 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
     "record-empty": ("is empty", "give a file with a record"),
     "record-binary": ("is not a text file", "give the record as text"),
     "record-format": (
-        "is in no format that is known (it starts with {value})",
+        "is in no known format (it starts with {value})",
         "give a corrected record in a format of `heeltoe motion --help`, two columns (time, acceleration) or one",
     ),
     "record-format-later": ("is in {value} format, which is not read", "give the corrected record"),

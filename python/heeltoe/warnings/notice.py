@@ -151,7 +151,7 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "slip-in-the-air": (
         "caution",
         "crack.restitution",
-        "most of the slip, {slip_m:.4g mm}, happens in the air after blows that rebound by crack.restitution = "
+        "most of the slip, {slip_m:.4g mm}, happens in the air after impacts with crack.restitution = "
         "{restitution:g}: compare with 0, which may leave a small part of it",
     ),
     "restitution-decides": (
@@ -271,7 +271,7 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "tension-unjudged": (
         "caution",
         "concrete.tensile_strength",
-        "a tension of {stress_pa:.3g MPa} in the concrete is held against nothing: give {field} to have it judged",
+        "a tension of {stress_pa:.3g MPa} in the concrete is compared with no strength: give {field}",
     ),
     "tension-before": (
         "grave",

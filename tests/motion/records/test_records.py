@@ -164,7 +164,7 @@ def test_unequal_steps_are_welcome():
         ("", {}, "is empty"),
         ("  \n \n", {}, "is empty"),
         ("\x00\x01\x02", {}, "not a text file"),
-        ("hello world\nthis is prose\n", {}, "no format that is known"),
+        ("hello world\nthis is prose\n", {}, "no known format"),
         ("0 0.1 3\n0.01 0.2 3\n", {}, "has 3 columns of numbers"),
         (
             "0 0.1\n0.01 0.2\n",

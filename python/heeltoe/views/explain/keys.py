@@ -110,7 +110,10 @@ def keys_of_the_json() -> Iterator[Meaning]:
         parts = tuple(key for key in meanings if re.fullmatch(rf"{re.escape(name)}(\[\])?\.[^.]+", key))
         unit = units.get(name) or unit_of(name)
         text = text.replace(f" [{unit}]", "") if unit else text
-        where = ", ".join(dict.fromkeys(places[name]))
+        # What every run writes need not be named again for one model.
+        always = _RUN in places[name]
+        homes = [home for home in dict.fromkeys(places[name]) if not (always and home.startswith(f"{_RUN}, "))]
+        where = ", ".join(homes)
         yield Meaning(name, "key of the JSON", text, unit, found_in=where, page=page_of(name, ""), parts=parts)
 
 

@@ -102,7 +102,7 @@ def print_overturning(overturning: OverturningMap, console: Console, dam: str = 
     if dam:
         grid.add_row("dam", dam)
     p, slenderness = overturning.frequency_parameter_1_s, overturning.slenderness_rad
-    grid.add_row("block", f"slenderness {slenderness:.4g} rad, p = {p:.4g} 1/s")
+    grid.add_row("block", f"slenderness {slenderness:.4g} rad, frequency parameter {p:.4g} rad/s")
     low, high = overturning.frequency_hz[0], overturning.frequency_hz[-1]
     sizes = f"{overturning.amplitude_g[0]:.3g} to {overturning.amplitude_g[-1]:.3g} g"
     grid.add_row("pulses", f"one {overturning.pulse}, {low:.3g} to {high:.3g} Hz, {sizes}: {overturning.end.size} runs")
@@ -119,10 +119,10 @@ def print_overturning(overturning: OverturningMap, console: Console, dam: str = 
         gaps = overturning.safe_gap()
         widest = max(gaps, key=lambda gap: gap[2] - gap[1], default=None)
         text = (
-            "none: every pulse that overturns it is weaker than every pulse that it withstands"
+            "none: at each frequency, every pulse that overturns it is stronger than all that do not"
             if widest is None
-            else f"widest at {widest[0]:.3g} Hz: it stands {widest[1]:.3g} to {widest[2]:.3g} g, though weaker ones "
-            "overturn it"
+            else f"widest at {widest[0]:.3g} Hz: pulses of {widest[1]:.3g} to {widest[2]:.3g} g do not overturn it, "
+            "though weaker ones do"
         )
         grid.add_row("safe gap", text)
     console.print(grid)

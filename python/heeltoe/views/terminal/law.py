@@ -29,7 +29,9 @@ def print_law(curve: LawCurve, console: Console, units: str = "si") -> None:
     grid = label_grid()
     stress = written("{stress_pa:.3g MPa}", units, stress_pa=curve.normal_stress_pa)
     grid.add_row("before any slip", f"{curve.at_rest:.4g} under a normal stress of {stress}")
-    grid.add_row("sliding", f"{curve.friction[0]:.4g} at the left of the curve, {curve.friction[-1]:.4g} at its right")
+    first, last = (f"{friction:.4g}" for friction in (curve.friction[0], curve.friction[-1]))
+    steady = float(np.ptp(curve.friction)) == 0.0
+    grid.add_row("sliding", first if steady else f"{first} at the left end of the curve, {last} at its right end")
     for source in curve.references:
         grid.add_row("source", source)
     console.print(grid)

@@ -177,17 +177,17 @@ class Screen:
     def add_warnings(self, texts: Sequence[str], more: str) -> None:
         """Print warnings, the most important first, whole or a line each as there is room, and where the rest is."""
         rows = [Text.assemble(("warning", "yellow"), "  ", text) for text in texts]
-        needed, left = sum(map(self.lines, rows)), 0
+        needed, rest = sum(map(self.lines, rows)), ""
         if needed > self.left:
             room = max(1, self.left)
             left = max(0, len(rows) - room)
             rows = [_clipped(row, self.console.width) for row in rows[:room]]
+            rest = f"{left} more warning{'s' if left > 1 else ''}, " if left else "the warnings in full, "
         elif 0 < needed < self.left:
             self.add(Text(""))
         for row in rows:
             self.add(row)
-        warnings = f"{left} more warning{'s' if left > 1 else ''}, " if left else ""
-        print_more(self.console, f"{warnings}{more}")
+        print_more(self.console, f"{rest}{more}")
 
 
 def _clipped(row: Text, width: int) -> Text:
