@@ -151,7 +151,7 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "slip-in-the-air": (
         "caution",
         "crack.restitution",
-        "most of the slip, {slip_m:.4g mm}, happens in the air after impacts with crack.restitution = "
+        "most of the slip, {slip_m:.4g mm}, happens in the air after rebounds with crack.restitution = "
         "{restitution:g}: compare with 0, which may leave a small part of it",
     ),
     "restitution-decides": (
