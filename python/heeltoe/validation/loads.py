@@ -11,7 +11,7 @@ from heeltoe.mechanics.loads import reservoir_pressure, uplift
 from heeltoe.mechanics.virtual_water import virtual_mass
 from heeltoe.models.run import rigid
 from heeltoe.validation.row import Row
-from heeltoe.validation.sources import ENDS_WITH_MOTION
+from heeltoe.validation.sources import ENDS_WITH_MOTION, TYPICAL_SECTION
 
 _G, _WATER, _CONCRETE = 9.81, 1000.0, 2650.0
 _WIDTH, _DEPTH = 80.0, 90.0
@@ -59,13 +59,7 @@ def _typical(**more: object) -> Case:
     return read_case(
         {
             "gravity": f"{_G} m/s^2",
-            "section": {
-                "height": "100 m",
-                "crest_width": "8 m",
-                "neck_height": "90 m",
-                "neck_width": "8 m",
-                "base_width": f"{_WIDTH} m",
-            },
+            "section": TYPICAL_SECTION,
             "concrete": {"density": f"{_CONCRETE} kg/m^3"},
             "crack": {"friction": 1.0},
             "reservoir": {"depth": f"{_DEPTH} m"},

@@ -9,7 +9,7 @@ from heeltoe.case.read import read_case
 from heeltoe.models.run import flexible
 from heeltoe.result.response import Response
 from heeltoe.validation.row import Row
-from heeltoe.validation.sources import ENDS_WITH_MOTION
+from heeltoe.validation.sources import ENDS_WITH_MOTION, TYPICAL_SECTION
 from heeltoe.validation.thesis_dams import record_named
 
 _G = 9.81
@@ -67,13 +67,7 @@ def _case(elevation: float, depth: float, step: float, options: dict[str, str | 
     return read_case(
         {
             "gravity": f"{_G} m/s^2",
-            "section": {
-                "height": "100 m",
-                "crest_width": "8 m",
-                "neck_height": "90 m",
-                "neck_width": "8 m",
-                "base_width": "80 m",
-            },
+            "section": TYPICAL_SECTION,
             "concrete": {"density": "2650 kg/m^3", "modulus": "20 GPa", "poisson": 0.143},
             "crack": {"elevation": f"{elevation} m", "friction": 1.2 if elevation == 0.0 else 1.0},
             "reservoir": {"depth": f"{depth} m"},

@@ -9,6 +9,14 @@ from heeltoe.validation.row import Kind, Row
 
 #: What the case of a reference says where the reference ends with its ground motion, whether all is at rest or not.
 ENDS_WITH_MOTION: dict[str, Any] = {"analysis": {"silence": "0 s"}}
+#: Section of the typical dam of Zhu (2004).
+TYPICAL_SECTION = {
+    "height": "100 m",
+    "crest_width": "8 m",
+    "neck_height": "90 m",
+    "neck_width": "8 m",
+    "base_width": "80 m",
+}
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from heeltoe.motion.records import read_record
 from heeltoe.motion.records.catalog import find
 from heeltoe.result.response import Response
 from heeltoe.validation.row import Row, Skipped
-from heeltoe.validation.sources import ENDS_WITH_MOTION
+from heeltoe.validation.sources import ENDS_WITH_MOTION, TYPICAL_SECTION
 
 _G = 9.81
 _DEPTHS = (90.0, 95.0, 100.0)
@@ -133,13 +133,7 @@ def _typical(depth: float, friction: float) -> Case:
         {
             "title": f"Typical dam, friction {friction:g}, {depth:g} m of water",
             "gravity": f"{_G} m/s^2",
-            "section": {
-                "height": "100 m",
-                "crest_width": "8 m",
-                "neck_height": "90 m",
-                "neck_width": "8 m",
-                "base_width": "80 m",
-            },
+            "section": TYPICAL_SECTION,
             "concrete": {"density": "2650 kg/m^3"},
             "crack": {"friction": friction},
             "reservoir": {"depth": f"{depth} m", "virtual_mass_rotates": False},

@@ -19,11 +19,6 @@ if TYPE_CHECKING:
 _STEEPEST = math.radians(60.0)
 
 
-def any_kinks(case: Case) -> bool:
-    """Whether a crack of a case is not straight."""
-    return bool(case.crack.kinks or any(crack.kinks for crack in case.further_cracks))
-
-
 def kinks_misfit(alone: Case, crack: str) -> InputError | None:
     """Return what is wrong with the kinks of a crack in its section, of the case with it `alone`."""
     section, kinks, field = alone.cut, alone.crack.kinks, f"{crack}.kinks"

@@ -15,6 +15,7 @@ from heeltoe.models.flexible.mesh.kinks import angles
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake, flexible, rigid
 from heeltoe.validation.row import Row
+from heeltoe.validation.sources import TYPICAL_SECTION
 
 _G = 9.80665
 _UNSHAKEN_AFTER = {"silence": "0 s"}
@@ -217,13 +218,7 @@ def _laws_of_slabs() -> Iterator[Row]:
 def _bonded_base() -> Iterator[Row]:
     case = read_case(
         {
-            "section": {
-                "height": "100 m",
-                "crest_width": "8 m",
-                "neck_height": "90 m",
-                "neck_width": "8 m",
-                "base_width": "80 m",
-            },
+            "section": TYPICAL_SECTION,
             "concrete": {"density": "2650 kg/m^3", "modulus": "20 GPa", "poisson": 0.143},
             "crack": {"elevation": "0 m", "friction": 0.9},
             "further_cracks": [{"elevation": "90 m", "friction": 0.8, "uplift": "triangular", "uplift_intensity": 1.0}],

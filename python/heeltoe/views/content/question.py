@@ -58,7 +58,8 @@ def question(subject: Subject) -> Section:
 def _question(subject: Subject) -> Block:
     motion = subject.first.prefix + "motion."
     n = subject.numbers
-    before, after, asked = "What does the part of “", "” above its crack do", "does it"
+    where = "each of its cracks" if subject.case.further_cracks else "its crack"
+    before, after, asked = "What does the part of “", f"” above {where} do", "does it"
     bonded = sum(alone.crack.bond is not None for alone in subject.case.single_crack_cases)
     if bonded:
         before, after = ("Does the joint of “" if bonded == 1 else "Do the joints of “"), "” crack"

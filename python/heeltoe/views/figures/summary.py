@@ -39,7 +39,8 @@ def summary_figure(case: Case, shown: tuple[Response, ...], units: str = "si") -
     figure = Figure(figsize=(WIDTH, _HEIGHT))
     _draw_section(figure.add_axes((0.005, 0.01, _SECTION if shown else 0.99, 0.98)), case, system)
     if shown:
-        width = 0.985 - _HISTORIES
+        # Room for half of the last label of the time axis.
+        width = 0.97 - _HISTORIES
         ground = figure.add_axes((_HISTORIES, 0.60, width, 0.31))
         slip = figure.add_axes((_HISTORIES, 0.15, width, 0.34), sharex=ground)
         draw_horizontal(ground, shown[0])
