@@ -41,6 +41,6 @@ def test_equations_that_the_code_names_are_there():
 def test_every_page_is_in_the_contents():
     listed = set(re.findall(r"^([a-z-]+(?:/[a-z]+)?)$", PAGES["docs/index.md"], re.MULTILINE))
     there = {page.removeprefix("docs/").removesuffix(".md") for page in PAGES if page.startswith("docs/")}
-    # The pages of the book hang on its first one.
+    # The pages of the book depend on its first one.
     assert {page for page in there if not page.startswith("validation/")} - {"index"} <= listed
     assert {page for page in listed if not page.startswith("generated/")} <= there

@@ -22,7 +22,7 @@ NUMBERS = {
     "opening_upstream_m": 0.010,
     "opening_downstream_m": 0.0,
 }
-# Its slip hangs on the last per cent of the shaking.
+# Its slip depends on the last per cent of the shaking.
 SCATTERS = {
     "section": {"height": "30 m", "crest_width": "4 m", "base_width": "24 m"},
     "concrete": {"modulus": "20 GPa"},

@@ -1,4 +1,4 @@
-"""Answers of a study: measures of strength compared, what the slip hangs on; known answers and small studies."""
+"""Answers of a study: measures of strength compared, what the slip depends on; known answers and small studies."""
 
 import json
 

@@ -82,7 +82,7 @@ def test_what_the_slip_hangs_on_has_a_section(tmp_path, method, figure):
     listed = GRID.replace('"case.toml"\n', '"case.toml"\nmethod = "one at a time"\n', 1)
     found = run_study(study_file(tmp_path, drawn if method == "sensitivity" else listed), tmp_path / "out")
     document, _ = report(found, tmp_path, "us")
-    section = next(block for block in document.blocks if getattr(block, "title", "") == "What the slip hangs on")
+    section = next(block for block in document.blocks if getattr(block, "title", "") == "What the slip depends on")
     assert [type(block) for block in section.blocks] == [Table, FigureBlock]
     assert section.blocks[1].name == figure
 

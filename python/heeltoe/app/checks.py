@@ -1,4 +1,4 @@
-"""Actions beside the answer: the static checks of the same case, and how much its result hangs on the shaking."""
+"""Actions beside the answer: the static checks of the same case, and how much its result depends on the shaking."""
 
 from __future__ import annotations
 

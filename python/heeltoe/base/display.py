@@ -41,7 +41,7 @@ class Named:
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
-            """Say what is nearest; what a class defines itself says why it is not to be had."""
+            """Name the nearest attribute; what a class defines itself says why it is absent."""
             for cls in type(self).__mro__:
                 if name in vars(cls) and hasattr(vars(cls)[name], "__get__"):
                     return vars(cls)[name].__get__(self, type(self))

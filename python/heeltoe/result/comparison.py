@@ -100,13 +100,13 @@ def _slips_differ(dam: Response, block: Response, units: str) -> str:
         return "They slide opposite ways: the dam's own vibration decides here. Trust the flexible model."
     if near < _LITTLE:
         return (
-            "Only the flexible dam slides: its own vibration adds to the shaking, of which a rigid block knows "
-            f"nothing. Trust the flexible model ({_TABLE.text(units)})."
+            "Only the flexible dam slides: its own vibration adds to the shaking, which a rigid block leaves "
+            f"out. Trust the flexible model ({_TABLE.text(units)})."
         )
     if far > near:
         return (
-            f"The flexible dam slides {far / near:.2g} times as far: its own vibration adds to the shaking, of "
-            f"which a rigid block knows nothing. Trust the flexible model ({_TABLE.text(units)})."
+            f"The flexible dam slides {far / near:.2g} times as far: its own vibration adds to the shaking, which "
+            f"a rigid block leaves out. Trust the flexible model ({_TABLE.text(units)})."
         )
     share = f"{far / near:.2g} times" if far > 0.01 * near else "less than a hundredth of"
     return (

@@ -288,7 +288,7 @@ def test_the_evidence_covers_the_cracked_length():
     assert worth.value == response.joint.cracked_length_m
     width = response.crack_width_m
     assert 0.5 * width / 6.0 * (1.0 - 1e-9) <= worth.uncertainty < width
-    # A strength that hangs on the mesh tells nothing of the length.
+    # A strength that depends on the mesh tells nothing of the length.
     fields["crack"]["bond"] = BOND | {"tensile_strength": "3 MPa", "cohesion": "4 MPa", "fracture_energy": "100 N/m"}
     lowered = run(read_case(fields), "flexible").evidence.cracked_length_m
     assert lowered.uncertainty == pytest.approx(max(lowered.value, width - lowered.value))

@@ -294,7 +294,7 @@ def test_a_settling_bounce_is_none():
 
 @pytest.mark.parametrize("width", [1.0, 100.0])
 def test_a_heavy_block_slips_through_an_impact_like_a_light_one(width):
-    """Nothing may hang on the unit of mass: the same blow, 1e12 times as heavy, gives the same velocities."""
+    """Nothing may depend on the unit of mass: the same blow, 1e12 times as heavy, gives the same velocities."""
     light, heavy = (strike(rectangle(width, width, 0.3, density=d), (-0.9, 0.0, -0.28)) for d in (1e-3, 1e9))
     assert heavy.after == pytest.approx(light.after, rel=1e-12)
     assert light.after[0] != 0.0

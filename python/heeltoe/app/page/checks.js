@@ -1,4 +1,4 @@
-/** Beside the answer: the static checks of the same dam, and how much its result hangs on the shaking. */
+/** Beside the answer: the static checks of the same dam, and how much its result depends on the shaking. */
 import { element } from "./dom.js";
 import { table } from "./table.js";
 

@@ -197,7 +197,7 @@ def _change(slip: float, coarser: float) -> float:
 
 def _histories(block: Response, felt: CrackMotion, earthquake: Earthquake) -> dict[str, Floats]:
     """Put the ground's own motion where the block has that of the crack, and the crack's beside it."""
-    # Where the crest is relative to the ground hangs on the part below, too.
+    # Where the crest is relative to the ground depends on the part below, too.
     histories = {name: values for name, values in block.histories.items() if name not in (DISPLACEMENT, ACCELERATION)}
     moments, shaking = histories["time_s"], earthquake.shaking
     result = {"time_s": moments, "ground_acceleration_m_s2": np.interp(moments, shaking.time, shaking.horizontal)}

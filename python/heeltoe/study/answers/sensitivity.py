@@ -1,4 +1,4 @@
-"""What the results hang on: Sobol's indices, and one field at a time."""
+"""What the results depend on: Sobol's indices, and one field at a time."""
 
 from __future__ import annotations
 

@@ -109,7 +109,7 @@ class Event(Fields):
     vertical: str | None = None
     """The vertical component, which shakes the dam together with each horizontal one, scaled by the same factor."""
     magnitude: Annotated[DimensionlessNumber, Field(ge=0.0, le=10.0)] | None = None
-    """Moment magnitude; nothing hangs on it but the comparison of measures of strength."""
+    """Moment magnitude; nothing depends on it but the comparison of measures of strength."""
     distance: Annotated[Length, Field(gt=0.0)] | None = None
     """From the fault to the place; for the same."""
 

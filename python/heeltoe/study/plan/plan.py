@@ -356,7 +356,7 @@ class Plan:
 
     @cached_property
     def inputs(self) -> dict[str, str]:
-        """Hashes of all that the results hang on, by what each is called."""
+        """Hashes of all that the results depend on, by what each is called."""
         study = self.study.model_dump(mode="json", exclude={"title", "fragility", "hazard", "suite", "case", "motions"})
         unheard = _WORDS | ({"motion"} if self.study.motions else set())
         case = self.case.model_dump(mode="json", exclude=unheard)

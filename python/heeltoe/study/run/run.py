@@ -136,8 +136,8 @@ def outlook(study: Study | Plan, cores: int) -> Outlook:
 
 
 def _tries(plan: Plan) -> Iterator[tuple[int, int]]:
-    """Walk stretches of runs that stand for all. Those of elastic dams hang on the length of the motion and on whether
-    the dam is at rest at its end, so that a few from all over the study are tried; blocks are tried many at once."""
+    """Walk stretches of runs that stand for all. Those of elastic dams depend on the length of the motion and on
+    whether the dam is at rest at its end, so a few from all over the study are tried; blocks many at once."""
     models = plan.sizes[3]
     if set(plan.study.model) == {"rigid"}:
         yield 0, min(plan.count, _TRIED)

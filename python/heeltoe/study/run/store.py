@@ -1,6 +1,6 @@
 """Where a study keeps its runs: parts of a table, each written whole as it is done, and what they belong to.
 
-``study.json`` says which study it is, by a fingerprint of all that its results hang on, and ``runs/part-N.parquet``
+``study.json`` says which study it is, by a fingerprint of all that its results depend on, and ``runs/part-N.parquet``
 holds a stretch of its runs. A part is there whole or not at all, so that what was killed, or ran out of disk, goes on
 where it stopped.
 """

@@ -1,4 +1,4 @@
-"""How much a result hangs on the last per cent of the shaking: the same run, a little weaker and a little stronger."""
+"""How much a result depends on the last per cent of the shaking: the same run, slightly weaker and stronger."""
 
 from __future__ import annotations
 

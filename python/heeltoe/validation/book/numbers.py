@@ -21,7 +21,7 @@ def ours(row: Row) -> str:
     if row.digits == 0:
         return VARIES
     if _bounded(row):
-        # A share of what is allowed is below the whole of it; how far below hangs on the machine's rounding.
+        # A share of what is allowed is below the whole of it; how far below depends on the machine's rounding.
         return _below(max(abs(row.ours), 0.1) if row.tolerance == 1.0 else abs(row.ours))
     return number(row, row.ours)
 

@@ -108,7 +108,7 @@ def _spread(subject: Subject, run: Run) -> list[Block]:
         whose = "" if len(subject.runs) == 1 else f" of the {run.name}"
         return [
             paragraph(
-                f"How much the result{whose} hangs on the exact strength of the shaking was not asked; ",
+                f"How much the result{whose} depends on the exact strength of the shaking was not asked; ",
                 Code("--spread"),
                 " runs it 11 more times, scaled by 0.99 to 1.01. The slip of a dam that strikes means little without.",
             )

@@ -1,4 +1,4 @@
-"""The answers of a study in its report: results, fragility, measures of strength, what the slip hangs on."""
+"""The answers of a study in its report: results, fragility, measures of strength, what the slip depends on."""
 
 from __future__ import annotations
 
@@ -335,13 +335,13 @@ def measures_compared(subject: StudySubject) -> Section | None:
     text = (
         "How well each measure foretells the residual slip: the scatter is the standard deviation of the logarithm of "
         "the slip about a line over the logarithm of the measure; less is better. A small p says that what is left "
-        "over hangs on something else of the events; with few events a large one says little."
+        "over depends on something else of the events; with few events a large one says little."
     )
     return Section("Measures of strength compared", (paragraph(text), *blocks))
 
 
 def hangs_on(subject: StudySubject) -> Section | None:
-    """Return the section on what the slip hangs on, where the study is made for it."""
+    """Return the section on what the slip depends on, where the study is made for it."""
     method, found = subject.study["method"], subject.found
     if method == "sensitivity":
         blocks = [_sobol(model, told) for model, told in found.sensitivity().items()]
@@ -349,7 +349,7 @@ def hangs_on(subject: StudySubject) -> Section | None:
         blocks = [_tornado(model, told, subject.units) for model, told in found.tornado().items()]
     else:
         return None
-    return Section("What the slip hangs on", (*blocks, *subject.figure("sobol", "tornado")))
+    return Section("What the slip depends on", (*blocks, *subject.figure("sobol", "tornado")))
 
 
 def _sobol(model: str, told: dict[str, Any]) -> Block:

@@ -149,7 +149,7 @@ def kind(key: str) -> str:
 
 @dataclass(frozen=True)
 class Amount:
-    """A number of a table whose unit hangs on the others there.
+    """A number of a table whose unit depends on the others there.
 
     Attributes
     ----------

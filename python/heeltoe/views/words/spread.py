@@ -1,4 +1,4 @@
-"""How much a result hangs on the last per cent of the shaking, in words and numbers."""
+"""How much a result depends on the last per cent of the shaking, in words and numbers."""
 
 from __future__ import annotations
 

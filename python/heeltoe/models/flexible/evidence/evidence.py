@@ -1,6 +1,6 @@
 """What a result is worth: by how much time step, mesh and one per cent of the shaking move it.
 
-A result that is converged in its step may hang on the mesh, and one that is converged in both on the last per cent of
+A result that is converged in its step may depend on the mesh, and one that is converged in both on the last per cent of
 the shaking. Where friction flutters or a dam strikes and bounces, a single run is one of many equals, which say little
 about step or mesh; their mean does."""
 

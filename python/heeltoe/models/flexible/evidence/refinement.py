@@ -237,7 +237,7 @@ class _Stand:
             length = worth_of(CRACKED)
             least = 0.5 * width / self._options.elements_across
             if self._lowered(crack, dam):
-                # A strength that hangs on the mesh is no evidence of how far the joint cracks.
+                # A strength that depends on the mesh is no evidence of how far the joint cracks.
                 least = max(length.run, width - length.run)
             cracked = replace(length, value=length.run, least=least)
         return Evidence(

@@ -12,7 +12,7 @@ from heeltoe.units.systems import INCH
 from heeltoe.views.figures.style import heading
 from heeltoe.views.words.studies import strength_scale
 
-#: Okabe and Ito's, with dashes beside them, for models, limits and whatever else is told apart.
+#: Okabe and Ito's, with dashes beside them, for models, limits and whatever else is distinguished.
 LINES = (("#0072B2", "-"), ("#D55E00", "--"), ("#009E73", "-."), ("#CC79A7", ":"), ("#E69F00", "-"), ("#000000", "--"))
 _WORDS = {"pga": "peak ground acceleration", "pgv": "peak ground velocity", "arias": "Arias intensity"}
 

@@ -1,4 +1,4 @@
-"""What the slip hangs on: Sobol's indices, and one field at a time."""
+"""What the slip depends on: Sobol's indices, and one field at a time."""
 
 from __future__ import annotations
 
