@@ -25,11 +25,11 @@ class Source(Fields):
     """A record: its file, relative to the case file, or its name in the catalogue; or a motion made to order, such
     as synthetic:M6.5,20km,seed=3."""
     channel: Channel | None = None
-    """Which channel of a file of several, by number or by direction: 1, "90 deg", "up"."""
+    """Channel of a file that has several, by number or by direction: 1, "90 deg", "up"."""
     points: tuple[tuple[Time, AccelerationField], ...] | None = None
     """[time, acceleration] in order of time, straight in between; twice the same time is a jump."""
     pga: AccelerationField | None = None
-    """Scale the motion to this peak, taken without sign."""
+    """Scale the motion to this peak acceleration, its largest absolute value."""
     reverse: Truth = False
     """Change the sign of the motion."""
     unit: str | None = Field(default=None, strict=True)

@@ -37,7 +37,7 @@ Progress = Callable[[str], None]
 SCANNED, _CLOSE = 9, 2e-4
 #: More runs than these close in no crossing: it is a jump.
 _MOST = 24
-# A result that falls and rises again by more than this part of the largest does not go one way.
+# A result that falls and rises again by more than this part of the largest is not monotonic.
 _SAME_WAY = 0.01
 # The result of the last run, with its evidence, is this near to the limit, or the search is moved once.
 _NEAR = 0.002

@@ -35,10 +35,10 @@ def solve_answer(found: Solved, units: str) -> tuple[Block, ...]:
         blocks.append(paragraph(text, Code(found.field), f" = {_crossing(crossing, scale, units)}"))
     if not found.one_way:
         text = (
-            f"The {LABELS[found.limit]} does not go one way with {found.field}: a value beyond a crossing may be worse "
+            f"The {LABELS[found.limit]} is not monotonic in {found.field}: a value beyond a crossing may be worse "
             "again, and a crossing between two values of the scan may be missed. Look at the curve (--out)."
         )
-        blocks.append(Notes("warning", "Not one way", ((text,),)))
+        blocks.append(Notes("warning", "Not monotonic", ((text,),)))
     if found.refused:
         values = ", ".join(_value(value, scale) for value in found.refused[:4])
         blocks.append(paragraph(f"The case refuses {len(found.refused)} values of the range: {values}."))
@@ -68,15 +68,13 @@ def _value(value: float, scale: Scale) -> str:
 
 
 def _crossing(crossing: Crossing, scale: Scale, units: str) -> str:
-    """Say where the limit is just met, how far that may be off, on which side it is met, and what the run there has."""
+    """Say where the limit is just met, with what error, on which side it holds, and the result of the run there."""
     give = crossing.give_or_take
     text = _value(crossing.value, scale)
-    text += (
-        ", where the result jumps" if give is None else f", give or take {number(scale(give), 2)} {scale.unit}".rstrip()
-    )
+    text += ", where the result jumps" if give is None else f" ± {number(scale(give), 2)} {scale.unit}".rstrip()
     side = "below" if crossing.met_at < crossing.missed_at else "above"
     last = crossing.last
     sign = f" with the motion {last.sign}" if last.sign else ""
-    has = "" if last.result_m is None else f"; the run there{sign} has {length(last.result_m, units)}"
+    has = "" if last.result_m is None else f"; at this value the run{sign} gives {length(last.result_m, units)}"
     uncertain = f", uncertain by {length(last.uncertainty_m, units)}" if last.uncertainty_m else ""
-    return f"{text}. It is met {side}{has}{uncertain}."
+    return f"{text}. The limit is met {side} it{has}{uncertain}."
