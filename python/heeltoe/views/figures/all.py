@@ -134,7 +134,7 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
     drawings |= _drawings(result, units)
     for name, other in result.others.items():
         drawn = _drawings(other, units)
-        drawings |= {f"{name}/{each}": drawn[each] for each in _OF_CRACKS if each in drawn}
+        drawings |= {f"{name}/{figure_name}": drawn[figure_name] for figure_name in _OF_CRACKS if figure_name in drawn}
     if beside is not None:
         drawings |= {f"{beside.model}/{name}": draw for name, draw in _drawings(beside, units).items()}
     return Figures(drawings)
@@ -160,31 +160,31 @@ def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]
     if not has_pictures(response):
         return {}
     response = filled_in(response)
-    found: dict[str, Callable[[], Figure]] = {"response": lambda: response_figure(response, units)}
+    figures: dict[str, Callable[[], Figure]] = {"response": lambda: response_figure(response, units)}
     # Of a single mode the slip of the response says it all.
     if sum(abs(slip) > NO_SLIP for slip in response.slip_by_mode_m.values()) > 1:
-        found["slip-by-mode"] = lambda: slip_by_mode_figure(response, units)
+        figures["slip-by-mode"] = lambda: slip_by_mode_figure(response, units)
     if "friction_strength_n" in response.histories:
-        found["friction"] = lambda: friction_figure(response, units)
+        figures["friction"] = lambda: friction_figure(response, units)
     if "dilation_m" in response.histories:
-        found["asperities"] = lambda: asperities_figure(response, units)
+        figures["asperities"] = lambda: asperities_figure(response, units)
     if is_elastic(response):
-        found["forces"] = lambda: force_figure(response, units)
+        figures["forces"] = lambda: force_figure(response, units)
     else:
-        found["accelerations"] = lambda: acceleration_figure(response, units)
+        figures["accelerations"] = lambda: acceleration_figure(response, units)
     if response.crest is not None and response.crest.displacement_m > _NO_SHIFT:
-        found["crest"] = lambda: crest_figure(response, units)
+        figures["crest"] = lambda: crest_figure(response, units)
     if response.energy is not None and response.energy.input_j:
-        found["energy"] = lambda: energy_figure(response, units)
+        figures["energy"] = lambda: energy_figure(response, units)
     if lifts_off(response, _NO_LIFT):
-        found["path"] = lambda: path_figure(response, units)
-    found["spectrum"] = lambda: spectrum_figure(response, units)
+        figures["path"] = lambda: path_figure(response, units)
+    figures["spectrum"] = lambda: spectrum_figure(response, units)
     if isinstance(response, DecoupledResponse):
         chained = response
-        found["crack-level"] = lambda: crack_level_figure(chained)
+        figures["crack-level"] = lambda: crack_level_figure(chained)
     if isinstance(response, FlexibleResponse):
-        found |= _elastic_drawings(response, units)
-    return found
+        figures |= _elastic_drawings(response, units)
+    return figures
 
 
 def _elastic_drawings(response: FlexibleResponse, units: str) -> dict[str, Callable[[], Figure]]:
@@ -194,14 +194,14 @@ def _elastic_drawings(response: FlexibleResponse, units: str) -> dict[str, Calla
     from heeltoe.views.figures.stress.tension import tension_figure
 
     dam = response.crack.dam
-    told = {"tension": lambda: tension_figure(response, units)} if response.tension is not None else {}
+    drawn = {"tension": lambda: tension_figure(response, units)} if response.tension is not None else {}
     if response.joint is not None:
-        told["joint"] = lambda: joint_figure(response, units)
+        drawn["joint"] = lambda: joint_figure(response, units)
     return {
         "crack": lambda: crack_figure(response, units),
         "pressure": lambda: pressure_figure(response, units),
         "deformed": lambda: deformed_figure(response, units=units),
-        **told,
+        **drawn,
         "mesh": lambda: mesh_figure(dam, units),
         "modes": lambda: modes_figure(dam, units),
     }

@@ -65,8 +65,8 @@ class Canvas:
 
     def points(self, places: ArrayLike) -> Floats:
         """Return places (n, 2) [m] as numbers on the axes."""
-        found: Floats = self.length(np.atleast_2d(np.asarray(places, dtype=float)))
-        return found
+        points: Floats = self.length(np.atleast_2d(np.asarray(places, dtype=float)))
+        return points
 
     def fill(self, shape: shapely.Geometry | ArrayLike, **look: Any) -> None:
         """Fill polygons, or the corners of one."""

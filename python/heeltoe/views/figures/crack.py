@@ -121,9 +121,11 @@ def joint_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     )
     _label_crack(joint, scale, "joint")
     time_axis(joint, response)
-    there = [name for k, name in enumerate(_JOINT_STATES) if (states == k).any()]
-    handles = [Patch(facecolor=_JOINT_COLOURS[name], edgecolor="#888888", label=name, linewidth=0.5) for name in there]
-    figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(there)))
+    states_seen = [name for k, name in enumerate(_JOINT_STATES) if (states == k).any()]
+    handles = [
+        Patch(facecolor=_JOINT_COLOURS[name], edgecolor="#888888", label=name, linewidth=0.5) for name in states_seen
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(states_seen)))
     figure.align_ylabels([lengths, joint])
     return figure
 

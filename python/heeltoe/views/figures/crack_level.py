@@ -28,8 +28,8 @@ def crack_level_figure(response: DecoupledResponse) -> Figure:
     parts: Any = figure.subfigures(2, 1, height_ratios=[1.0, 1.1])
     top, bottom = parts
     factor = level["amplification"]
-    said = "" if factor is None else f", {factor:.3g} times the peak of the ground"
-    peak = f"{level['peak_horizontal_g']:.3g} g at the crack{said}"
+    share = "" if factor is None else f", {factor:.3g} times the peak of the ground"
+    peak = f"{level['peak_horizontal_g']:.3g} g at the crack{share}"
     heading(figure, response.title or "Untitled case", f"{response.motion.name}: {peak}")
     histories = top.subplots(2, 1, sharex=True, sharey=True)
     for axes, key, colour, label in (

@@ -60,10 +60,10 @@ def _slip(response: Response, time: Floats) -> Floats:
     s = np.where(last, 0.0, (time - at[start]) / long)
     left, right = slip[start], slip[end]
     rise, fall = after[start] * long, before[end] * long
-    found: Floats = (
+    points: Floats = (
         left * (1.0 + 2.0 * s) * (1.0 - s) ** 2
         + right * s**2 * (3.0 - 2.0 * s)
         + rise * s * (1.0 - s) ** 2
         - fall * s**2 * (1.0 - s)
     )
-    return found
+    return points

@@ -40,10 +40,10 @@ def readable(text: str) -> tuple[str, list[str]]:
     families = [PLAIN]
     if wanted:
         for path, family in _other_fonts():
-            found = wanted & _letters(path)
-            if found:
+            covered = wanted & _letters(path)
+            if covered:
                 families.append(family)
-                wanted -= found
+                wanted -= covered
             if not wanted:
                 break
     return "".join(_MISSING if ord(c) in wanted else c for c in text), families
@@ -97,7 +97,7 @@ def _letters(path: str) -> frozenset[int]:
 def _other_fonts() -> tuple[tuple[str, str], ...]:
     """Return file and family of the fonts for other scripts that are installed; those that matplotlib has not met yet
     are made known to it."""
-    found = []
+    fonts = []
     for path in sorted(font_manager.findSystemFonts()):
         name = path.replace("\\", "/").rpartition("/")[2].lower()
         if not name.startswith(_FILES) or any(style in name for style in ("bold", "italic", "light", "black", "thin")):
@@ -109,5 +109,5 @@ def _other_fonts() -> tuple[tuple[str, str], ...]:
             continue
         if all(entry.fname != path for entry in font_manager.fontManager.ttflist):
             font_manager.fontManager.addfont(path)
-        found.append((path, family))
-    return tuple(found)
+        fonts.append((path, family))
+    return tuple(fonts)

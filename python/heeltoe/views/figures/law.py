@@ -16,22 +16,22 @@ from heeltoe.views.figures.time_axis import time_axis
 
 
 @styled
-def law_figure(found: LawCurve, units: str = "si") -> Figure:
+def law_figure(curve: LawCurve, units: str = "si") -> Figure:
     """Draw the apparent friction of a law over what it goes by."""
     figure = Figure(figsize=(7.0, 4.0), layout="constrained")
     axes = figure.subplots()
     system = unit_system(units)
-    kind = {"slip path": "displacement", "slip speed": "velocity", "normal stress": "pressure"}[found.over]
-    scale = system.scale(kind, float(found.at[-1]))
-    axes.plot(scale(found.at), found.friction, color=COLOURS["slip"], label="sliding")
-    place = scale(found.normal_stress_pa) if found.over == "normal stress" else 0.0
-    axes.plot([place], [found.at_rest], color="#000000", marker="o", linestyle="", label="before any slip")
-    axes.set_xlabel(f"{found.over} [{scale.unit}]")
+    kind = {"slip path": "displacement", "slip speed": "velocity", "normal stress": "pressure"}[curve.over]
+    scale = system.scale(kind, float(curve.at[-1]))
+    axes.plot(scale(curve.at), curve.friction, color=COLOURS["slip"], label="sliding")
+    place = scale(curve.normal_stress_pa) if curve.over == "normal stress" else 0.0
+    axes.plot([place], [curve.at_rest], color="#000000", marker="o", linestyle="", label="before any slip")
+    axes.set_xlabel(f"{curve.over} [{scale.unit}]")
     axes.set_ylabel("apparent friction:\nstrength over normal stress")
-    axes.set_ylim(0.0, 1.08 * max(float(found.friction.max()), found.at_rest, 1e-3))
+    axes.set_ylim(0.0, 1.08 * max(float(curve.friction.max()), curve.at_rest, 1e-3))
     axes.legend(loc="best")
-    stress = written("{stress_pa:.3g MPa}", units, stress_pa=found.normal_stress_pa)
-    heading(figure, found.title, f"{found.name}, normal stress {stress}")
+    stress = written("{stress_pa:.3g MPa}", units, stress_pa=curve.normal_stress_pa)
+    heading(figure, curve.title, f"{curve.name}, normal stress {stress}")
     return figure
 
 

@@ -54,7 +54,7 @@ def history_figure(motion: GroundMotion, vertical: GroundMotion | None, gravity:
     motions = [motion, *([] if vertical is None else [vertical])]
     figure = Figure(figsize=(WIDTH, 4.4), layout="constrained")
     columns = figure.subplots(3, len(motions), sharex=True, squeeze=False).T
-    heading(figure, " and ".join(each.name for each in motions))
+    heading(figure, " and ".join(motion.name for motion in motions))
     for axes, each, way in zip(columns, motions, ("horizontal, + downstream", "vertical, + up"), strict=False):
         draw_history(list(axes), each, gravity, unit_system(units))
         axes[0].set_title(way, loc="left", fontsize=9)

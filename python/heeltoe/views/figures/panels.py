@@ -109,16 +109,16 @@ def slip_in_the_end(response: Response, scale: Scale) -> str:
     residual, known = response.residual_slip_m, converged_slip(response)
     if known is None:
         return f"in the end {length(residual) if scale.unit == 'mm' else f'{scale(residual):.2f} {scale.unit}'}"
-    said = "converged" if response.summary["evidence"]["converged"] else "NOT converged"
+    word = "converged" if response.summary["evidence"]["converged"] else "NOT converged"
     least = scale(known[1]) or 1.0
     decimals = max(1, min(6, 1 - math.floor(math.log10(least))))
-    return f"in the end {scale(known[0]):.{decimals}f} ± {scale(known[1]):.{decimals}f} {scale.unit} (dotted), {said}"
+    return f"in the end {scale(known[0]):.{decimals}f} ± {scale(known[1]):.{decimals}f} {scale.unit} (dotted), {word}"
 
 
 def converged_slip(response: Response) -> tuple[float, float] | None:
     """Return the residual slip to trust and how uncertain it is [m]; None where nobody asked."""
-    found = response.summary.get("evidence")
-    return None if not found else (found["residual_slip_m"]["value"], found["residual_slip_m"]["uncertainty"])
+    evidence = response.summary.get("evidence")
+    return None if not evidence else (evidence["residual_slip_m"]["value"], evidence["residual_slip_m"]["uncertainty"])
 
 
 def draw_rotation(axes: Axes, response: Response, units: Units) -> None:
@@ -229,4 +229,4 @@ def kind_of(mode: str) -> str:
 
 def largest(*values: ArrayLike) -> float:
     """Return the largest magnitude among arrays and numbers."""
-    return max((float(np.max(np.abs(each), initial=0.0)) for each in values), default=0.0)
+    return max((float(np.max(np.abs(value), initial=0.0)) for value in values), default=0.0)

@@ -34,7 +34,7 @@ _ONE_COLUMN = 3
 def small_figures(grid: SmallStudy, units: str = "si") -> dict[str, Figure]:
     """Return the figure ``slips`` of a table of runs, and ``crack-level`` of its first run that has one."""
     figures = {}
-    if any(each.histories for each in grid.responses):
+    if any(response.histories for response in grid.responses):
         figures["slips"] = slips_figure(grid, units)
     for response in grid.responses:
         if isinstance(response, DecoupledResponse) and response.summary:
@@ -48,7 +48,7 @@ def slips_figure(grid: SmallStudy, units: str = "si") -> Figure:
     """Draw the slip of every run over time: a line for each value of the first varied field, a panel for each
     combination of the others."""
     first, *others = grid.axes
-    slips = [each.histories["slip_m"] for each in grid.responses if each.histories]
+    slips = [response.histories["slip_m"] for response in grid.responses if response.histories]
     scale = unit_system(units).scale("displacement", largest(*slips))
     panels = list(dict.fromkeys(cell[1:] for cell in grid.cells))
     columns = 1 if len(panels) <= _ONE_COLUMN else 2
@@ -57,7 +57,7 @@ def slips_figure(grid: SmallStudy, units: str = "si") -> Figure:
     axes = np.atleast_1d(figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)).reshape(-1)
     heading(figure, grid.title or "Untitled case", f"{_shaken_by(grid)}; {grid.model} model")
     for place, (panel, values) in enumerate(zip(axes, panels, strict=False)):
-        names = (f"{each.path} {value}" for each, value in zip(others, values, strict=True))
+        names = (f"{other.path} {value}" for other, value in zip(others, values, strict=True))
         panel.set_title(", ".join(names), fontsize=9, loc="left")
         for cell, response in zip(grid.cells, grid.responses, strict=True):
             if cell[1:] != values:
@@ -80,7 +80,7 @@ def slips_figure(grid: SmallStudy, units: str = "si") -> Figure:
         if place % columns == 0:
             panel.set_ylabel(f"slip [{scale.unit}]\n(+ downstream)")
         if place + columns >= len(panels):
-            time_axis(panel, *(each for each in grid.responses if each.histories))
+            time_axis(panel, *(response for response in grid.responses if response.histories))
     for unused in axes[len(panels) :]:
         unused.set_visible(False)
     return figure
@@ -88,12 +88,12 @@ def slips_figure(grid: SmallStudy, units: str = "si") -> Figure:
 
 def _shaken_by(grid: SmallStudy) -> str:
     """Say what shakes the dams, and how strongly: the runs may differ in that."""
-    names = dict.fromkeys(each.motion.name for each in grid.responses)
-    peaks = [each.motion.pga / each.gravity for each in grid.responses]
+    names = dict.fromkeys(response.motion.name for response in grid.responses)
+    peaks = [response.motion.pga / response.gravity for response in grid.responses]
     low, high = (f"{peak:.3g}" for peak in (min(peaks), max(peaks)))
     peak = f"peak {low} g" if low == high else f"peaks {low} to {high} g"
     text = f"{' or '.join(names)}, {peak}"
-    vertical = any(each.vertical is not None for each in grid.responses)
+    vertical = any(response.vertical is not None for response in grid.responses)
     return f"{text}, with vertical motion" if vertical else text
 
 

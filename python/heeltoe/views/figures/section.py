@@ -162,12 +162,12 @@ def draw_crack(canvas: Canvas, case: Case, *, small: bool) -> None:
 
 def draw_further(canvas: Canvas, case: Case) -> None:
     """Draw the cracks beside that of ``[crack]``."""
-    for place, each in enumerate(case.single_crack_cases):
+    for place, alone in enumerate(case.single_crack_cases):
         if place != case.asked:
-            ends = [each.cut.heel, each.cut.toe]
+            ends = [alone.cut.heel, alone.cut.toe]
             canvas.line(ends, keep_off=True, color="white", linewidth=3.6, zorder=4.5)
             canvas.line(ends, color=COLOURS["crack"], linewidth=1.4, linestyle=(0, (4, 1.5)), zorder=4.6)
-            canvas.label("another crack", each.cut.toe, COLOURS["crack"], first=(1, 1))
+            canvas.label("another crack", alone.cut.toe, COLOURS["crack"], first=(1, 1))
 
 
 def _draw_anchors(canvas: Canvas, case: Case) -> Floats | None:

@@ -52,12 +52,12 @@ def draw_uplift(canvas: Canvas, case: Case, units: Units) -> float:
     )
     canvas.line(bottom, keep_off=True, color="#0072B2", linewidth=1.0, zorder=3.1)
     scale = units.scale("pressure", most)
-    said: set[tuple[float, float]] = set()
+    labelled: set[tuple[float, float]] = set()
     for place, end, value in zip(distance, bottom, pressure, strict=True):
         key = (round(float(place), 6), round(float(value), 3))
-        if value > 1e-6 * most and key not in said:
-            said.add(key)
-            text = f"pressure {scaled(value, scale)}" if len(said) == 1 else scaled(value, scale)
+        if value > 1e-6 * most and key not in labelled:
+            labelled.add(key)
+            text = f"pressure {scaled(value, scale)}" if len(labelled) == 1 else scaled(value, scale)
             first = (-1, -1) if place <= 0.0 else (1, -1)
             canvas.label(text, end, "#0072B2", first=first)
     return depth
@@ -83,7 +83,7 @@ def draw_forces(canvas: Canvas, case: Case, units: Units) -> None:
         canvas.arrow(tail, tip, FORCE_COLOURS[force.name])
     _draw_scale(canvas, per_force, most, scale.factor, scale.unit)
     # Those on the faces first: beside them is less room.
-    for force, size, tail, tip in sorted(shown, key=lambda each: abs(each[0].horizontal) < abs(each[0].vertical)):
+    for force, size, tail, tip in sorted(shown, key=lambda arrow: abs(arrow[0].horizontal) < abs(arrow[0].vertical)):
         # Next to the end that stands free.
         place, towards = (tip, tip - tail) if force.name == "weight" else (tail, tail - tip)
         across = 1 if abs(towards[0]) < 0.5 * abs(towards[1]) else 0
@@ -112,8 +112,8 @@ def _meets(force: Resultant, section: CutSection) -> Floats:
     off = face @ np.array([force.vertical, -force.horizontal]) - force.moment
     for start, end, a, b in zip(face[:-1], face[1:], off[:-1], off[1:], strict=True):
         if a != b and a * b <= 0.0:
-            found: Floats = heel + start + (end - start) * (a / (a - b))
-            return found
+            point: Floats = heel + start + (end - start) * (a / (a - b))
+            return point
     # A line that misses its face passes somewhere near it.
     square = force.horizontal**2 + force.vertical**2
     nearest: Floats = heel + np.array([force.vertical, -force.horizontal]) * (force.moment / square)

@@ -66,7 +66,7 @@ def spectrum_figure(response: Response, units: str = "si", periods_s: Sequence[f
             linestyle=":",
             label="vertical ground motion, 5 % damping",
         )
-    start = min(starts(response).values(), key=lambda each: each.value)
+    start = min(starts(response).values(), key=lambda start: start.value)
     top = axes.get_ylim()[1]
     if 0.0 < start.value < 4.0 * top:
         top = max(top, 1.1 * start.value)

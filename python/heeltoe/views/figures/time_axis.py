@@ -25,15 +25,15 @@ _NEARLY = 1.005
 
 def time_axis(axes: Axes, *responses: Response) -> None:
     """Label the axis of time, from zero to the end of what happens in any of these runs."""
-    end = max(float(each.histories["time_s"][-1]) for each in responses if each.histories)
-    shown = max(shown_until(each) for each in responses if each.histories)
+    end = max(float(response.histories["time_s"][-1]) for response in responses if response.histories)
+    shown = max(shown_until(response) for response in responses if response.histories)
     # The last frame of 30 s may stand at 29.99 s.
     round_end = float(f"{end:.2g}")
     end = round_end if end < round_end < end * _NEARLY else end
     label = "time [s]"
     cut = shown < _SHORTER * end
     axes.set_xlim(0.0, shown if cut else end)
-    silent = [motion_end(each) for each in responses if each.histories and each.silence_s]
+    silent = [motion_end(response) for response in responses if response.histories and response.silence_s]
     if silent and max(silent) < axes.get_xlim()[1]:
         _mark(axes, max(silent))
         label += f"; ground motion until {max(silent):.4g} s (dotted)"
@@ -63,7 +63,7 @@ def strong_part(axes: Axes, response: Response) -> None:
 
 def begins(*responses: Response) -> list[float]:
     """Return when the motions of a sequence begin [s], but the first."""
-    return sorted({part.begins for each in responses for part in each.motion.parts[1:]})
+    return sorted({part.begins for response in responses for part in response.motion.parts[1:]})
 
 
 def _mark(axes: Axes, end: float) -> None:

@@ -20,17 +20,17 @@ _CLIPPED: dict[str, Any] = {"ha": "right", "va": "center", "fontsize": 7, "color
 
 
 @styled
-def statics_figure(found: Statics) -> Figure:
+def statics_figure(statics: Statics) -> Figure:
     """Draw each check as a bar: what is there over what is required, or for what may be at most so much the other way
     round, so that a check is met where its bar reaches one."""
-    figure = Figure(figsize=(WIDTH, _AROUND + _ROW * len(found.checks)), layout="constrained")
+    figure = Figure(figsize=(WIDTH, _AROUND + _ROW * len(statics.checks)), layout="constrained")
     axes = figure.subplots()
-    missed = sum(not check.met for check in found.checks)
-    said = "all checks are met" if not missed else f"{missed} of {len(found.checks)} checks are not met"
-    heading(figure, found.title or "Untitled case", f"{found.criteria}: {said}")
+    missed = sum(not check.met for check in statics.checks)
+    sentence = "all checks are met" if not missed else f"{missed} of {len(statics.checks)} checks are not met"
+    heading(figure, statics.title or "Untitled case", f"{statics.criteria}: {sentence}")
     names = []
     # An equilibrium that is met has no margin to show.
-    drawn = [check for check in found.checks if check.value is not None or not check.met] or list(found.checks)
+    drawn = [check for check in statics.checks if check.value is not None or not check.met] or list(statics.checks)
     for row, check in enumerate(drawn):
         share = _share(check)
         reached = min(share, _MOST)

@@ -47,7 +47,7 @@ _Arrow = tuple[Floats, Floats, float, ForceLine]
 
 
 @styled
-def forces_figure(case: Case, found: LoadCase, units: str = "si") -> Figure:
+def forces_figure(case: Case, load_case: LoadCase, units: str = "si") -> Figure:
     """Draw the forces of a load case to one scale, each with its arm from the heel, the pressures of the water, the
     resultant, and below the stress on the part of the crack that is closed.
 
@@ -55,20 +55,20 @@ def forces_figure(case: Case, found: LoadCase, units: str = "si") -> Figure:
     ----------
     case
         The dam with its crack.
-    found
+    load_case
         A load case of its checks.
     units
         ``"si"`` or ``"us"``.
     """
     system = unit_system(units)
-    drawn, section = flooded(case) if found.name == "flood" else case, case.above
+    drawn, section = flooded(case) if load_case.name == "flood" else case, case.above
     figure = Figure(figsize=(WIDTH, _HEIGHT))
-    heading(figure, case.title or "Untitled case", f"{found.name}, crack at {_at(case, system)}")
+    heading(figure, case.title or "Untitled case", f"{load_case.name}, crack at {_at(case, system)}")
     panel = _PANEL / _HEIGHT
     axes = figure.add_axes((0.0, panel + 0.075, 1.0, 1.0 - panel - 0.075 - 0.55 / _HEIGHT))
     size = max(section.crack_width, section.height)
     canvas = Canvas(axes, system.scale("length"), size)
-    arrows = list(_arrows(found, section))
+    arrows = list(_arrows(load_case, section))
     heights, widths = _arms(arrows, up=False), _arms(arrows, up=True)
     low, high = section.polygon.min(axis=0), section.polygon.max(axis=0)
     high[1] = max(high[1], section.base_elevation + (drawn.reservoir.depth if drawn.reservoir else 0.0))
@@ -78,11 +78,11 @@ def forces_figure(case: Case, found: LoadCase, units: str = "si") -> Figure:
     axes.set_axis_off()
     draw_bodies(canvas, drawn)
     _draw_arms(canvas, section, (heights, widths), system)
-    _draw_pressures(canvas, drawn, found, system)
-    _draw_crack(canvas, case, found)
-    _draw_arrows(canvas, section, found, arrows, system)
+    _draw_pressures(canvas, drawn, load_case, system)
+    _draw_crack(canvas, case, load_case)
+    _draw_arrows(canvas, section, load_case, arrows, system)
     stress = figure.add_axes((0.1, 0.42 / _HEIGHT, 0.87, panel - 0.05))
-    draw_stresses(stress, found, system)
+    draw_stresses(stress, load_case, system)
     return figure
 
 
@@ -90,10 +90,10 @@ def _at(case: Case, units: Units) -> str:
     return quantity(case.crack.elevation, ".5g m", units.name)
 
 
-def _arrows(found: LoadCase, section: CutSection) -> Iterator[_Arrow]:
+def _arrows(load_case: LoadCase, section: CutSection) -> Iterator[_Arrow]:
     """Return the horizontal and the vertical part of each force that can be seen, where they act."""
-    sheet = found.sheet()
-    size = max(abs(each) for line in sheet.lines for each in (line.horizontal_n, line.vertical_n))
+    sheet = load_case.sheet()
+    size = max(abs(component) for line in sheet.lines for component in (line.horizontal_n, line.vertical_n))
     for line in sheet.lines:
         # From the heel of the crack; the sheet counts from that of the contact.
         if line.height_m is not None and abs(line.horizontal_n) > _LITTLE * size:
@@ -127,12 +127,12 @@ def _on(line: ForceLine, section: CutSection, place: float, *, up: bool) -> Floa
 
 def _arms(arrows: list[_Arrow], *, up: bool) -> list[tuple[float, str]]:
     """Return the arms of the vertical or of the horizontal parts with whose they are, those alike in one."""
-    found: dict[float, list[str]] = {}
+    by_arm: dict[float, list[str]] = {}
     for _, force, arm, line in arrows:
         if bool(force[1]) == up and arm:
-            known = next((each for each in found if math.isclose(each, arm, rel_tol=1e-6)), arm)
-            found.setdefault(known, []).append(line.name)
-    return [(arm, ", ".join(names)) for arm, names in sorted(found.items(), key=lambda each: abs(each[0]))]
+            known = next((each for each in by_arm if math.isclose(each, arm, rel_tol=1e-6)), arm)
+            by_arm.setdefault(known, []).append(line.name)
+    return [(arm, ", ".join(names)) for arm, names in sorted(by_arm.items(), key=lambda each: abs(each[0]))]
 
 
 def _colour(name: str) -> str:
@@ -140,24 +140,24 @@ def _colour(name: str) -> str:
     return _EARTHQUAKE if first in ("inertia", "hydrodynamic") else FORCE_COLOURS.get(first, _WATER)
 
 
-def _draw_crack(canvas: Canvas, case: Case, found: LoadCase) -> None:
+def _draw_crack(canvas: Canvas, case: Case, load_case: LoadCase) -> None:
     """Draw the crack, what of it is open in thick red, on the straight line, and the ends of the contact."""
     section = case.cut
     heel, along = np.array(section.heel), np.array(section.from_crack_frame(1.0, 0.0))
-    start, end, open_ = found.contact_from_m, found.contact_to_m, found.cracked_length_m
+    start, end, open_ = load_case.contact_from_m, load_case.contact_to_m, load_case.cracked_length_m
     canvas.line(case.crack_line, keep_off=True, color="#000000", linewidth=1.4, zorder=4.6)
-    gone = (start, start + open_) if found.cracked_from == "heel" else (end - open_, end)
+    gone = (start, start + open_) if load_case.cracked_from == "heel" else (end - open_, end)
     if open_:
-        canvas.line([heel + each * along for each in gone], color=COLOURS["crack"], linewidth=3.5, zorder=4.7)
+        canvas.line([heel + distance * along for distance in gone], color=COLOURS["crack"], linewidth=3.5, zorder=4.7)
         middle = heel + sum(gone) / 2.0 * along
         canvas.label("open", middle, COLOURS["crack"], first=(0, 1))
     canvas.label("heel", heel + start * along, first=(-1, -1))
     canvas.label("toe", heel + end * along, first=(1, -1))
 
 
-def _draw_pressures(canvas: Canvas, case: Case, found: LoadCase, units: Units) -> None:
+def _draw_pressures(canvas: Canvas, case: Case, load_case: LoadCase, units: Units) -> None:
     """Draw the pressure of the water on both faces and in the crack to one scale."""
-    section, points = case.cut, np.array(found.pressures)
+    section, points = case.cut, np.array(load_case.pressures)
     faces = []
     for water, face, side in (
         (case.reservoir, section.upstream_face, -1.0),
@@ -184,24 +184,24 @@ def _draw_pressures(canvas: Canvas, case: Case, found: LoadCase, units: Units) -
     if points[:, 1].max() > 0.0:
         canvas.fill(np.vstack([top[[0, -1]], bottom[::-1]]), hatch="|||", **look)
         canvas.line(bottom, keep_off=True, color=_WATER, linewidth=0.8, zorder=3.1)
-    said: set[tuple[float, float]] = set()
-    for (x, height), place in zip(found.pressures, bottom, strict=True):
+    labelled: set[tuple[float, float]] = set()
+    for (x, height), place in zip(load_case.pressures, bottom, strict=True):
         key = (round(x, 6), round(height, 3))
-        if height > 1e-6 * most and key not in said:
-            said.add(key)
+        if height > 1e-6 * most and key not in labelled:
+            labelled.add(key)
             canvas.label(scaled(height, scale), place, _WATER, first=(-1 if x <= 0.0 else 1, -1))
 
 
 def _wet(face: Floats, level: float) -> Floats:
     """Return the corners of a face below a level, from below, with the place where the water ends [m]."""
-    found = [face[0]]
+    points = [face[0]]
     for start, end in pairwise(face):
         if end[1] > level:
             if start[1] < level:
-                found.append(start + (end - start) * (level - start[1]) / (end[1] - start[1]))
+                points.append(start + (end - start) * (level - start[1]) / (end[1] - start[1]))
             break
-        found.append(end)
-    return np.array([point for point in found if point[1] <= level + 1e-9] or [face[0]])
+        points.append(end)
+    return np.array([point for point in points if point[1] <= level + 1e-9] or [face[0]])
 
 
 def _draw_arms(canvas: Canvas, section: CutSection, arms: tuple[list[tuple[float, str]], ...], units: Units) -> None:
@@ -240,9 +240,9 @@ def _dimension(canvas: Canvas, start: Floats, arm: Floats, text: str) -> None:
     canvas.keep_off_text(drawn)
 
 
-def _draw_arrows(canvas: Canvas, section: CutSection, found: LoadCase, arrows: list[_Arrow], units: Units) -> None:
+def _draw_arrows(canvas: Canvas, section: CutSection, load_case: LoadCase, arrows: list[_Arrow], units: Units) -> None:
     """Draw the forces and their resultant with their sizes."""
-    total = np.array([found.sheet().sum.horizontal_n, found.sheet().sum.vertical_n])
+    total = np.array([load_case.sheet().sum.horizontal_n, load_case.sheet().sum.vertical_n])
     most = max([float(np.abs(force).max()) for _, force, _, _ in arrows] + [float(np.hypot(*total))])
     per, scale = _LONGEST * canvas.size / most, units.scale("force", most)
     ends = []
@@ -251,8 +251,8 @@ def _draw_arrows(canvas: Canvas, section: CutSection, found: LoadCase, arrows: l
         tail, tip = (point, point + vector) if line.name in _BODY else (point - vector, point)
         canvas.arrow(tail, tip, colour)
         ends.append((line, force, tip if line.name in _BODY else tail, vector if line.name in _BODY else -vector))
-    if found.resultant_from_heel_m is not None:
-        tip = np.array(section.heel) + found.resultant_from_heel_m * np.array(section.from_crack_frame(1.0, 0.0))
+    if load_case.resultant_from_heel_m is not None:
+        tip = np.array(section.heel) + load_case.resultant_from_heel_m * np.array(section.from_crack_frame(1.0, 0.0))
         canvas.arrow(tip - total * per, tip, "#6A4C93", width=3.0)
         canvas.label(f"R {scaled(float(np.hypot(*total)), scale)}", tip - total * per, "#6A4C93", first=(-1, 1))
     for line, force, end, away in ends:

@@ -14,20 +14,20 @@ from heeltoe.views.figures.style import COLOURS
 _THIRD, _HALF = "#E3E3E3", "#F2F2F2"
 
 
-def draw_stresses(axes: Axes, found: LoadCase, units: Units) -> None:
+def draw_stresses(axes: Axes, load_case: LoadCase, units: Units) -> None:
     """Draw the stress of what is closed, compression downwards, over the middle third and the middle half."""
     length = units.scale("length")
-    start, end, width = found.contact_from_m, found.contact_to_m, found.contact_width_m
+    start, end, width = load_case.contact_from_m, load_case.contact_to_m, load_case.contact_width_m
     middle = (start + end) / 2.0
     for reach, colour in ((1.0 / 4.0, _HALF), (1.0 / 6.0, _THIRD)):
         low, high = middle - reach * width, middle + reach * width
         axes.axvspan(length(low), length(high), color=colour, linewidth=0.0, zorder=0.2)
     axes.axhline(0.0, color="#000000", linewidth=1.0)
-    open_ = found.cracked_length_m
-    closed = (start + open_, end) if found.cracked_from == "heel" else (start, end - open_)
-    stands = found.heel_stress_pa is not None and found.toe_stress_pa is not None
+    open_ = load_case.cracked_length_m
+    closed = (start + open_, end) if load_case.cracked_from == "heel" else (start, end - open_)
+    stands = load_case.heel_stress_pa is not None and load_case.toe_stress_pa is not None
     if stands:
-        ends = np.array([found.heel_stress_pa, found.toe_stress_pa], dtype=float)
+        ends = np.array([load_case.heel_stress_pa, load_case.toe_stress_pa], dtype=float)
         ends[np.abs(ends) < 1e-6 * np.abs(ends).max(initial=0.0)] = 0.0
         scale = units.scale("pressure", float(np.abs(ends).max()))
         x = np.linspace(*closed, 201)
@@ -56,37 +56,37 @@ def draw_stresses(axes: Axes, found: LoadCase, units: Units) -> None:
         axes.set_ylim(-1.0, 1.0)
     axes.margins(y=0.28)
     axes.invert_yaxis()
-    gone = (start, closed[0]) if found.cracked_from == "heel" else (closed[1], end)
+    gone = (start, closed[0]) if load_case.cracked_from == "heel" else (closed[1], end)
     if open_:
         axes.plot(length(np.array(gone)), [0.0, 0.0], color=COLOURS["crack"], linewidth=4.0, solid_capstyle="butt")
-    if found.resultant_from_heel_m is not None:
-        axes.axvline(length(found.resultant_from_heel_m), color="#6A4C93", linewidth=1.4, linestyle="--")
-    room = 0.06 * found.contact_to_m
-    axes.set_xlim(length(min(0.0, _beyond(found)) - room), length(max(end, _beyond(found)) + room))
+    if load_case.resultant_from_heel_m is not None:
+        axes.axvline(length(load_case.resultant_from_heel_m), color="#6A4C93", linewidth=1.4, linestyle="--")
+    room = 0.06 * load_case.contact_to_m
+    axes.set_xlim(length(min(0.0, _beyond(load_case)) - room), length(max(end, _beyond(load_case)) + room))
     axes.set_xlabel(
         f"distance from the heel along the crack [{length.unit}]; grey: middle third, light grey: middle half"
     )
     axes.grid(visible=False)
-    beside(axes, _said(found, units))
+    beside(axes, _said(load_case, units))
 
 
-def _beyond(found: LoadCase) -> float:
+def _beyond(load_case: LoadCase) -> float:
     """Return where the resultant is, as far as it is worth an axis [m]."""
-    place = 0.0 if found.resultant_from_heel_m is None else found.resultant_from_heel_m
-    return min(max(place, -0.3 * found.contact_to_m), 1.3 * found.contact_to_m)
+    place = 0.0 if load_case.resultant_from_heel_m is None else load_case.resultant_from_heel_m
+    return min(max(place, -0.3 * load_case.contact_to_m), 1.3 * load_case.contact_to_m)
 
 
-def _said(found: LoadCase, units: Units) -> str:
+def _said(load_case: LoadCase, units: Units) -> str:
     """Say where the resultant is and how far the crack is open."""
     length = units.scale("length")
-    if found.resultant_from_heel_m is None or found.eccentricity_m is None:
+    if load_case.resultant_from_heel_m is None or load_case.eccentricity_m is None:
         return "no resultant: the block floats"
-    zone = "outside the contact" if found.resultant_zone == "outside" else f"in the {found.resultant_zone}"
-    away = number(length(abs(found.eccentricity_m)), 4)
-    way = "downstream" if found.eccentricity_m >= 0.0 else "upstream"
-    said = f"resultant (dashed) {zone}, {away} {length.unit} {way} of the middle"
-    if found.outcome != "stands":
-        return f"{said}; the block {'floats' if found.outcome == 'floats' else 'does not stand'}"
-    if not found.cracked_length_m:
-        return f"{said}; nothing opens"
-    return f"{said}; open {scaled(found.cracked_length_m, length, 4)} from the {found.cracked_from} (red)"
+    zone = "outside the contact" if load_case.resultant_zone == "outside" else f"in the {load_case.resultant_zone}"
+    away = number(length(abs(load_case.eccentricity_m)), 4)
+    way = "downstream" if load_case.eccentricity_m >= 0.0 else "upstream"
+    sentence = f"resultant (dashed) {zone}, {away} {length.unit} {way} of the middle"
+    if load_case.outcome != "stands":
+        return f"{sentence}; the block {'floats' if load_case.outcome == 'floats' else 'does not stand'}"
+    if not load_case.cracked_length_m:
+        return f"{sentence}; nothing opens"
+    return f"{sentence}; open {scaled(load_case.cracked_length_m, length, 4)} from the {load_case.cracked_from} (red)"

@@ -58,30 +58,33 @@ def deformed_figure(response: FlexibleResponse, time: float | None = None, units
     system = unit_system(units)
     frame, why = _chosen(response, history) if time is None else (history.frame_at(time), "")
     moved = history.displacements(frame)
-    major, minor, angle = zip(*(principal(each) for each in history.stresses(frame)), strict=True)
+    major, minor, angle = zip(*(principal(stress_field) for stress_field in history.stresses(frame)), strict=True)
     low, high = extent(history.dam)
-    exaggeration = _round(_DRAWN * max(high - low) / max(float(np.hypot(*each.T).max()) for each in moved))
+    exaggeration = _round(
+        _DRAWN * max(high - low) / max(float(np.hypot(*displacement.T).max()) for displacement in moved)
+    )
     length = system.scale("length")
     places = [
-        length(body.mesh.nodes + exaggeration * each) for body, each in zip(history.dam.bodies, moved, strict=True)
+        length(body.mesh.nodes + exaggeration * displacement)
+        for body, displacement in zip(history.dam.bodies, moved, strict=True)
     ]
     ratio = (high - low)[1] / (high - low)[0]
     figure = Figure(figsize=(WIDTH, float(np.clip(2.9 * ratio + 1.7, 3.2, 7.5))), layout="constrained")
     describe(figure, response)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    turned = tuple(each + math.pi / 2.0 for each in angle)
+    turned = tuple(direction + math.pi / 2.0 for direction in angle)
     both = (
         (major, angle, "Oranges", "tension"),
-        (tuple(-each for each in minor), turned, "Blues", "compression"),
+        (tuple(-principal_stress for principal_stress in minor), turned, "Blues", "compression"),
     )
     tops = [max(float(np.percentile(np.concatenate(values), _SHOWN)), 1e-9) for values, *_ in both]
     stress = system.scale("pressure", max(tops))
     for axes, most, (values, direction, colours, name) in zip(panels, tops, both, strict=True):
-        image = _stress_map(axes, history, places, tuple(stress(each) for each in values), stress(most), colours)
+        image = _stress_map(axes, history, places, tuple(stress(value) for value in values), stress(most), colours)
         _crosses(axes, history, places, values, direction, 0.1 * most)
         _outlines(axes, history, places, length)
         bar = figure.colorbar(image, ax=axes, location="bottom", aspect=30, pad=0.02)
-        bar.set_label(f"{name} [{stress.unit}]; largest {scaled(max(float(each.max()) for each in values), stress)}")
+        bar.set_label(f"{name} [{stress.unit}]; largest {scaled(max(float(value.max()) for value in values), stress)}")
         dam_axes(axes, length)
     panels[1].set_ylabel("")
     moment = f"t = {history.time[frame]:.2f} s{why}; displacements exaggerated {exaggeration:g} times"
@@ -97,7 +100,10 @@ def _chosen(response: FlexibleResponse, history: CrackHistory) -> tuple[int, str
     if float(np.ptp(h["slip_m"])) > _SLIDES:
         return int(np.argmax(np.abs(h["slip_velocity_m_s"]))), ", the fastest slip"
     frames = np.unique(np.linspace(0, len(history.time) - 1, _LOOKED_AT).astype(int))
-    tension = [max(float(principal(each)[0].max()) for each in history.stresses(int(frame))) for frame in frames]
+    tension = [
+        max(float(principal(stress_field)[0].max()) for stress_field in history.stresses(int(frame)))
+        for frame in frames
+    ]
     return int(frames[int(np.argmax(tension))]), ", the largest tension"
 
 
@@ -111,14 +117,14 @@ def _stress_map(
     axes: Axes, history: CrackHistory, places: list[Floats], values: tuple[Floats, ...], most: float, colours: str
 ) -> TriContourSet:
     """Fill contours of the positive part; what is not positive stays white."""
-    levels = _levels(most, max(float(each.max()) for each in values))
-    for body, place, each in zip(history.dam.bodies, places, values, strict=True):
+    levels = _levels(most, max(float(value.max()) for value in values))
+    for body, place, value in zip(history.dam.bodies, places, values, strict=True):
         triangles = np.vstack([body.mesh.elements[:, corners] for corners in _TRIANGLES])
         net = Triangulation(place[:, 0], place[:, 1], triangles)
         image = axes.tricontourf(
-            net, np.maximum(each, -1e-12), levels=levels, cmap=colours, norm=BoundaryNorm(levels, _COLOURS)
+            net, np.maximum(value, -1e-12), levels=levels, cmap=colours, norm=BoundaryNorm(levels, _COLOURS)
         )
-        axes.tricontour(net, each, levels=[0.0], colors="#555555", linewidths=0.7, linestyles="--")
+        axes.tricontour(net, value, levels=[0.0], colors="#555555", linewidths=0.7, linestyles="--")
     return image
 
 

@@ -35,15 +35,15 @@ def tension_figure(response: FlexibleResponse, units: str = "si") -> Figure:
         ``"si"`` or ``"us"``.
     """
     system = unit_system(units)
-    found = response.tension
-    assert found is not None
+    tension = response.tension
+    assert tension is not None
     dam = response.crack.dam
     low, high = extent(dam)
     wide, tall = high - low
     figure = Figure(figsize=(WIDTH, float(np.clip(5.0 * tall / wide + 1.6, 3.4, 7.5))), layout="constrained")
     describe(figure, response)
     axes = figure.subplots()
-    length, stress = system.scale("length"), system.scale("pressure", max(found["stress_pa"], 1.0))
+    length, stress = system.scale("length"), system.scale("pressure", max(tension["stress_pa"], 1.0))
     image = _tensions(axes, response, length, stress)
     bar = figure.colorbar(image, ax=axes, location="right", aspect=30, pad=0.02)
     bar.set_label(f"largest tension over the run [{stress.unit}]")
@@ -52,9 +52,9 @@ def tension_figure(response: FlexibleResponse, units: str = "si") -> Figure:
         axes.add_collection(LineCollection(list(length(body.mesh.nodes)[outline]), colors="#000000", linewidths=1.0))
     for body in dam.bodies[: dam.free]:
         axes.plot(*length(body.mesh.nodes[body.mesh.faces[-1]]).T, color=COLOURS["crack"], linewidth=1.6)
-    place = length(np.array([found["x_m"], found["z_m"]]))
+    place = length(np.array([tension["x_m"], tension["z_m"]]))
     axes.plot(*place, "o", markersize=9, markerfacecolor="none", markeredgecolor="#000000", markeredgewidth=1.6)
-    across = found["direction_rad"] + np.pi / 2.0
+    across = tension["direction_rad"] + np.pi / 2.0
     reach = 0.06 * length(max(wide, tall)) * np.array([np.cos(across), np.sin(across)])
     axes.plot(*np.column_stack([place - reach, place + reach]), color="#000000", linewidth=1.6)
     room = 0.05 * length(max(wide, tall))
@@ -62,16 +62,16 @@ def tension_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     axes.set_ylim(length(low[1]) - room, length(high[1]) + room)
     dam_axes(axes, length)
     figure.legend(handles=_key(response), loc="outside lower center", ncols=2, fontsize=8)
-    text = f"Largest: {tension_line(found, units)}\n{tension_worth(found, units)}"
+    text = f"Largest: {tension_line(tension, units)}\n{tension_worth(tension, units)}"
     axes.set_title(text, fontsize=8, loc="left", wrap=True)
     return figure
 
 
 def _tensions(axes: Axes, response: FlexibleResponse, length: Scale, stress: Scale) -> TriContourSet:
     """Fill contours of the tension where it has a bound, and grey where it has none; draw where the strength is."""
-    found = response.tension
-    assert found is not None
-    most = stress(max(found["stress_pa"], 1.0))
+    tension = response.tension
+    assert tension is not None
+    most = stress(max(tension["stress_pa"], 1.0))
     levels = MaxNLocator(_LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, most)
     for body, part in zip(response.crack.dam.bodies, response.envelope, strict=True):
         places = length(body.mesh.nodes[part.nodes])
@@ -85,8 +85,10 @@ def _tensions(axes: Axes, response: FlexibleResponse, length: Scale, stress: Sca
             continue
         net = Triangulation(places[:, 0], places[:, 1], triangles, mask=unread)
         image = axes.tricontourf(net, values, levels=levels, cmap="Oranges")
-        if found["strength"] is not None and _crosses(values[part.bounded], stress(found["strength"]["dynamic_pa"])):
-            beyond = [stress(found["strength"]["dynamic_pa"])]
+        if tension["strength"] is not None and _crosses(
+            values[part.bounded], stress(tension["strength"]["dynamic_pa"])
+        ):
+            beyond = [stress(tension["strength"]["dynamic_pa"])]
             axes.tricontour(net, values, levels=beyond, colors=COLOURS["slip"], linewidths=1.6)
     return image
 
@@ -96,8 +98,8 @@ def _crosses(values: Floats, level: float) -> bool:
 
 
 def _key(response: FlexibleResponse) -> list[Line2D | Patch]:
-    found = response.tension
-    assert found is not None
+    tension = response.tension
+    assert tension is not None
     handles: list[Line2D | Patch] = [
         Line2D(
             [], [], color="#000000", marker="o", fillstyle="none", markersize=8, label="largest; a crack would run so"
@@ -105,6 +107,6 @@ def _key(response: FlexibleResponse) -> list[Line2D | Patch]:
         Patch(facecolor=_UNREAD, label="not read: no bound"),
         Line2D([], [], color=COLOURS["crack"], linewidth=1.6, label="the crack"),
     ]
-    if found["strength"] is not None and found["strength"]["exceeds"]:
+    if tension["strength"] is not None and tension["strength"]["exceeds"]:
         handles.append(Line2D([], [], color=COLOURS["slip"], linewidth=1.6, label="what the concrete bears"))
     return handles

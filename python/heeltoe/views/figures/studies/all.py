@@ -13,18 +13,18 @@ from heeltoe.views.figures.studies.sensitivity import sobol_figure, tornado_figu
 from heeltoe.views.figures.studies.suite import suite_figures
 
 
-def study_figures(found: Opened, units: str = "si") -> dict[str, Figure]:
+def study_figures(study: Opened, units: str = "si") -> dict[str, Figure]:
     """Return what can be drawn of a study, complete or not, by name, in units ``"si"`` or ``"us"``."""
-    method, asked = found.told["study"]["method"], found.told["study"]["fragility"]
+    method, asked = study.told["study"]["method"], study.told["study"]["fragility"]
     drawn = {
-        **suite_figures(found, units),
-        "ranks": ranks_figure(found, units) if found.portfolio else None,
-        "bands": None if found.suite else bands_figure(found, units),
-        "fragility": fragility_figure(found, units) if asked else None,
-        "hazard": hazard_figure(found, units) if found.hazard else None,
-        "slips": None if found.suite else slips_figure(found, units),
-        "modes": None if found.suite else modes_figure(found, units),
-        "sobol": sobol_figure(found) if method == "sensitivity" else None,
-        "tornado": tornado_figure(found, units) if method == "one at a time" else None,
+        **suite_figures(study, units),
+        "ranks": ranks_figure(study, units) if study.portfolio else None,
+        "bands": None if study.suite else bands_figure(study, units),
+        "fragility": fragility_figure(study, units) if asked else None,
+        "hazard": hazard_figure(study, units) if study.hazard else None,
+        "slips": None if study.suite else slips_figure(study, units),
+        "modes": None if study.suite else modes_figure(study, units),
+        "sobol": sobol_figure(study) if method == "sensitivity" else None,
+        "tornado": tornado_figure(study, units) if method == "one at a time" else None,
     }
     return {name: figure for name, figure in drawn.items() if figure is not None}

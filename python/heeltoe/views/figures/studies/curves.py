@@ -25,20 +25,20 @@ _SLIP = "residual_slip_m"
 
 
 @styled
-def bands_figure(found: Opened, units: str = "si") -> Figure | None:
+def bands_figure(study: Opened, units: str = "si") -> Figure | None:
     """Draw what 16, 50 and 84 % of the runs stay below, by the strength of the motion; of an incremental dynamic
     analysis each motion beside. None where no strength varies or nothing slides."""
-    strength, largest = strength_of(found, units), farthest(found)
-    by_model = found.bands(_SLIP, strength.measure, strength.period)
-    if not largest > JOINT_METER_M or max(len(each["strength"]) for each in by_model.values()) < 2:
+    strength, largest = strength_of(study, units), farthest(study)
+    by_model = study.bands(_SLIP, strength.measure, strength.period)
+    if not largest > JOINT_METER_M or max(len(row["strength"]) for row in by_model.values()) < 2:
         return None
     names, (scale, unit) = list(by_model), slip_scale(units)
     edge = scale * JOINT_METER_M / 2.0
     figure = Figure(figsize=(WIDTH, 4.2 if len(names) == 1 else 3.8), layout="constrained")
     panels = figure.subplots(1, len(names), sharex=True, sharey=True, squeeze=False)[0]
-    thin = _single_curves(found, strength) if found.complete and (found.walk.strengths or 1) > 1 else None
+    thin = _single_curves(study, strength) if study.complete and (study.walk.strengths or 1) > 1 else None
     for name, axes in zip(names, panels, strict=True):
-        which = found.walk.models.index(name)
+        which = study.walk.models.index(name)
         if thin is not None:
             _thin(axes, thin[0][..., which], np.maximum(scale * thin[1][..., which], edge))
         _band(axes, by_model[name], strength.scale, lambda slip: np.maximum(scale * slip, edge))
@@ -53,17 +53,17 @@ def bands_figure(found: Opened, units: str = "si") -> Figure | None:
     axes.set_ylabel(f"residual slip, either way [{unit}]")
     panels[-1].legend(loc="lower right", fontsize=8)
     shown = "thin: one dam in one motion" if thin is not None else "over all that varies"
-    return headed(figure, found, shown, f"slips below {length(JOINT_METER_M / 2.0, units)} stand on the lower edge")
+    return headed(figure, study, shown, f"slips below {length(JOINT_METER_M / 2.0, units)} stand on the lower edge")
 
 
-def _single_curves(found: Opened, strength: Strength) -> tuple[Floats, Floats]:
+def _single_curves(study: Opened, strength: Strength) -> tuple[Floats, Floats]:
     """Return strength and slip of some single dams in single motions, (curves, strengths, models)."""
-    strengths, models = found.walk.strengths or 1, len(found.walk.models)
-    count = found.store.count // (strengths * models)
+    strengths, models = study.walk.strengths or 1, len(study.walk.models)
+    count = study.store.count // (strengths * models)
     chosen = np.unique(np.linspace(0, count - 1, min(count, _CURVES)).astype(np.int64))
     of, slip = (np.full((chosen.size, strengths * models), np.nan) for _ in range(2))
-    measure = found.walk.measure(strength.measure, strength.period)
-    for runs in found.walk("run", *SHAKEN, _SLIP):
+    measure = study.walk.measure(strength.measure, strength.period)
+    for runs in study.walk("run", *SHAKEN, _SLIP):
         curve, place = np.divmod(runs.whole("run"), strengths * models)
         at = np.minimum(np.searchsorted(chosen, curve), chosen.size - 1)
         here = chosen[at] == curve
@@ -75,7 +75,7 @@ def _single_curves(found: Opened, strength: Strength) -> tuple[Floats, Floats]:
 
 def _thin(axes: Axes, strength: Floats, seen: Floats) -> None:
     order = np.argsort(strength, axis=1)
-    lines = np.stack([np.take_along_axis(each, order, axis=1) for each in (strength, seen)], axis=-1)
+    lines = np.stack([np.take_along_axis(column, order, axis=1) for column in (strength, seen)], axis=-1)
     axes.add_collection(LineCollection(list(lines), colors="#999999", linewidths=0.5, alpha=0.6, zorder=1))
 
 
@@ -83,8 +83,8 @@ def _band(axes: Axes, band: dict[str, list[float]], scale: float, seen: Callable
     middle = np.array(band["strength"]) / scale
     low, median, high = (
         # Runs without a result count as infinitely far; the line ends there.
-        seen(np.where(np.isfinite(each), each, np.nan))
-        for each in (np.array(band[name]) for name in ("low", "median", "high"))
+        seen(np.where(np.isfinite(column), column, np.nan))
+        for column in (np.array(band[name]) for name in ("low", "median", "high"))
     )
     colour = LINES[0][0]
     axes.fill_between(middle, low, high, color=colour, alpha=0.15, linewidth=0.0)
@@ -102,27 +102,27 @@ def _band(axes: Axes, band: dict[str, list[float]], scale: float, seen: Callable
 
 
 @styled
-def fragility_figure(found: Opened, units: str = "si") -> Figure | None:
+def fragility_figure(study: Opened, units: str = "si") -> Figure | None:
     """Draw the fragility curves with what they lie within, and the shares of the runs that exceed; None without runs
     on which one could stand."""
-    asked = found.told["study"]["fragility"]
-    fitted = [each for each in found.curves if each[1].median is not None]
+    asked = study.told["study"]["fragility"]
+    fitted = [pair for pair in study.curves if pair[1].median is not None]
     if not fitted:
         return None
     strength = measured(asked["measure"], asked["period"], units)
     models = list(dict.fromkeys(name for name, _ in fitted))
-    limits = list(dict.fromkeys((limit, value) for _, limit, value in found.counted))
-    said = limits_of(limits, units)
+    limits = list(dict.fromkeys((limit, value) for _, limit, value in study.counted))
+    labels = limits_of(limits, units)
     figure = Figure(figsize=(WIDTH, 4.4), layout="constrained")
     panels = figure.subplots(1, len(models), sharex=True, sharey=True, squeeze=False)[0]
-    strongest = max(tally.highest for tally in found.counted.values()) / strength.scale
+    strongest = max(tally.highest for tally in study.counted.values()) / strength.scale
     x = np.linspace(0.0, strongest, 241)[1:]
     for name, axes in zip(models, panels, strict=True):
         for curve in (each for of, each in fitted if of == name):
             look = LINES[limits.index((curve.limit, curve.value)) % len(LINES)]
-            middle, shares = observed(found.counted[name, curve.limit, curve.value])
+            middle, shares = observed(study.counted[name, curve.limit, curve.value])
             points = (np.array(middle) / strength.scale, np.array(shares))
-            label = said[curve.limit, curve.value]
+            label = labels[curve.limit, curve.value]
             _curve(axes, curve, (x, strength.scale), points, (*look, label))
         axes.set_title(f"{name} model", fontsize=9, loc="left")
         axes.set_xlabel(strength.label)
@@ -132,7 +132,7 @@ def fragility_figure(found: Opened, units: str = "si") -> Figure | None:
     panels[0].set_ylabel("probability that it is exceeded")
     within = any(curve.covariance is not None for _, curve in fitted)
     band = f"; shaded: {asked['confidence']:.0%} confidence, event by event" if within else ""
-    return headed(figure, found, f"points: shares of the runs{band}")
+    return headed(figure, study, f"points: shares of the runs{band}")
 
 
 def _curve(

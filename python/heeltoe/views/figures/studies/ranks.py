@@ -18,12 +18,12 @@ _SHOWN, _LONGEST = 25, 28
 
 
 @styled
-def ranks_figure(found: Opened, units: str = "si") -> Figure | None:
+def ranks_figure(study: Opened, units: str = "si") -> Figure | None:
     """Draw the worst dams of the last model from above: slips on the left, on the right the share of the motions in
     which the first limit is exceeded; None without a table of dams."""
-    if not found.portfolio:
+    if not study.portfolio:
         return None
-    row = found.portfolio[-1]
+    row = study.portfolio[-1]
     dams = row["dams"][:_SHOWN]
     scale, unit = slip_scale(units)
     rows = np.arange(len(dams))[::-1]
@@ -58,4 +58,4 @@ def ranks_figure(found: Opened, units: str = "si") -> Figure | None:
     many = (
         f"the {len(dams)} worst of {len(row['dams']):,} dams" if len(row["dams"]) > len(dams) else f"{len(dams)} dams"
     )
-    return headed(figure, found, f"{row['model']} model, {many}, with their ranks")
+    return headed(figure, study, f"{row['model']} model, {many}, with their ranks")
