@@ -127,6 +127,9 @@ def test_what_a_file_does_not_state_is_asked_for_at_its_field(motion):
         "() => [...document.querySelectorAll('[data-way=horizontal] .wrong')].some((e) => e.textContent)"
     )
     assert motion.is_disabled("text=Use in this case")
+    # Both at once, in words, beside a field for each.
+    says(motion, "[data-of='motion.unit']", "neither the unit of its numbers nor the time between two of them")
+    assert motion.is_visible("#horizontal-time_step")
     motion.fill("#horizontal-unit", "m/s^2")
     motion.fill("#horizontal-time_step", "0.02")
     motion.wait_for_function("() => !document.querySelector('.motion-form button.main').disabled")

@@ -71,6 +71,13 @@ def test_what_is_wrong_is_said_at_its_field(studies):
     studies.fill(f"{place} input", "0.9, -1")
     studies.wait_for_selector("[data-field='vary.crack.friction'] >> text=out of range")
     assert studies.is_disabled("text=Run the study")
+    # Its button is in sight wherever the form stands, and what is wrong is one click away.
+    studies.evaluate("scrollTo(0, 0)")
+    button = studies.locator("text=Run the study").bounding_box()
+    assert button["y"] >= 0
+    assert button["y"] + button["height"] <= 900
+    studies.click(".launch >> text=Something above cannot be used")
+    assert studies.evaluate("document.activeElement.value") == "0.9, -1"
     studies.fill(f"{place} input", "0.9")
     studies.wait_for_function(LOOKED)
     assert not studies.is_visible("text=out of range")

@@ -72,12 +72,16 @@ def _is_vertical(motion: GroundMotion) -> bool:
 def refusal(case: Case, motion: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Return why a motion cannot be used, read once as an analysis reads it; nothing where it can."""
     try:
-        problem = _with_motion(case, motion, folder)
-        assert problem.motion is not None
-        resolve(problem.motion, problem.gravity, problem.base_directory)
+        _resolved(case, motion, folder)
     except InputError as error:
         return refused(_placed(error, motion))
     return {}
+
+
+def _resolved(case: Case, motion: Mapping[str, Any], folder: Path) -> tuple[GroundMotion, GroundMotion | None]:
+    problem = _with_motion(case, motion, folder)
+    assert problem.motion is not None
+    return resolve(problem.motion, problem.gravity, problem.base_directory)
 
 
 def _with_motion(case: Case, motion: Mapping[str, Any], folder: Path) -> Case:
@@ -89,14 +93,36 @@ def look(case: Case, motion: Mapping[str, Any], folder: Path, units: str) -> dic
     """Return what would shake a case: as an analysis takes it, or, where that cannot be, each record as it was read and
     why it cannot be used."""
     try:
-        problem = _with_motion(case, motion, folder)
-        assert problem.motion is not None
-        pair = resolve(problem.motion, problem.gravity, problem.base_directory)
+        pair = _resolved(case, motion, folder)
     except InputError as error:
         payload = refused(_placed(error, motion))
+        payload = _asks_for_both(case, motion, folder, error) or payload
         seen = [_as_read(source, case.gravity, folder) for source in (motion, motion.get("vertical"))]
         return {**payload, "usable": False, "motions": _shown(seen, case.gravity, units, doubts=True)}
     return {"usable": True, "motions": _shown(list(pair), case.gravity, units, doubts=False)}
+
+
+# What stands in for a time step that a file does not state, to see what else it does not.
+_SOME_STEP = "0.01 s"
+
+
+def _asks_for_both(case: Case, motion: Mapping[str, Any], folder: Path, error: InputError) -> dict[str, Any]:
+    """Return the question for unit and time step at once, of a file that states neither; nothing of another."""
+    if error.code != "record-step-missing":
+        return {}
+    way = "motion.vertical" if error.field.startswith("motion.vertical") else "motion"
+    source = motion.get("vertical", {}) if way == "motion.vertical" else motion
+    stepped = {**source, "time_step": _SOME_STEP}
+    try:
+        _resolved(case, {**motion, "vertical": stepped} if way == "motion.vertical" else stepped, folder)
+    except InputError as second:
+        if second.code != "record-unit-missing":
+            return {}
+        problem = "The file states neither the unit of its numbers nor the time between two of them"
+        peak, guess = second.problem.rpartition("; ")[2], second.remedy.rpartition(": ")[2]
+        remedy = f"give both here. {peak[:1].upper()}{peak[1:]}: {guess}. Steps of 0.005, 0.01 and 0.02 s are usual."
+        return {"error": {"field": f"{way}.unit", "text": f"{problem}; {remedy}", "problem": problem, "remedy": remedy}}
+    return {}
 
 
 def _as_read(source: Mapping[str, Any] | None, gravity: float, folder: Path) -> GroundMotion | None:

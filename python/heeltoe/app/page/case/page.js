@@ -103,7 +103,7 @@ export function casePage(talk) {
       const keep = button("Save the case file", () => talk.ask("save case"));
       const tools = element("div", { class: "tools" }, file, fileLabel, keep, undo, redo, corners);
       const seen = element("div", { class: "seen" }, tools, said, problems, drawing.root, element("p", { class: "faint" }, "The rigid block:"), verdict);
-      root.append(element("div", { class: "case" }, seen, form.root));
+      root.append(element("h2", { class: "unseen" }, "Case"), element("div", { class: "case" }, seen, form.root));
       new IntersectionObserver((entries) => { visible = entries.some((entry) => entry.isIntersecting); refresh(); }).observe(root);
       return () => {
         visible = true;

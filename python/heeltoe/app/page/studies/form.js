@@ -213,14 +213,14 @@ export class StudyForm {
     return pairs.slice(0, 4).flat().map((/** @type {any} */ record) => record.name);
   }
 
-  /** Say what is wrong at its field; return whether there is such a place. @param {{field: string, problem: string, remedy: string} | null} error */
+  /** Say what is wrong at its field; return that, null where there is no such place. @param {{field: string, problem: string, remedy: string} | null} error @returns {HTMLElement | null} */
   fault(error) {
     for (const place of this.root.querySelectorAll(".wrong")) if (place.textContent) place.textContent = "";
     for (const input of this.root.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
-    if (!error) return true;
+    if (!error) return null;
     const places = [.../** @type {NodeListOf<HTMLElement>} */ (this.root.querySelectorAll("[data-field]"))].filter((place) => error.field.startsWith(place.dataset.field || "?") && place.checkVisibility());
     const best = places.sort((a, b) => (b.dataset.field || "").length - (a.dataset.field || "").length)[0];
-    if (!best) return false;
+    if (!best) return null;
     let wrong = best.querySelector(":scope > .wrong");
     if (!wrong) {
       wrong = element("p", { class: "wrong", role: "status" });
@@ -229,6 +229,7 @@ export class StudyForm {
     wrong.textContent = `${error.problem}; ${error.remedy}`;
     const input = best.matches(".entry") ? best.querySelector("input, select") : null;
     if (input) input.setAttribute("aria-invalid", "true");
-    return true;
+    const typed = [...best.querySelectorAll("input"), ...best.querySelectorAll("select")].find((other) => other.checkVisibility());
+    return /** @type {HTMLElement} */ (input || typed || best);
   }
 }

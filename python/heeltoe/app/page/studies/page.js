@@ -39,6 +39,12 @@ export function studiesPage(talk) {
     talk.ask("study look", { study: form.read() });
   }
 
+  /** Show a field that is wrong. @param {HTMLElement} place */
+  function go(place) {
+    place.scrollIntoView({ block: "center" });
+    place.focus({ preventScroll: true });
+  }
+
   /** @param {object} what */
   function run(what) {
     refused.textContent = "";
@@ -135,10 +141,11 @@ export function studiesPage(talk) {
     refused.textContent = text;
   });
   talk.on("study look", (told) => {
-    const found = form.fault(told.error || null);
+    const wrong = form.fault(told.error || null);
     start.toggleAttribute("disabled", Boolean(told.error));
-    outlook.textContent = told.outlook || (found ? "Something above cannot be used." : told.error.text);
-    outlook.classList.toggle("wrong", Boolean(told.error) && !found);
+    if (wrong) outlook.replaceChildren(element("button", { type: "button", class: "link", onclick: () => go(wrong) }, "Something above cannot be used"), `: ${told.error.problem}`);
+    else outlook.textContent = told.outlook || told.error.text;
+    outlook.classList.toggle("wrong", Boolean(told.error) && !wrong);
   });
   talk.on("job", (job) => {
     const number = Number((/^study (\d+)$/.exec(job.what) || [])[1]);
@@ -161,7 +168,7 @@ export function studiesPage(talk) {
     /** @param {HTMLElement} root */
     mount(root) {
       const made = element("section", { "aria-label": "Studies of this tab" }, element("h2", {}, "Studies"), none, list, said);
-      root.append(element("div", { class: "two" }, element("div", {}, element("h2", {}, "A new study of this case"), form.root, outlook, refused, start), made));
+      root.append(element("div", { class: "two" }, element("div", {}, element("h2", {}, "A new study of this case"), form.root, element("div", { class: "launch" }, outlook, refused, start)), made));
       new IntersectionObserver(([entry]) => {
         visible = entry.isIntersecting;
         if (visible && wanted) ask();
