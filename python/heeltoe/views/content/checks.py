@@ -63,8 +63,8 @@ def static_checks(subject: Subject) -> Section | None:
         )
     ]
     if found.warnings:
-        shown = {each.code for run in subject.runs for each in run.response.warnings}
-        own = [each.text(subject.units) for each in found.warnings if each.code not in shown]
+        shown = {warning.code for run in subject.runs for warning in run.response.warnings}
+        own = [warning.text(subject.units) for warning in found.warnings if warning.code not in shown]
         blocks += [Notes("warning", "About the static checks", tuple((text,) for text in own))] if own else []
     blocks += [
         load_cases(found, subject.numbers, "statics."),
@@ -101,24 +101,26 @@ def missed_of(joints: Joints, units: str, most: int) -> list[tuple[Inline, ...]]
     return items
 
 
-def answer_of(found: Joints, units: str) -> str:
+def answer_of(joints: Joints, units: str) -> str:
     """Say how many checks are met, and what governs."""
-    joint, worst = found.governing, found.governing.governing
-    checks = [check for section in found.joints for check in section.statics.checks]
+    joint, worst = joints.governing, joints.governing.governing
+    checks = [check for section in joints.joints for check in section.statics.checks]
     missed = sum(not check.met for check in checks)
-    said = verdict_of(joint.statics)
-    if len(found.joints) > 1:
-        said = f"{missed} of {len(checks)} checks fail" if missed else f"all {len(checks)} checks are met"
+    sentence = verdict_of(joint.statics)
+    if len(joints.joints) > 1:
+        sentence = f"{missed} of {len(checks)} checks fail" if missed else f"all {len(checks)} checks are met"
         where = quantity(joint.elevation_m, ".5g m", units)
-        said += f" at {len(found.joints)} sections; the section at {where} governs"
+        sentence += f" at {len(joints.joints)} sections; the section at {where} governs"
     if worst is not None and worst.margin is not None:
-        said += f". The governing check is the {worst.name} ({worst.load_case}): {worst.margin:.2f} of what is required"
-    return glued(f"{said[0].upper()}{said[1:]}.")
+        sentence += (
+            f". The governing check is the {worst.name} ({worst.load_case}): {worst.margin:.2f} of what is required"
+        )
+    return glued(f"{sentence[0].upper()}{sentence[1:]}.")
 
 
-def section_table(found: Joints, units: str) -> Table:
+def section_table(joints: Joints, units: str) -> Table:
     """Return the table of the sections."""
-    head, rows = section_rows(found, units)
+    head, rows = section_rows(joints, units)
     caption = (
         "Sections, the governing one first. Margin: value over required value of the governing check; sliding, "
         "overturning: smallest factors of all load cases; open: longest crack."
@@ -136,24 +138,24 @@ def _slip(subject: Subject) -> Inline:
     return subject.numbers("statics.slip_m")
 
 
-def load_cases(found: Statics, numbers: Numbers, prefix: str) -> Table:
+def load_cases(checked: Statics, numbers: Numbers, prefix: str) -> Table:
     """Return the table of the load cases; `prefix` is where the static checks stand in the JSON of the numbers."""
-    rows: list[tuple[Inline, ...]] = [("Outcome", *(case.outcome for case in found.cases))]
+    rows: list[tuple[Inline, ...]] = [("Outcome", *(case.outcome for case in checked.cases))]
     for label, key, kind in _CASES:
-        cells = [numbers(f"{prefix}cases.{place}.{key}", kind) for place in range(len(found.cases))]
+        cells = [numbers(f"{prefix}cases.{place}.{key}", kind) for place in range(len(checked.cases))]
         if any(isinstance(cell, Value) and cell.number for cell in cells):
             rows.append((label, *cells))
-    rows.append(("Overturning about the", *(case.overturning_about for case in found.cases)))
-    rows.append(("Resultant in", *(case.resultant_zone or NOTHING for case in found.cases)))
-    head = ("", *(case.name for case in found.cases))
+    rows.append(("Overturning about the", *(case.overturning_about for case in checked.cases)))
+    rows.append(("Resultant in", *(case.resultant_zone or NOTHING for case in checked.cases)))
+    head = ("", *(case.name for case in checked.cases))
     per = "per foot of dam" if numbers.units.name == "us" else "per metre of dam"
     return Table(head, tuple(rows), f"Load cases, {per}.", _SHARES[: len(head)])
 
 
-def _checks(subject: Subject, found: Statics) -> Table:
+def _checks(subject: Subject, checked: Statics) -> Table:
     n = subject.numbers
     rows: list[tuple[Inline, ...]] = []
-    for place, check in enumerate(found.checks):
+    for place, check in enumerate(checked.checks):
         key = f"statics.checks.{place}."
         unit = {"resultant": " of width", "compression": " of strength"}.get(check.name, "")
         value, required = (_with(n(key + name), unit) for name in ("value", "required"))
@@ -177,28 +179,28 @@ def _with(cell: Inline, unit: str, sign: str = "") -> Inline:
     return Value(cell.key, cell.number, f"{sign}{cell.text}{unit}") if isinstance(cell, Value) else cell
 
 
-def _missed(found: Statics, units: str) -> Block:
+def _missed(checked: Statics, units: str) -> Block:
     """Say in words which checks are not met, and by how much."""
-    items: list[tuple[Inline, ...]] = [(f"{check.sentence.text(units)}.",) for check in found.checks if not check.met]
+    items: list[tuple[Inline, ...]] = [(f"{check.sentence.text(units)}.",) for check in checked.checks if not check.met]
     if not items:
         return paragraph("All static checks are met.")
-    return Notes("warning", f"Not met: {len(items)} of {len(found.checks)} static checks", tuple(items))
+    return Notes("warning", f"Not met: {len(items)} of {len(checked.checks)} static checks", tuple(items))
 
 
-def remarks(found: Statics, units: str, number_of: Callable[[str], str]) -> Notes:
+def remarks(checked: Statics, units: str, number_of: Callable[[str], str]) -> Notes:
     """Gather what the load cases take for granted, and what there is to say about the required values."""
     notes: dict[str, list[str]] = {}
-    for check in found.checks:
+    for check in checked.checks:
         number = number_of(check.source)
         for text in filter(None, check.note.split("; ")):
             if number not in notes.setdefault(text, []):
                 notes[text].append(number)
-    said: dict[str, list[str]] = {}
-    for each in found.cases:
-        for taken in each.assumptions:
-            said.setdefault(taken.text(units), []).append(each.name)
+    places: dict[str, list[str]] = {}
+    for load_case in checked.cases:
+        for taken in load_case.assumptions:
+            places.setdefault(taken.text(units), []).append(load_case.name)
     # The ways of the earthquake share nearly all.
-    remarks = [f"{of[0] if len(of) == 1 else of[0].split()[0]}: {text}." for text, of in said.items()]
+    remarks = [f"{of[0] if len(of) == 1 else of[0].split()[0]}: {text}." for text, of in places.items()]
     remarks += [f"{', '.join(sorted(numbers))}: {note}." for note, numbers in notes.items()]
     return Notes("note", "Taken for granted", tuple((text,) for text in remarks))
 

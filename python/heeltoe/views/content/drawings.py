@@ -99,8 +99,8 @@ def drawings(figures: Mapping[str, Figure]) -> dict[str, FigureBlock]:
     if "comparison" not in figures:
         return {name: drawing(name, figures[name], caption(name)) for name in figures}
     shared = ("summary", "section", "law", "motion", "comparison")
-    said = {name: caption(name if "/" in name or name in shared else f"flexible/{name}") for name in _OF_BOTH}
-    return {name: drawing(name, figures[name], said[name]) for name in figures if name in _OF_BOTH}
+    captions = {name: caption(name if "/" in name or name in shared else f"flexible/{name}") for name in _OF_BOTH}
+    return {name: drawing(name, figures[name], captions[name]) for name in figures if name in _OF_BOTH}
 
 
 def caption(name: str) -> str:

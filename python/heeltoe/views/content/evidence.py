@@ -73,8 +73,8 @@ def evidence(subject: Subject) -> Section:
     if any(run.response.energy is not None for run in subject.runs):
         ledgers = [run.response.energy for run in subject.runs if run.response.energy is not None]
         # What only joints and water with sound have.
-        there = {name: any(getattr(ledger, name) for ledger in ledgers) for name in _RARE}
-        entries = [(label, name) for label, name in _ENERGY if there.get(name, True)]
+        flows = {name: any(getattr(ledger, name) for ledger in ledgers) for name in _RARE}
+        entries = [(label, name) for label, name in _ENERGY if flows.get(name, True)]
         rows = tuple(_energy_row(subject, label, name) for label, name in entries)
         blocks.append(Table(subject.head(), _seen(rows), f"Energy ledger, {subject.per_width}.", subject.align()))
         blocks += subject.figure("energy")[-1:]
@@ -115,15 +115,15 @@ def _spread(subject: Subject, run: Run) -> list[Block]:
         ]
     n, prefix = subject.numbers, f"{run.prefix}spread."
     rows: list[tuple[Inline, ...]] = []
-    for each in HEADLINES:
-        name, sign = each.key, each.way
+    for headline in HEADLINES:
+        name, sign = headline.key, headline.way
         if not n.raw(prefix + name):
             continue
         low, high = ("min", "max") if sign > 0 else ("max", "min")
         cells = [n(run.prefix + name, sign=sign), n(f"{prefix}{name}.mean", sign=sign), n(f"{prefix}{name}.std")]
         cells += [n(f"{prefix}{name}.{end}", sign=sign) for end in (low, high)]
         if any(cell != NOTHING and getattr(cell, "number", 0) for cell in cells):
-            rows.append((each.label.capitalize(), *cells))
+            rows.append((headline.label.capitalize(), *cells))
     found = run.response.spread
     scales = found["scales"]
     failed = f"; {found['failed']} of them without a result" if found["failed"] else ""

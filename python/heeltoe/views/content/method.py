@@ -78,9 +78,9 @@ class _Writer:
 
     def section(self, title: str, start: int) -> Section:
         """Put all blocks from `start` on under a heading of their own."""
-        found = tuple(self.blocks[start:])
+        blocks = tuple(self.blocks[start:])
         del self.blocks[start:]
-        return Section(title, found)
+        return Section(title, blocks)
 
 
 def integrated(subject: Subject) -> bool:

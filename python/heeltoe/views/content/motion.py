@@ -71,9 +71,9 @@ def ground_motion(subject: Subject) -> Section:
 
 
 def _checks(motions: list[GroundMotion], units: str) -> Block:
-    said = [warning.text(units) for motion in motions for warning in motion.warnings]
-    if said:
-        return Notes("warning", "Checks of the motion", tuple((text,) for text in said))
+    texts = [warning.text(units) for motion in motions for warning in motion.warnings]
+    if texts:
+        return Notes("warning", "Checks of the motion", tuple((text,) for text in texts))
     return paragraph(
         "Checks of the motion (finite samples in order of time, a plausible peak, velocity and displacement at the "
         "end) found nothing to warn of."

@@ -24,10 +24,10 @@ def _block(block: Block, numbers: Numbers) -> Block:
         return block
     rows = block.rows
     for quantity in _SCALED:
-        found = list(_values(rows, quantity))
-        if len({_unit(each.text) for each in found}) > 1:
-            said = dict(zip(map(id, found), numbers.alike(found), strict=True))
-            rows = tuple(tuple(said.get(id(cell), cell) for cell in row) for row in rows)
+        amounts = list(_values(rows, quantity))
+        if len({_unit(amount.text) for amount in amounts}) > 1:
+            texts = dict(zip(map(id, amounts), numbers.alike(amounts), strict=True))
+            rows = tuple(tuple(texts.get(id(cell), cell) for cell in row) for row in rows)
     return replace(block, rows=rows)
 
 

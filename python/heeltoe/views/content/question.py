@@ -105,10 +105,10 @@ def _not_met(subject: Subject) -> Block | None:
     items: list[tuple[Inline, ...]] = []
     for check in subject.result.limits:
         if not check.met:
-            found, allowed = (measured(number, check.unit, units) for number in (check.value, check.allowed))
+            value_text, allowed = (measured(number, check.unit, units) for number in (check.value, check.allowed))
             doubt = "" if check.certain else f" ± {measured(check.uncertainty, check.unit, units)}"
             used = "" if check.utilisation is None else f", {100.0 * check.utilisation:.0f} % of it"
-            text = f"{limited(check, units)} of {found}{doubt}, {allowed} allowed{used}"
+            text = f"{limited(check, units)} of {value_text}{doubt}, {allowed} allowed{used}"
             text += f"{', by a dam that has failed' if check.failed else ''}."
             items.append((Strong("Limit. "), glued(text)))
     if subject.joints is not None:
@@ -120,25 +120,25 @@ def warnings(subject: Subject) -> tuple[str, ...]:
     """Return every warning once; those of one of two models say whose they are."""
     responses = [run.response for run in subject.runs]
     if subject.statics is not None:
-        responses = [replace(each, warnings=tuple(_beside_statics(each.warnings))) for each in responses]
+        responses = [replace(response, warnings=tuple(_beside_statics(response.warnings))) for response in responses]
     return listed(responses, subject.units)
 
 
 def _beside_statics(notices: Sequence[Notice]) -> Iterator[Notice]:
     """Return warnings for a report that has the static checks, which make use of their own fields."""
     for notice in notices:
-        said = dict(notice.quantities)
+        quantities = dict(notice.quantities)
         if notice.code != "fields-unused":
             yield notice
             continue
-        fields = [path for path in said["fields"].split(", ") if not path.startswith("statics.")]
+        fields = [path for path in quantities["fields"].split(", ") if not path.startswith("statics.")]
         if fields:
-            yield Notice(notice.code, **{**said, "fields": ", ".join(fields)})
+            yield Notice(notice.code, **{**quantities, "fields": ", ".join(fields)})
 
 
 def _warnings(subject: Subject) -> Block | None:
-    said = warnings(subject)
-    return Notes("warning", "Before using these numbers", tuple((glued(text),) for text in said)) if said else None
+    notes = warnings(subject)
+    return Notes("warning", "Before using these numbers", tuple((glued(text),) for text in notes)) if notes else None
 
 
 def _numbers(subject: Subject) -> Block:
@@ -147,16 +147,16 @@ def _numbers(subject: Subject) -> Block:
     both = len(subject.runs) > 1
     rows: list[tuple[Inline, ...]] = []
     if any(run.response.summary for run in subject.runs):
-        for each in HEADLINES:
-            row = subject.row(each.full.capitalize(), each.key, sign=each.way)
-            rows.append(row + ((_ratio(subject, each.key),) if both else ()))
+        for headline in HEADLINES:
+            row = subject.row(headline.full.capitalize(), headline.key, sign=headline.way)
+            rows.append(row + ((_ratio(subject, headline.key),) if both else ()))
         rows.append(("At the end of the run", *map(_end, subject.runs), *([""] if both else [])))
     if any(run.response.summary.get("joint") for run in subject.runs):
         rows.append(subject.row("Cracked length of the joint", "joint.cracked_length_m") + (("",) if both else ()))
     tensions = [run.response.summary.get("tension") for run in subject.runs]
     if any(tensions):
         rows.append(subject.row("Largest tension in the concrete", "tension.stress_pa") + (("",) if both else ()))
-    if any(each and each["strength"] for each in tensions):
+    if any(tension and tension["strength"] for tension in tensions):
         bears = subject.row("What it bears in an earthquake", "tension.strength.dynamic_pa")
         rows.append(bears + (("",) if both else ()))
     static = subject.row("Sliding safety factor under static loads", "static.sliding_safety_factor")
@@ -179,10 +179,10 @@ def _numbers_of_cracks(subject: Subject) -> Block:
     blank = ("",) * (len(places) - 1)
     rows: list[tuple[Inline, ...]] = [
         (
-            each.full.capitalize(),
-            *(subject.numbers(f"{run.prefix}cracks.{place}.{each.key}", sign=each.way) for place in places),
+            headline.full.capitalize(),
+            *(subject.numbers(f"{run.prefix}cracks.{place}.{headline.key}", sign=headline.way) for place in places),
         )
-        for each in HEADLINES
+        for headline in HEADLINES
     ]
     bonds = [getattr(result.cracks[place], "joint", None) for place in places]
     if any(bonds):

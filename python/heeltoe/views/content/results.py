@@ -182,15 +182,15 @@ def _cracks(subject: Subject) -> list[Block]:
     """Return what each of several cracks did."""
     if not subject.result.several:
         return []
-    found = subject.result.cracks
+    cracks = subject.result.cracks
     n = subject.numbers
-    head = ("", *(f"crack at {written('{at_m:g m}', subject.units, at_m=each.elevation)}" for each in found))
+    head = ("", *(f"crack at {written('{at_m:g m}', subject.units, at_m=crack.elevation)}" for crack in cracks))
     rows: list[tuple[Inline, ...]] = [
-        (label, *(n(f"cracks.{place}.{key}", quantity) for place in range(len(found))))
+        (label, *(n(f"cracks.{place}.{key}", quantity) for place in range(len(cracks))))
         for label, key, quantity in _OF_CRACKS
     ]
     caption = "Each crack by itself, from the crest down; unless stated, values are those of the crack that slips most."
-    return [Table(head, tuple(rows), caption, "l" + "r" * len(found))]
+    return [Table(head, tuple(rows), caption, "l" + "r" * len(cracks))]
 
 
 def _tension(subject: Subject) -> list[Block]:
@@ -199,8 +199,8 @@ def _tension(subject: Subject) -> list[Block]:
     for run in subject.runs:
         found = run.response.summary.get("tension")
         if found is not None:
-            said = tension_line(found, subject.units), tension_worth(found, subject.units)
-            blocks.append(paragraph(f"The largest tension in the concrete is {said[0]}. It is {said[1]}."))
+            sentences = tension_line(found, subject.units), tension_worth(found, subject.units)
+            blocks.append(paragraph(f"The largest tension in the concrete is {sentences[0]}. It is {sentences[1]}."))
     return blocks
 
 
@@ -245,31 +245,37 @@ def _rough(subject: Subject) -> list[Block]:
     """Return what a rough crack has come to."""
     blocks: list[Block] = []
     for run in subject.runs:
-        found = run.response.summary.get("roughness")
-        if found is not None:
+        roughness = run.response.summary.get("roughness")
+        if roughness is not None:
             whose = "" if len(subject.runs) == 1 else f", {run.name}"
-            blocks.append(paragraph(f"The rough crack{whose}: {roughness_line(found, subject.units)}."))
+            blocks.append(paragraph(f"The rough crack{whose}: {roughness_line(roughness, subject.units)}."))
     return blocks
 
 
 def _law(subject: Subject) -> list[Block]:
     """Return what a friction law is, looks like, and has come to, or a rough crack."""
-    alone = [each for each in subject.case.single_crack_cases if each.crack.law is not None]
+    alone = [cracked for cracked in subject.case.single_crack_cases if cracked.crack.law is not None]
     if not alone:
         return _rough(subject)
     several = bool(subject.case.further_cracks)
     blocks: list[Block] = []
-    for each in alone:
-        at = written(" at {at_m:g m}", subject.units, at_m=each.crack.elevation) if several else ""
-        assert each.crack.law is not None
-        said = f"The friction of the crack{at} goes by the law {each.crack.law.name}; its figure shows what is borne."
-        blocks.append(paragraph(said))
+    for cracked in alone:
+        at = written(" at {at_m:g m}", subject.units, at_m=cracked.crack.elevation) if several else ""
+        assert cracked.crack.law is not None
+        sentence = (
+            f"The friction of the crack{at} goes by the law {cracked.crack.law.name}; its figure shows what is borne."
+        )
+        blocks.append(paragraph(sentence))
     blocks += subject.figure("law")
     for run in subject.runs:
         whose = "" if len(subject.runs) == 1 else f", {run.name}"
-        for prefix, found in _laws_of(run.response):
-            at = written(" at {at_m:g m}", subject.units, at_m=found["elevation_m"]) if "elevation_m" in found else ""
-            law = found["friction_law"]
+        for prefix, law_state in _laws_of(run.response):
+            at = (
+                written(" at {at_m:g m}", subject.units, at_m=law_state["elevation_m"])
+                if "elevation_m" in law_state
+                else ""
+            )
+            law = law_state["friction_law"]
             blocks.append(paragraph(f"What it has come to{at}{whose}: {law_line(law, subject.units)}."))
             rows = tuple(
                 (label, subject.numbers(f"{run.prefix}{prefix}friction_law.{key}", quantity))
@@ -284,12 +290,16 @@ def _joint(subject: Subject) -> list[Block]:
     """Return what has become of the bonds of joints."""
     blocks: list[Block] = []
     for run in subject.runs:
-        for prefix, found in _laws_of(run.response, "joint"):
-            at = written(" at {at_m:g m}", subject.units, at_m=found["elevation_m"]) if "elevation_m" in found else ""
+        for prefix, joint_state in _laws_of(run.response, "joint"):
+            at = (
+                written(" at {at_m:g m}", subject.units, at_m=joint_state["elevation_m"])
+                if "elevation_m" in joint_state
+                else ""
+            )
             rows = tuple(
                 (label, subject.numbers(f"{run.prefix}{prefix}joint.{key}", quantity))
                 for label, key, quantity in _JOINT
-                if found["joint"][key] is not None
+                if joint_state["joint"][key] is not None
             )
             blocks.append(Table(("", "value"), rows, f"What has become of the joint{at}.", "lr"))
     return blocks

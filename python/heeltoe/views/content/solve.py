@@ -11,44 +11,44 @@ from heeltoe.views.content.tree import Block, Code, Notes, Table, paragraph
 from heeltoe.views.words.numbers import Amount, in_one_unit
 
 
-def field_scale(found: Solved, units: str) -> Scale:
+def field_scale(solved: Solved, units: str) -> Scale:
     """Return the unit in which people read the field: accelerations in g everywhere."""
-    if found.quantity == "acceleration":
+    if solved.quantity == "acceleration":
         return Scale(1.0 / STANDARD_GRAVITY, "g")
-    if found.quantity == "length":
-        return unit_system(units).scale("length", max((abs(point.value) for point in found.points), default=1.0))
-    return Scale(1.0, found.unit)
+    if solved.quantity == "length":
+        return unit_system(units).scale("length", max((abs(point.value) for point in solved.points), default=1.0))
+    return Scale(1.0, solved.unit)
 
 
-def solve_answer(found: Solved, units: str) -> tuple[Block, ...]:
+def solve_answer(solved: Solved, units: str) -> tuple[Block, ...]:
     """Return what the field must be, in sentences."""
-    scale, limit = field_scale(found, units), f"{LABELS[found.limit]} of {length(found.allowed_m, units)}"
+    scale, limit = field_scale(solved, units), f"{LABELS[solved.limit]} of {length(solved.allowed_m, units)}"
     blocks: list[Block] = []
-    if not found.crossings:
-        met = all(point.met for point in found.points)
-        ends = f"{_value(found.points[0].value, scale)} to {_value(found.points[-1].value, scale)}"
+    if not solved.crossings:
+        met = all(point.met for point in solved.points)
+        ends = f"{_value(solved.points[0].value, scale)} to {_value(solved.points[-1].value, scale)}"
         word = "met" if met else "not met"
         text = f"The {limit} is {word} in the whole range, {ends}: search another one with --between."
         blocks.append(Notes("failure", "No answer in the range", ((text,),)))
-    for crossing in found.crossings:
+    for crossing in solved.crossings:
         text = f"The {limit} is just met at "
-        blocks.append(paragraph(text, Code(found.field), f" = {_crossing(crossing, scale, units)}"))
-    if not found.one_way:
+        blocks.append(paragraph(text, Code(solved.field), f" = {_crossing(crossing, scale, units)}"))
+    if not solved.one_way:
         text = (
-            f"The {LABELS[found.limit]} is not monotonic in {found.field}: a value beyond a crossing may be worse "
+            f"The {LABELS[solved.limit]} is not monotonic in {solved.field}: a value beyond a crossing may be worse "
             "again, and a crossing between two values of the scan may be missed. Look at the curve (--out)."
         )
         blocks.append(Notes("warning", "Not monotonic", ((text,),)))
-    if found.refused:
-        values = ", ".join(_value(value, scale) for value in found.refused[:4])
-        blocks.append(paragraph(f"The case refuses {len(found.refused)} values of the range: {values}."))
+    if solved.refused:
+        values = ", ".join(_value(value, scale) for value in solved.refused[:4])
+        blocks.append(paragraph(f"The case refuses {len(solved.refused)} values of the range: {values}."))
     return tuple(blocks)
 
 
-def solve_table(found: Solved, units: str) -> Table:
+def solve_table(solved: Solved, units: str) -> Table:
     """Return the runs, in the order of their values."""
-    scale = field_scale(found, units)
-    results = in_one_unit([[Amount(point.result_m, zero="0")] for point in found.points], units)
+    scale = field_scale(solved, units)
+    results = in_one_unit([[Amount(point.result_m, zero="0")] for point in solved.points], units)
     rows = tuple(
         (
             _value(point.value, scale),
@@ -57,10 +57,10 @@ def solve_table(found: Solved, units: str) -> Table:
             point.sign or NOTHING,
             point.outcome,
         )
-        for point, (result,) in zip(found.points, results, strict=True)
+        for point, (result,) in zip(solved.points, results, strict=True)
     )
-    caption = f"The runs of the {found.model} model, each by its worse sign."
-    return Table((found.field, LABELS[found.limit], "met", "sign", "outcome"), rows, caption, "rrlll")
+    caption = f"The runs of the {solved.model} model, each by its worse sign."
+    return Table((solved.field, LABELS[solved.limit], "met", "sign", "outcome"), rows, caption, "rrlll")
 
 
 def _value(value: float, scale: Scale) -> str:

@@ -67,7 +67,7 @@ class _Subject:
 
 
 def statics_document(
-    case: Case, found: Joints, figures: Mapping[str, Figure], *, units: str = "si", command: str = ""
+    case: Case, joints: Joints, figures: Mapping[str, Figure], *, units: str = "si", command: str = ""
 ) -> Document:
     """Return what the report of static checks says, apart from how it looks.
 
@@ -75,7 +75,7 @@ def statics_document(
     ----------
     case
         What was asked.
-    found
+    joints
         The checks.
     figures
         Of the governing section, or of every section, which are changed here to what a report needs.
@@ -86,42 +86,46 @@ def statics_document(
     """
     from heeltoe.views.figures.statics.all import forces_name
 
-    cases = {forces_name(found, joint, each): each.name for joint in found.joints for each in joint.statics.cases}
+    cases = {
+        forces_name(joints, joint, load_case): load_case.name
+        for joint in joints.joints
+        for load_case in joint.statics.cases
+    }
     # The section stands on page one below what is said of it, not above the title.
     drawn = {name: drawing(name, figures[name], _caption(name, cases)) for name in figures}
-    shown = {name: replace(each, held=name == "section") for name, each in drawn.items()}
-    subject = _Subject(found, shown, units, command)
-    several = len(found.joints) > 1
+    shown = {name: replace(figure, held=name == "section") for name, figure in drawn.items()}
+    subject = _Subject(joints, shown, units, command)
+    several = len(joints.joints) > 1
     sections = (
         _answer(subject),
         _input(case, units),
-        _checks(subject, found.governing),
-        *(_sheets(subject, joint) for joint in found.ranked),
+        _checks(subject, joints.governing),
+        *(_sheets(subject, joint) for joint in joints.ranked),
         _method(subject),
         Section("References", (References(subject.references),)),
         _rerun(subject),
     )
-    what = f"Static checks at {len(found.joints)} sections" if several else "Static checks"
+    what = f"Static checks at {len(joints.joints)} sections" if several else "Static checks"
     return Document(
         title=plain(case.title) or "Untitled case",
-        subtitle=f"{what} by {found.joints[0].statics.criteria}",
+        subtitle=f"{what} by {joints.joints[0].statics.criteria}",
         footer=f"heeltoe {build_info()['heeltoe']} · static checks",
         blocks=without_gaps(*sections),
         about=tuple((label, plain(words)) for label, words in case.project.rows()),
     )
 
 
-def statics_sections(found: Joints, units: str) -> tuple[Block, ...]:
+def statics_sections(joints: Joints, units: str) -> tuple[Block, ...]:
     """Return what the checks of the governing section rest on, its load cases, the checks and assumptions."""
-    subject, joint = _Subject(found, {}, units), found.governing
+    subject, joint = _Subject(joints, {}, units), joints.governing
     numbers = Numbers(joint.statics.to_json(), units)
     cases = one_unit_each((load_cases(joint.statics, numbers, ""),), numbers)
     return (*cases, _checks(subject, joint), _basis(subject, joint), References(subject.references))
 
 
-def sheet_sections(found: Joints, units: str) -> tuple[Section, ...]:
+def sheet_sections(joints: Joints, units: str) -> tuple[Section, ...]:
     """Return the calculation sheets of all sections."""
-    return tuple(_sheets(_Subject(found, {}, units), joint) for joint in found.ranked)
+    return tuple(_sheets(_Subject(joints, {}, units), joint) for joint in joints.ranked)
 
 
 def _basis(subject: _Subject, joint: Joint) -> Table:
@@ -147,16 +151,16 @@ def _caption(name: str, cases: Mapping[str, str]) -> str:
 
 def _answer(subject: _Subject) -> Section:
     """Return page one: the verdict, what is not met, the section, every section of many."""
-    found, units = subject.found, subject.units
-    items = missed_of(found, units, MOST_MISSED)
-    warnings = tuple((glued(each),) for each in section_warnings(found.joints, units))
+    joints, units = subject.found, subject.units
+    items = missed_of(joints, units, MOST_MISSED)
+    warnings = tuple((glued(text),) for text in section_warnings(joints.joints, units))
     blocks = (
-        paragraph(Strong("Answer. "), answer_of(found, units)),
+        paragraph(Strong("Answer. "), answer_of(joints, units)),
         Notes("failure", "Not met", tuple(items)) if items else None,
-        section_table(found, units) if len(found.joints) > 1 else None,
+        section_table(joints, units) if len(joints.joints) > 1 else None,
         subject.figures.get("section"),
         Notes("warning", "Before using these numbers", warnings) if warnings else None,
-        _basis(subject, found.governing),
+        _basis(subject, joints.governing),
     )
     return Section("Answer", without_gaps(*blocks))
 
@@ -171,13 +175,13 @@ def _input(case: Case, units: str) -> Section:
 
 def _checks(subject: _Subject, joint: Joint) -> Section:
     """Return the checks of the section that governs, and what they take for granted."""
-    found, references = joint.statics, subject.references
+    checked, references = joint.statics, subject.references
 
     def number(source: str) -> str:
         return f"[{references.index(source) + 1}]" if source in references else "–"
 
     rows: list[tuple[Inline, ...]] = [
-        (*check_cells(check), "yes" if check.met else "NO", number(check.source)) for check in found.checks
+        (*check_cells(check), "yes" if check.met else "NO", number(check.source)) for check in checked.checks
     ]
     table = Table(
         ("load case", "check", "is", "required", "met", "source"),
@@ -185,7 +189,7 @@ def _checks(subject: _Subject, joint: Joint) -> Section:
         f"Checks, crack at {subject.at(joint)}; B: width of the contact, f: compressive strength.",
         "llrrlr",
     )
-    blocks = (table, subject.figures.get("checks"), remarks(found, subject.units, number))
+    blocks = (table, subject.figures.get("checks"), remarks(checked, subject.units, number))
     return Section("Checks", without_gaps(*blocks))
 
 
@@ -201,21 +205,21 @@ def _sheets(subject: _Subject, joint: Joint) -> Section:
     return Section(f"Calculation sheets, crack at {subject.at(joint)}", tuple(blocks))
 
 
-def _forces(subject: _Subject, found: LoadCase) -> Table:
-    written = lines(found, subject.units)
+def _forces(subject: _Subject, load_case: LoadCase) -> Table:
+    written = lines(load_case, subject.units)
     rows = [tuple(map(glued, row)) for row in written.rows]
     rows[-1] = (*rows[-1][:-1], "")
     last: tuple[Inline, ...] = tuple(Strong(cell) if cell else "" for cell in rows[-1])
+    name = load_case.name[0].upper() + load_case.name[1:]
     caption = (
-        f"{found.name[0].upper()}{found.name[1:]}: H positive downstream, V upward, M = x V − z H counter-clockwise; "
-        "arms from the heel of the contact."
+        f"{name}: H positive downstream, V upward, M = x V − z H counter-clockwise; arms from the heel of the contact."
     )
     return Table(written.head, (*rows[:-1], last), caption, "lrrrrrl", _FORCES)
 
 
-def _steps(subject: _Subject, found: LoadCase, joint: Joint) -> Table:
+def _steps(subject: _Subject, load_case: LoadCase, joint: Joint) -> Table:
     rows: list[tuple[Inline, ...]] = []
-    for step in steps(found, joint.statics.checks, subject.units):
+    for step in steps(load_case, joint.statics.checks, subject.units):
         rows.append((step.name, step.formula, step.worked, glued(step.value), glued(step.limit), _verdict(step)))
     names = sheet_units(subject.units).names
     caption = f"From the sums to the factors, in {names[0]}, {names[1]} and {names[3]}."

@@ -117,13 +117,13 @@ class StudySubject:
 
 
 def study_subject(
-    found: Opened, directory: Path, units: str, command: str, figures: Mapping[str, Figure] | None
+    study: Opened, directory: Path, units: str, command: str, figures: Mapping[str, Figure] | None
 ) -> StudySubject:
     """Gather what a report needs.
 
     Parameters
     ----------
-    found
+    study
         The study.
     directory
         Where relative paths of its base case start.
@@ -137,25 +137,25 @@ def study_subject(
     from heeltoe.views.figures.section import section_figure
     from heeltoe.views.figures.studies.all import study_figures
 
-    subject = StudySubject(found, directory, Numbers(found.to_json(), units), {}, command)
+    subject = StudySubject(study, directory, Numbers(study.to_json(), units), {}, command)
     drawn = {
         "section": section_figure(subject.case, units),
-        **(study_figures(found, units) if figures is None else figures),
+        **(study_figures(study, units) if figures is None else figures),
     }
     blocks = {name: drawing(name, figure, _CAPTIONS[name]) for name, figure in drawn.items()}
     return replace(subject, figures=blocks)
 
 
-def study_answer(found: Opened, units: str) -> tuple[Block, ...]:
+def study_answer(study: Opened, units: str) -> tuple[Block, ...]:
     """Return what the study says in sentences, and which runs are missing or have no result."""
-    subject = StudySubject(found, Path(), Numbers(found.to_json(), units), {}, "")
-    said = suite_answer(subject) or answer(subject)
-    return without_gaps(_missing(found), *said, *portfolio(subject), _lost(found))
+    subject = StudySubject(study, Path(), Numbers(study.to_json(), units), {}, "")
+    blocks = suite_answer(subject) or answer(subject)
+    return without_gaps(_missing(study), *blocks, *portfolio(subject), _lost(study))
 
 
-def study_sections(found: Opened, units: str) -> tuple[Block, ...]:
+def study_sections(study: Opened, units: str) -> tuple[Block, ...]:
     """Return the results of a study in tables."""
-    subject = StudySubject(found, Path(), Numbers(found.to_json(), units), {}, "")
+    subject = StudySubject(study, Path(), Numbers(study.to_json(), units), {}, "")
     sections = (
         suite(subject),
         portfolio_section(subject),
@@ -171,7 +171,7 @@ def study_sections(found: Opened, units: str) -> tuple[Block, ...]:
 
 def study_document(subject: StudySubject) -> Document:
     """Return the whole report."""
-    found = subject.found
+    study = subject.found
     sections = (
         _question(subject),
         suite(subject),
@@ -188,56 +188,56 @@ def study_document(subject: StudySubject) -> Document:
         _rerun(subject),
         _base(subject),
     )
-    *others, last = found.walk.models
+    *others, last = study.walk.models
     models = f"{', '.join(others)} and {last}" if others else last
-    what = "suite" if found.suite else "study"
+    what = "suite" if study.suite else "study"
     return Document(
-        title=plain(found.title),
-        subtitle=f"A {what} of {found.store.count:,} runs, by the {models} model{'s' * bool(others)}",
-        footer=f"heeltoe {found.told['build']['heeltoe']} · study {found.told['fingerprint'][:12]}",
+        title=plain(study.title),
+        subtitle=f"A {what} of {study.store.count:,} runs, by the {models} model{'s' * bool(others)}",
+        footer=f"heeltoe {study.told['build']['heeltoe']} · study {study.told['fingerprint'][:12]}",
         blocks=one_unit_each(without_gaps(*sections), subject.numbers),
     )
 
 
 def _question(subject: StudySubject) -> Section:
-    found = subject.found
-    dams = found.store.count // max(1, _each(subject))
-    motions = len(found.told["motions"])
+    study = subject.found
+    dams = study.store.count // max(1, _each(subject))
+    motions = len(study.told["motions"])
     asked = (
-        f"What does the part above the crack do in {found.store.count:,} runs: {dams:,} "
+        f"What does the part above the crack do in {study.store.count:,} runs: {dams:,} "
         f"dam{'s' * (dams != 1)}, {motions:,} ground motion{'s' * (motions != 1)} of "
-        f"{len(found.told['events']):,} event{'s' * (len(found.told['events']) != 1)}?"
+        f"{len(study.told['events']):,} event{'s' * (len(study.told['events']) != 1)}?"
     )
-    asked += "" if found.walk.every or motions == 1 else " Each dam meets one of them."
+    asked += "" if study.walk.every or motions == 1 else " Each dam meets one of them."
     blocks: list[Block | None] = [
-        _missing(found),
+        _missing(study),
         paragraph(Strong("Question. "), asked),
         *(suite_answer(subject) or answer(subject)),
-        None if found.suite else _base_case(subject),
-        _lost(found),
+        None if study.suite else _base_case(subject),
+        _lost(study),
     ]
-    if found.told["warnings"]:
-        warned = tuple((plain(text, 1000),) for text in found.told["warnings"])
+    if study.told["warnings"]:
+        warned = tuple((plain(text, 1000),) for text in study.told["warnings"])
         blocks.append(Notes("warning", "Warnings", warned))
     return Section("Question and answer", without_gaps(*blocks))
 
 
-def _missing(found: Opened) -> Block | None:
+def _missing(study: Opened) -> Block | None:
     """Say how many runs are missing."""
-    if found.complete:
+    if study.complete:
         return None
-    text = f"{len(found.store.missing()):,} of {found.store.parts:,} parts of the runs are missing."
+    text = f"{len(study.store.missing()):,} of {study.store.parts:,} parts of the runs are missing."
     return Notes("warning", "Not complete", ((text,),))
 
 
-def _lost(found: Opened) -> Block | None:
+def _lost(study: Opened) -> Block | None:
     """Say which runs ended without a result."""
-    lost = {name: count for name, count in found.outcomes.items() if name not in TRUSTED}
+    lost = {name: count for name, count in study.outcomes.items() if name not in TRUSTED}
     if not sum(lost.values()):
         return None
     ended = ", ".join(f"{name} {count:,}" for name, count in lost.items())
     items = (
-        f"{sum(lost.values()):,} of {sum(found.outcomes.values()):,} runs ended without a result: {ended}.",
+        f"{sum(lost.values()):,} of {sum(study.outcomes.values()):,} runs ended without a result: {ended}.",
         "They are counted, never dropped: unstable dams and too large rotations exceed every limit, the others are "
         "behind no fragility curve and count as infinitely far in bands.",
     )
@@ -259,9 +259,9 @@ def _base_case(subject: StudySubject) -> Block | None:
     except InputError as error:
         return paragraph(Strong("Base case. "), f"Not run by itself: {plain(error, 300)}.")
     end = f"as a rigid block it ends without a result ({response.outcome})."
-    said = verdict(response, subject.units) if response.ok else end
+    sentence = verdict(response, subject.units) if response.ok else end
     motion = f", peak {response.motion.pga / response.gravity:.3g} g: "
-    return paragraph(Strong("Base case by itself. "), "In ", Code(plain(response.motion.name)), motion, said)
+    return paragraph(Strong("Base case by itself. "), "In ", Code(plain(response.motion.name)), motion, sentence)
 
 
 def _varied(subject: StudySubject) -> Section:
@@ -274,7 +274,7 @@ def _varied(subject: StudySubject) -> Section:
         many = f"{len(subject.found.told['dams']):,} dams of the table "
         blocks.append(paragraph(many, Code(study["cases"]), "; all else is as in the base case."))
     elif study["vary"]:
-        varied = tuple((Code(path), values_said(given, subject.units, path)) for path, given in study["vary"].items())
+        varied = tuple((Code(path), values_said(values, subject.units, path)) for path, values in study["vary"].items())
         blocks.append(Table(("field", "values"), varied, "What varies; all else is as in the base case.", "ll", (4, 8)))
     else:
         blocks.append(paragraph("No field of the case varies."))
@@ -286,26 +286,28 @@ def _varied(subject: StudySubject) -> Section:
 
 def _motions(subject: StudySubject) -> Section:
     motions = subject.found.told["motions"]
-    given = subject.study["motions"]
-    scale = given and given["scale"]
-    said = (
-        "The motion of the base case, as it is." if given is None else "As recorded; the table has them before scaling."
+    motions_of_study = subject.study["motions"]
+    scale = motions_of_study and motions_of_study["scale"]
+    sentence = (
+        "The motion of the base case, as it is."
+        if motions_of_study is None
+        else "As recorded; the table has them before scaling."
     )
     if scale:
         period = f" at {shown(scale['period'], subject.units)}" if scale["period"] is not None else ""
         what = "a factor" if scale["measure"] == "factor" else f"{scale['measure'].upper()}{period}"
-        said += f" They are scaled to {what}: {values_said(scale['values'], subject.units)}"
-        said += ", pairs of components by their geometric mean." if given["pairs"] else "."
-    if given and given["both_signs"]:
-        said += " Each runs both ways round."
+        sentence += f" They are scaled to {what}: {values_said(scale['values'], subject.units)}"
+        sentence += ", pairs of components by their geometric mean." if motions_of_study["pairs"] else "."
+    if motions_of_study and motions_of_study["both_signs"]:
+        sentence += " Each runs both ways round."
     rows = []
-    for each in motions:
-        if not each["reversed"]:
-            measured, traits = each["measures"], each["traits"]
+    for motion in motions:
+        if not motion["reversed"]:
+            measured, traits = motion["measures"], motion["traits"]
             rows.append(
                 (
-                    plain(each["event"]),
-                    Code(plain(each["name"])),
+                    plain(motion["event"]),
+                    Code(plain(motion["name"])),
                     f"{digits(measured['pga'] / STANDARD_GRAVITY, 3)} g",
                     subject.numbers.text(measured["pgv"], "velocity"),
                     _seconds(traits["mean_period_s"]),
@@ -320,7 +322,7 @@ def _motions(subject: StudySubject) -> Section:
         "llrrrr",
         (3.2, 3.8, 1.4, 1.7, 1.5, 1.7),
     )
-    return Section("Ground motions", (paragraph(said), table))
+    return Section("Ground motions", (paragraph(sentence), table))
 
 
 def _seconds(value: float | None) -> str:
@@ -337,10 +339,10 @@ def _fine(subject: StudySubject) -> Section | None:
         step = f", and a time step of {1e3 * pilot['time_step_s']:.3g} ms"
         text = f"Flexible runs have {mesh}{step}, as one run of the base case with its evidence asked for; "
         blocks.append(paragraph(text + "the single runs of the study have none of their own."))
-        told = (pilot["evidence"] or {}).get("residual_slip_m")
-        if told:
-            worth = subject.numbers.text(told["uncertainty"], "displacement")
-            value = subject.numbers.text(told["value"], "displacement")
+        slip_evidence = (pilot["evidence"] or {}).get("residual_slip_m")
+        if slip_evidence:
+            worth = subject.numbers.text(slip_evidence["uncertainty"], "displacement")
+            value = subject.numbers.text(slip_evidence["value"], "displacement")
             blocks.append(paragraph(f"There the residual slip was {value}, uncertain by {worth}."))
     if seconds:
         rows = tuple((name, f"{value:.3g} s") for name, value in seconds.items())
@@ -352,7 +354,7 @@ def _references(subject: StudySubject) -> tuple[str, ...]:
     keys = list(subject.found.walk.models)
     if subject.study["fragility"]:
         keys += _SOURCES["fragility"]
-    if len({each["name"] for each in subject.found.told["motions"]}) > 1:
+    if len({motion["name"] for motion in subject.found.told["motions"]}) > 1:
         keys += _SOURCES["measures"]
     if subject.study["method"] == "sensitivity":
         keys += _SOURCES["sensitivity"]
@@ -360,15 +362,15 @@ def _references(subject: StudySubject) -> tuple[str, ...]:
 
 
 def _rerun(subject: StudySubject) -> Section:
-    found = subject.found
-    build = " ".join(f"{name} {version}" for name, version in found.told["build"].items())
+    study = subject.found
+    build = " ".join(f"{name} {version}" for name, version in study.told["build"].items())
     return Section(
         "To run it again",
         (
             paragraph("With the study file, its base case and its records, this command makes the same numbers again:"),
             Listing(subject.command or "heeltoe study STUDY.toml --report"),
             paragraph(Strong("Build. "), Code(build)),
-            paragraph(Strong("Study, SHA-256. "), Code(found.told["fingerprint"])),
+            paragraph(Strong("Study, SHA-256. "), Code(study.told["fingerprint"])),
             paragraph(
                 "The hash covers the study, every field of the base case in SI units, defaults included, and the "
                 "samples of all ground motions, so that the same hash and the same build mean the same numbers."

@@ -27,22 +27,22 @@ _SHOWN = ("residual_slip_m", "opening_upstream_m", "rocking_upstream_rad")
 
 def answer(subject: StudySubject) -> list[Block]:
     """Return what the study says in a few sentences, model by model."""
-    found: list[Block] = []
-    for each in subject.found.summary:
-        slip = each["residual_slip_m"]
-        said = f"{_percent(each['share_that_slides'])} of {each['runs']:,} runs slide more than a joint meter reads"
+    blocks: list[Block] = []
+    for row in subject.found.summary:
+        slip = row["residual_slip_m"]
+        sentence = f"{_percent(row['share_that_slides'])} of {row['runs']:,} runs slide more than a joint meter reads"
         if slip["50%"] is not None:
             (amounts,) = in_one_unit(
                 [[Amount(slip[key], zero="0") for key in ("50%", "84%", "largest")]], subject.units
             )
             of = " of the crack that leads" if subject.found.walk.cracks > 1 else ""
-            said += f"; the residual slip{of}, positive downstream, has the median {amounts[0]}, 84 % stay below "
-            said += f"{amounts[1]}, and the farthest run ends at {amounts[2]}"
-        said = f"{said}. " + " ".join(
-            (*_not_kept(subject, each), *_exceeded(subject, each["model"]), *_each_year(subject, each["model"]))
+            sentence += f"; the residual slip{of}, positive downstream, has the median {amounts[0]}, 84 % stay below "
+            sentence += f"{amounts[1]}, and the farthest run ends at {amounts[2]}"
+        sentence = f"{sentence}. " + " ".join(
+            (*_not_kept(subject, row), *_exceeded(subject, row["model"]), *_each_year(subject, row["model"]))
         )
-        found.append(paragraph(Strong(f"Answer, {each['model']} model. "), said.strip()))
-    return found
+        blocks.append(paragraph(Strong(f"Answer, {row['model']} model. "), sentence.strip()))
+    return blocks
 
 
 def _limits(subject: StudySubject) -> dict[str, str]:
@@ -65,39 +65,39 @@ def _not_kept(subject: StudySubject, summary: dict[str, Any]) -> list[str]:
 
 
 def _exceeded(subject: StudySubject, model: str) -> list[str]:
-    said = []
-    for each in subject.found.fragility if subject.study["fragility"] else ():
-        if each["model"] != model:
+    sentences = []
+    for row in subject.found.fragility if subject.study["fragility"] else ():
+        if row["model"] != model:
             continue
-        what = f"{_A[each['limit']]} {limit_of(each['limit'], each['value'], subject.units, ' of')}"
-        if each["median"] is None:
-            said.append(f"Of {what}: {each['why']}.")
+        what = f"{_A[row['limit']]} {limit_of(row['limit'], row['value'], subject.units, ' of')}"
+        if row["median"] is None:
+            sentences.append(f"Of {what}: {row['why']}.")
             continue
-        middle, ends = _median(each, subject.units)
-        guess = "" if each["reached"] else ", which no motion here has"
+        middle, ends = _median(row, subject.units)
+        guess = "" if row["reached"] else ", which no motion here has"
         where = " at any crack" if subject.found.walk.cracks > 1 else ""
-        said.append(f"Half of the dams exceed {what}{where} at {_article(_named(each))} of {middle}{ends}{guess}.")
-    return said
+        sentences.append(f"Half of the dams exceed {what}{where} at {_article(_named(row))} of {middle}{ends}{guess}.")
+    return sentences
 
 
 def results(subject: StudySubject) -> Section:
     """Return the section on how runs ended, how far they slide and by which mode."""
     summary, n = subject.found.summary, subject.numbers
     places = range(len(summary))
-    head = ("", *(each["model"] for each in summary))
+    head = ("", *(row["model"] for row in summary))
     align = "l" + "r" * len(summary)
-    outcomes = sorted({name for each in summary for name in each["outcomes"]})
-    ended: list[tuple[Inline, ...]] = [("all runs", *(f"{each['runs']:,}" for each in summary))]
-    ended += [(name, *(f"{each['outcomes'].get(name, 0):,}" for each in summary)) for name in outcomes]
-    labels = {each.key: each.label for each in HEADLINES}
+    outcomes = sorted({name for row in summary for name in row["outcomes"]})
+    ended: list[tuple[Inline, ...]] = [("all runs", *(f"{row['runs']:,}" for row in summary))]
+    ended += [(name, *(f"{row['outcomes'].get(name, 0):,}" for row in summary)) for name in outcomes]
+    labels = {headline.key: headline.label for headline in HEADLINES}
     rows: list[tuple[Inline, ...]] = [
-        ("that slide", *(_percent(each["share_that_slides"]) for each in summary)),
-        ("that slide farther than the crack is long", *(f"{each['slid_off']:,}" for each in summary)),
+        ("that slide", *(_percent(row["share_that_slides"]) for row in summary)),
+        ("that slide farther than the crack is long", *(f"{row['slid_off']:,}" for row in summary)),
         *(
-            (f"that exceed the {limit} allowed", *(f"{each['limits_not_met'][name]:,}" for each in summary))
+            (f"that exceed the {limit} allowed", *(f"{row['limits_not_met'][name]:,}" for row in summary))
             for name, limit in _limits(subject).items()
         ),
-        ("not determined: bounces amplify the last digit", *(f"{each['undetermined']:,}" for each in summary)),
+        ("not determined: bounces amplify the last digit", *(f"{row['undetermined']:,}" for row in summary)),
         *(
             (
                 f"{of}{labels[key]}: {what}",
@@ -108,9 +108,9 @@ def results(subject: StudySubject) -> Section:
             for name, what in _SHARES
         ),
         *(
-            (f"most of the slip by {mode.replace('_', '-')}", *(_share(each, mode) for each in summary))
+            (f"most of the slip by {mode.replace('_', '-')}", *(_share(row, mode) for row in summary))
             for mode in MODES
-            if any(each["dominant_mode"].get(mode) for each in summary)
+            if any(row["dominant_mode"].get(mode) for row in summary)
         ),
     ]
     cracks = f"; {ABOUT_CRACKS}" if subject.found.walk.cracks > 1 else ""
@@ -136,8 +136,8 @@ def _of_cracks(count: int) -> list[tuple[str, str]]:
     return [(f"crack {k + 1}, ", f"cracks.{k}.") for k in range(count)] if count > 1 else [("", "")]
 
 
-def _share(each: dict[str, Any], mode: str) -> str:
-    return _percent(each["dominant_mode"][mode]) if each["dominant_mode"] else NOTHING
+def _share(row: dict[str, Any], mode: str) -> str:
+    return _percent(row["dominant_mode"][mode]) if row["dominant_mode"] else NOTHING
 
 
 def fragility(subject: StudySubject) -> Section | None:
@@ -146,31 +146,31 @@ def fragility(subject: StudySubject) -> Section | None:
     if asked is None:
         return None
     curves = subject.found.fragility
-    limits = limits_of([(each["limit"], each["value"]) for each in curves], subject.units)
+    limits = limits_of([(curve["limit"], curve["value"]) for curve in curves], subject.units)
     rows: list[tuple[Inline, ...]] = []
-    for each in curves:
-        what = limits[each["limit"], each["value"]]
-        label = f"{what}, {each['model']}" if len(subject.found.walk.models) > 1 else what
-        exceeding = f"{each['exceeding']:,} of {each['runs']:,}"
-        if each["median"] is None:
-            rows.append((label, each["why"], "", "", "", exceeding))
+    for curve in curves:
+        what = limits[curve["limit"], curve["value"]]
+        label = f"{what}, {curve['model']}" if len(subject.found.walk.models) > 1 else what
+        exceeding = f"{curve['exceeding']:,} of {curve['runs']:,}"
+        if curve["median"] is None:
+            rows.append((label, curve["why"], "", "", "", exceeding))
             continue
-        median, within = _median(each, subject.units)
-        median += ("" if each["reached"] else " *") + within
-        spread = f"{each['dispersion']:.2f}"
-        about = each["dispersion_interval"]
+        median, within = _median(curve, subject.units)
+        median += ("" if curve["reached"] else " *") + within
+        spread = f"{curve['dispersion']:.2f}"
+        about = curve["dispersion_interval"]
         if about:
             spread += f" ({about[0]:.2f} to {about[1]:.2f})"
-        rows.append((label, median, spread, *(_part(each[name]) for name in ("record", "other")), exceeding))
+        rows.append((label, median, spread, *(_part(curve[name]) for name in ("record", "other")), exceeding))
     head = ("exceeded", f"median {_named(asked)}", "dispersion", "from event to event", "other", "runs that exceed")
     text = (
         f"Lognormal curves of greatest likelihood over {_named(asked)}. In brackets what median and dispersion lie "
         f"within with {asked['confidence']:.0%}, from leaving out one event at a time. Dams that overturn, do not "
         "stand or turn too far for small rotations exceed every limit."
     )
-    if any(each["median"] is not None and not each["reached"] for each in curves):
+    if any(curve["median"] is not None and not curve["reached"] for curve in curves):
         text += " * stronger or weaker than any motion here: a guess."
-    unknown = max((each["unknown"] for each in curves), default=0)
+    unknown = max((curve["unknown"] for curve in curves), default=0)
     if unknown:
         text += f" {unknown:,} runs without a result are behind no curve."
     table = Table(head, tuple(rows), "Fragility.", "llllrr", (3.0, 3.0, 2.6, 1.3, 1.0, 2.0))
@@ -262,7 +262,7 @@ _ENDLESS = 1e8
 
 def _each_year(subject: StudySubject, model: str) -> list[str]:
     """Say how often a year each limit is exceeded."""
-    said = []
+    sentences = []
     for row in subject.found.hazard or ():
         if row["model"] != model or row["annual_rate"] is None:
             continue
@@ -270,10 +270,10 @@ def _each_year(subject: StudySubject, model: str) -> list[str]:
         interval = row["annual_rate_interval"]
         within = "" if interval is None else f" ({interval[0]:.1e} to {interval[1]:.1e})"
         years = "" if _years(row) == NOTHING else f", once in {_years(row)}"
-        said.append(
+        sentences.append(
             f"With the hazard of the site {what} is exceeded with {row['annual_rate']:.1e} a year{within}{years}."
         )
-    return said
+    return sentences
 
 
 #: Dams of a portfolio that its table and its figure show.
@@ -316,18 +316,21 @@ def portfolio_section(subject: StudySubject) -> Section | None:
 
 def measures_compared(subject: StudySubject) -> Section | None:
     """Return the section that compares measures of the strength of motions, where there are several motions."""
-    if len({each["name"] for each in subject.found.told["motions"]}) < 2:
+    if len({motion["name"] for motion in subject.found.told["motions"]}) < 2:
         return None
     blocks: list[Block] = []
-    for model, told in subject.found.compared().items():
-        if not told["measures"]:
+    for model, comparison in subject.found.compared().items():
+        if not comparison["measures"]:
             continue
-        traits = [name for name in TRAITS if any(each["sufficiency"].get(name) for each in told["measures"])]
+        traits = [
+            name for name in TRAITS if any(measure["sufficiency"].get(name) for measure in comparison["measures"])
+        ]
         rows = tuple(
-            (each["measure"], f"{each['efficiency']:.2f}", *(_p(each["sufficiency"][name]) for name in traits))
-            for each in told["measures"]
+            (measure["measure"], f"{measure['efficiency']:.2f}", *(_p(measure["sufficiency"][name]) for name in traits))
+            for measure in comparison["measures"]
         )
-        caption = f"Measures of strength, {model} model, over {told['runs']:,} runs; {left_out(told, subject.units)}."
+        without = left_out(comparison, subject.units)
+        caption = f"Measures of strength, {model} model, over {comparison['runs']:,} runs; {without}."
         head = ("measure", "scatter", *(f"p, {TRAITS[name]}" for name in traits))
         blocks.append(Table(head, rows, caption, "l" + "r" * (len(head) - 1)))
     if not blocks:
@@ -342,44 +345,47 @@ def measures_compared(subject: StudySubject) -> Section | None:
 
 def hangs_on(subject: StudySubject) -> Section | None:
     """Return the section on what the slip depends on, where the study is made for it."""
-    method, found = subject.study["method"], subject.found
+    method, study = subject.study["method"], subject.found
     if method == "sensitivity":
-        blocks = [_sobol(model, told) for model, told in found.sensitivity().items()]
+        blocks = [_sobol(model, numbers) for model, numbers in study.sensitivity().items()]
     elif method == "one at a time":
-        blocks = [_tornado(model, told, subject.units) for model, told in found.tornado().items()]
+        blocks = [_tornado(model, numbers, subject.units) for model, numbers in study.tornado().items()]
     else:
         return None
     return Section("What the slip depends on", (*blocks, *subject.figure("sobol", "tornado")))
 
 
-def _sobol(model: str, told: dict[str, Any]) -> Block:
-    if not told["indices"]:
+def _sobol(model: str, numbers: dict[str, Any]) -> Block:
+    if not numbers["indices"]:
         return paragraph(f"No indices of the {model} model: the slip does not vary.")
     rows: tuple[tuple[Inline, ...], ...] = tuple(
-        (Code(each["name"]), *(_within(each[kind], each[f"{kind}_interval"]) for kind in ("first", "total")))
-        for each in told["indices"]
+        (Code(index["name"]), *(_within(index[kind], index[f"{kind}_interval"]) for kind in ("first", "total")))
+        for index in numbers["indices"]
     )
-    left = f"; {told['left_out']:,} left out with a run without a slip" if told["left_out"] else ""
-    caption = f"Sobol’s indices, {model} model, {told['confidence']:.0%} intervals, over {told['rows']:,} rows{left}."
+    left = f"; {numbers['left_out']:,} left out with a run without a slip" if numbers["left_out"] else ""
+    caption = (
+        f"Sobol’s indices, {model} model, {numbers['confidence']:.0%} intervals, over {numbers['rows']:,} rows{left}."
+    )
     return Table(("field", "by itself", "with all others"), rows, caption, "lrr")
 
 
-def _tornado(model: str, told: dict[str, Any], units: str) -> Block:
-    if told["base"] is None:
+def _tornado(model: str, numbers: dict[str, Any], units: str) -> Block:
+    if numbers["base"] is None:
         return paragraph(
             f"No motion gave every dam of the {model} model a slip: nothing can be held against each other."
         )
     amounts = [
-        [(Amount(slip, zero="0"), f" ({value})") for slip, value in ends_of(each, units)] for each in told["fields"]
+        [(Amount(slip, zero="0"), f" ({value})") for slip, value in ends_of(field, units)]
+        for field in numbers["fields"]
     ]
     # The case as it is, below the table, has its units.
-    *written, (base,) = in_one_unit([*amounts, (Amount(told["base"], zero="0"),)], units)
+    *written, (base,) = in_one_unit([*amounts, (Amount(numbers["base"], zero="0"),)], units)
     rows: tuple[tuple[Inline, ...], ...] = tuple(
-        (Code(each["name"]), *cells) for each, cells in zip(told["fields"], written, strict=True)
+        (Code(field["name"]), *cells) for field, cells in zip(numbers["fields"], written, strict=True)
     )
-    left = f"; {told['left_out']:,} left out" if told["left_out"] else ""
+    left = f"; {numbers['left_out']:,} left out" if numbers["left_out"] else ""
     caption = (
-        f"Mean residual slip, {model} model, over {told['motions']:,} motions at their strengths{left}; "
+        f"Mean residual slip, {model} model, over {numbers['motions']:,} motions at their strengths{left}; "
         f"{base} as the case is."
     )
     return Table(("field", "from", "to"), rows, caption, "lrr")
@@ -411,8 +417,8 @@ def _article(name: str) -> str:
     return f"{'an' if name.startswith(('A', 'SA')) else 'a'} {name}"
 
 
-def _median(each: dict[str, Any], units: str) -> tuple[str, str]:
+def _median(row: dict[str, Any], units: str) -> tuple[str, str]:
     """Write the median strength of a curve, and what it lies within."""
-    scale, ends = strength_scale(each["measure"], units), each["median_interval"]
+    scale, ends = strength_scale(row["measure"], units), row["median_interval"]
     within = f" ({scaled(ends[0], scale)} to {scaled(ends[1], scale)})" if ends else ""
-    return scaled(each["median"], scale), within
+    return scaled(row["median"], scale), within
