@@ -20,3 +20,7 @@ def test_landmarks_and_headings(page):
         answer = axe.Axe().run(page, options={"runOnly": {"type": "rule", "values": RULES}}).response
         wrong += [(tab, rule["id"], node["html"][:120]) for rule in answer["violations"] for node in rule["nodes"]]
     assert not wrong
+    # A heading of a card is no larger than that of its page.
+    page.click("#tab-motion")
+    page.wait_for_selector("#page-motion .card h3")
+    assert page.evaluate("parseFloat(getComputedStyle(document.querySelector('#page-motion .card h3')).fontSize)") <= 18

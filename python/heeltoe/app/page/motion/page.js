@@ -188,7 +188,7 @@ export function motionPage(talk) {
         send([...(event.dataTransfer ? event.dataTransfer.files : [])]);
       });
       const controls = element("div", { class: "motion-form" }, drop, list.root, ...ways.map((way) => way.root), cut, wrong[2], use, more, used);
-      root.append(element("div", { class: "answer" }, controls, element("div", {}, shown, curves, spectrum)));
+      root.append(element("h2", { class: "unseen" }, "Motion"), element("div", { class: "answer" }, controls, element("div", {}, shown, curves, spectrum)));
       return redraw;
     },
   };

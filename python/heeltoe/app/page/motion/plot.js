@@ -16,9 +16,9 @@ export function shownMotion(motion) {
   const warnings = motion.warnings.map((/** @type {string} */ text) => element("li", {}, text));
   const card = element(
     "section", { class: "card", "data-motion": motion.way, "aria-label": `${TITLES[motion.way]} motion` },
-    element("h2", {}, TITLES[motion.way]),
+    element("h3", {}, TITLES[motion.way]),
     element("table", { class: "numbers facts" }, element("tbody", {}, ...rows)),
-    ...(warnings.length ? [element("h3", {}, "What to know before using it"), element("ul", { class: "warnings" }, ...warnings)] : [element("p", { class: "faint" }, "The checks found nothing to warn of.")]),
+    ...(warnings.length ? [element("h4", {}, "What to know before using it"), element("ul", { class: "warnings" }, ...warnings)] : [element("p", { class: "faint" }, "The checks found nothing to warn of.")]),
   );
   card.style.setProperty("--of", `var(--${COLOURS[motion.way]})`);
   return card;
