@@ -1,0 +1,152 @@
+"""Dams of other sizes and densities, records with silence before and after, studies in another order: what changes is
+known."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pyarrow.parquet as pq
+import pytest
+
+from shared.attack_page import CASES, SEED
+from shared.attacked import Attack
+from shared.command import command
+from shared.every_field import Fields
+from shared.studies import GRID, study_file
+
+NUMBERS = ("residual_slip_m", "peak_slip_downstream_m", "peak_slip_upstream_m", "opening_upstream_m")
+
+
+def dam(
+    draw: random.Random, *, size: float = 1.0, dense: float = 1.0, before: float = 0.0, after: float = 0.0
+) -> Fields:
+    """Return a dam, the same for a generator in the same state but for its size, its densities and stiffness, and
+    silence [s] around its motion."""
+    height, width = draw.uniform(5.0, 60.0), draw.uniform(0.5, 0.9)
+    depth, crack = height * draw.uniform(0.5, 1.0), height * draw.choice((0.0, 0.25))
+    peak = draw.uniform(0.3, 1.5)
+    times = sorted(round(draw.uniform(0.05, 1.0), 3) for _ in range(6))
+    points = [(time, round(draw.uniform(-peak, peak), 3)) for time in times]
+    slower = size**0.5
+    points = [(0.0, 0.0), *points, (times[-1] + 0.25, 0.0)]
+    points = [((time + before) * slower, value) for time, value in points]
+    points = [*([(0.0, 0.0)] if before else []), *points, *([(points[-1][0] + after, 0.0)] if after else [])]
+    return {
+        "section": {
+            "height": f"{height * size!r} m",
+            "crest_width": f"{0.08 * height * size!r} m",
+            "base_width": f"{width * height * size!r} m",
+        },
+        "concrete": {"density": f"{2400.0 * dense} kg/m^3", "modulus": f"{25e9 * dense * size!r} Pa"},
+        "crack": {"elevation": f"{crack * size!r} m", "friction": draw.uniform(0.5, 1.1)},
+        "reservoir": {"depth": f"{depth * size!r} m", "density": f"{1000.0 * dense} kg/m^3"},
+        "motion": {"points": [[f"{time!r} s", f"{value!r} g"] for time, value in points], "sign": "recorded"},
+        "flexible": {"elements_across": 2, "evidence": "none"},
+        "analysis": {"silence": f"{4.0 * slower} s"},
+    }
+
+
+def numbers(fields: Fields, model: str, place: Path) -> dict[str, float] | None:
+    """Return what the command says of a dam; None without a result."""
+    (place / "case.json").write_text(json.dumps(fields))
+    said = command("run", "case.json", "--model", model, "--json", "-", cwd=place)
+    answer: dict[str, Any] = json.loads(said.stdout) if said.returncode == 0 else {"outcome": said.stderr}
+    return {name: answer[name] for name in NUMBERS} if answer["outcome"] == "ok" else None
+
+
+Change = dict[str, float]
+#: How a dam is changed, how many times as long its slips are then, the models, and how closely.
+LAWS: dict[str, tuple[Change, float, str, float]] = {
+    "size of a block": ({"size": 4.0}, 4.0, "rigid", 1e-9),
+    "densities of a block": ({"dense": 1.7}, 1.0, "rigid", 1e-9),
+    "silence after the motion of a block": ({"after": 0.5}, 1.0, "rigid", 1e-9),
+    "silence before the motion of a block": ({"before": 0.5}, 1.0, "rigid", 1e-9),
+    # Four times the numbers, and twice their roots, round as they do without: nothing may differ at all.
+    "densities of an elastic dam": ({"dense": 0.25}, 1.0, "flexible", 0.0),
+}
+
+
+def attack(law: str, seeds: range, place: Path, record_property: Any) -> None:
+    change, factor, model, close = LAWS[law]
+    found = Attack(f"laws: {law}")
+    for seed in seeds:
+        one = numbers(dam(random.Random(seed)), model, place)
+        other = numbers(dam(random.Random(seed), **change), model, place)
+        found.ends["accepted" if one else "no result"] += 1
+        if (one is None) is not (other is None):
+            found.defects.append(f"dam(random.Random({seed})): {one}, {other}")
+        elif one and other:
+            size = max(abs(value) for value in one.values())
+            wrong = {name for name in one if abs(other[name] - factor * one[name]) > close * factor * size}
+            found.defects += [f"dam(random.Random({seed})), {name}: {one[name]!r}, {other[name]!r}" for name in wrong]
+    assert found.ends["accepted"]
+    found.told(record_property)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_some_dams_obey_the_laws(law, tmp_path, record_property):
+    attack(law, range(37_000, 37_006), tmp_path, record_property)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("law", LAWS)
+def test_dams_obey_the_laws(law, tmp_path, record_property):
+    first = SEED * 1_000_000 + 970_000
+    attack(law, range(first, first + CASES // 10), tmp_path, record_property)
+
+
+# Studies
+
+REORDERED = GRID.replace('"crack.friction" = [0.3, 0.5]\n', "").replace(
+    "[motions]", '"crack.friction" = [0.3, 0.5]\n[motions]'
+)
+
+
+def rows(out: Path) -> dict[tuple[Any, ...], float]:
+    """Return the slip of each run of a study by what makes it."""
+    tables = [pq.read_table(path).to_pylist() for path in sorted((out / "runs").glob("*.parquet"))]
+    names = ("crack.friction", "crack.restitution", "motion", "factor")
+    return {
+        tuple(row[name] for name in names if name in row): row["residual_slip_m"] for rows in tables for row in rows
+    }
+
+
+def ran(out: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in sorted((out / "runs").glob("*.parquet"))}
+
+
+@pytest.mark.usefixtures("empty_figures")
+def test_studies_in_another_order_and_resumed(tmp_path, record_property):
+    found = Attack("laws: studies")
+    one, other = study_file(tmp_path, GRID), study_file(tmp_path, REORDERED, "other.toml")
+    assert REORDERED != GRID
+    for file, out in ((one, "one"), (other, "other")):
+        assert found.strike(out, "study", file, "--out", out, cwd=tmp_path) == "accepted", found.defects
+    whole = rows(tmp_path / "one")
+    assert len(whole) > 10
+    assert whole == rows(tmp_path / "other")
+    before = ran(tmp_path / "one")
+    (tmp_path / "one/runs" / next(iter(before))).unlink()
+    assert found.strike("resumed", "study", one, "--out", "one", "--resume", cwd=tmp_path) == "accepted", found.defects
+    assert ran(tmp_path / "one") == before
+    found.told(record_property)
+
+
+@pytest.mark.slow
+def test_studies_on_one_thread_and_on_many(tmp_path, record_property):
+    file, found = study_file(tmp_path, GRID), Attack("laws: threads")
+    for threads in ("1", "4"):
+        words = [sys.executable, "-m", "heeltoe", "study", str(file), "--out", str(tmp_path / threads)]
+        said = subprocess.run(
+            words, env=os.environ | {"RAYON_NUM_THREADS": threads}, capture_output=True, text=True, check=False
+        )
+        assert said.returncode == 0, said.stderr
+        found.ends["accepted"] += 1
+    assert ran(tmp_path / "1") == ran(tmp_path / "4")
+    found.told(record_property)
