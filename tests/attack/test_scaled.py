@@ -78,13 +78,14 @@ def attack(law: str, seeds: range, place: Path, record_property: Any) -> None:
     for seed in seeds:
         one = numbers(dam(random.Random(seed)), model, place)
         other = numbers(dam(random.Random(seed), **change), model, place)
-        found.ends["accepted" if one else "no result"] += 1
+        known = len(found.defects)
         if (one is None) is not (other is None):
             found.defects.append(f"dam(random.Random({seed})): {one}, {other}")
         elif one and other:
             size = max(abs(value) for value in one.values())
             wrong = {name for name in one if abs(other[name] - factor * one[name]) > close * factor * size}
             found.defects += [f"dam(random.Random({seed})), {name}: {one[name]!r}, {other[name]!r}" for name in wrong]
+        found.ends["defect" if len(found.defects) > known else "accepted" if one else "no result"] += 1
     assert found.ends["accepted"]
     found.told(record_property)
 
