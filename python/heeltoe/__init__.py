@@ -48,6 +48,7 @@ _HOME = {
     "verdict": "result.verdict",
     "with_spread": "study.small.spread",
     "write_report": "views.report.write",
+    "write_workbook": "views.files.workbook",
 }
 
 __all__ = sorted(_HOME)
@@ -90,6 +91,7 @@ if TYPE_CHECKING:
     from heeltoe.study.small.solve import solve as solve
     from heeltoe.study.small.spread import with_spread as with_spread
     from heeltoe.views.animation.write import animate as animate
+    from heeltoe.views.files.workbook import write_workbook as write_workbook
     from heeltoe.views.report.write import write_report as write_report
 
 

@@ -86,6 +86,9 @@ Changes = Annotated[
     typer.Option("--set", metavar="PATH=VALUE", help="Set a field of the case, e.g. crack.friction=1.0."),
 ]
 JsonPath = Annotated[str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")]
+Workbook = Annotated[
+    bool, typer.Option("--xlsx", help="Write the tables as a workbook for spreadsheets, with units, into --out.")
+]
 Details = Annotated[bool, typer.Option("--details", help="Print all results, not only the most important ones.")]
 UnitsName = Annotated[
     str, typer.Option("--units", metavar="si|us", help="Units of text and figures; JSON and tables stay SI.")

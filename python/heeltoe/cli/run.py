@@ -19,6 +19,7 @@ from heeltoe.cli.common import (
     Changes,
     Details,
     JsonPath,
+    Workbook,
     as_given,
     check_json,
     check_units,
@@ -115,6 +116,7 @@ def run(
             help="Write a report with figures as PDF and HTML into --out, or into a directory named after the case.",
         ),
     ] = False,
+    xlsx: Workbook = False,
     motions: Annotated[
         list[str] | None,
         typer.Option(
@@ -144,7 +146,7 @@ def run(
 ) -> None:
     """Run a case and print what the dam does."""
     suite = Suite(motions or [], sa, match, target, judge, vertical, resume)
-    request = Asked(model, spread, json_, out, units, csv, vtk, vary, report, details)
+    request = Asked(model, spread, json_, out, units, csv, vtk, vary, report, details, xlsx)
     changes = list(set_ or [])
     if motions:
         others = {
@@ -186,6 +188,7 @@ class Asked:
     vary: list[str] | None
     report: bool
     details: bool
+    xlsx: bool
 
     @property
     def suffix(self) -> str:
@@ -202,6 +205,12 @@ class Asked:
             from heeltoe.views.report.write import check_packages
 
             check_packages()
+        if self.xlsx:
+            from heeltoe.views.files.workbook import check_workbook
+
+            check_workbook()
+            if self.out is None and not self.report:
+                raise InputError("needs-other", "--xlsx", other="--out or --report")
         if self.vtk and self.out is None and not self.report:
             raise InputError("vtk-without-out", "--vtk")
         if self.vary:
@@ -300,6 +309,11 @@ def _write(
     figures = figures_of(result, case, units)
 
     def report(fresh: Path) -> None:
+        if request.xlsx:
+            from heeltoe.views.files.statics import WORKBOOK
+            from heeltoe.views.files.workbook import fill_workbook
+
+            fill_workbook(result, fresh / WORKBOOK)
         if not request.report or isinstance(result, SmallStudy):
             return
         from heeltoe.views.report.write import build_report, write_kinds

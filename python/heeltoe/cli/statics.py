@@ -17,6 +17,7 @@ from heeltoe.cli.common import (
     Changes,
     Details,
     JsonPath,
+    Workbook,
     as_given,
     check_json,
     check_units,
@@ -71,6 +72,7 @@ def statics(
             "--report", help="Write a report as PDF and HTML into --out, or into a directory named after the case."
         ),
     ] = False,
+    xlsx: Workbook = False,
     every_section: Annotated[
         bool, typer.Option("--every-section", help="Draw every section, not only the governing one.")
     ] = False,
@@ -78,7 +80,7 @@ def statics(
     details: Details = False,
 ) -> None:
     """Check the stability before, during (pseudo-static) and after the earthquake."""
-    request = _Asked(slip, model, motion, pga, vary or [], sheet, out, report, every_section, details)
+    request = _Asked(slip, model, motion, pga, vary or [], sheet, out, report, every_section, details, xlsx)
     request.check()
     check_units(units)
     changes = [*(set_ or []), *([] if criteria is None else [_judged_by(criteria)])]
@@ -108,6 +110,7 @@ class _Asked:
     report: bool
     every_section: bool
     details: bool
+    xlsx: bool
 
     def check(self) -> None:
         """Refuse what cannot be, or does not go together, before anything is read."""
@@ -122,9 +125,20 @@ class _Asked:
             from heeltoe.views.report.write import check_packages
 
             check_packages()
+        if self.xlsx:
+            from heeltoe.views.files.workbook import check_workbook
+
+            check_workbook()
+            if self.out is None and not self.report:
+                raise InputError("needs-other", "--xlsx", other="--out or --report")
         if self.every_section and self.out is None and not self.report:
             raise InputError("needs-other", "--every-section", other="--out or --report")
-        options = (("--report", self.report), ("--sheet", self.sheet), ("--every-section", self.every_section))
+        options = (
+            ("--report", self.report),
+            ("--sheet", self.sheet),
+            ("--every-section", self.every_section),
+            ("--xlsx", self.xlsx),
+        )
         for option, ticked in options:
             if self.vary and ticked:
                 raise InputError("vary-option", option)
@@ -191,10 +205,19 @@ def _write(
     figures = statics_figures(results, units, every=request.every_section)
 
     def report(fresh: Path) -> None:
+        if request.xlsx:
+            from heeltoe.views.files.statics import WORKBOOK
+            from heeltoe.views.files.workbook import fill_workbook
+
+            fill_workbook(results, fresh / WORKBOOK)
+        if not request.report:
+            return
         from heeltoe.views.content.statics import statics_document
         from heeltoe.views.report.write import write_kinds
 
         say("writing the report")
         write_kinds(statics_document(case, results, figures, units=units, command=command_line()), fresh)
 
-    return write_statics(results, place, figures if request.out else {}, report=report if request.report else None)
+    return write_statics(
+        results, place, figures if request.out else {}, report=report if request.report or request.xlsx else None
+    )

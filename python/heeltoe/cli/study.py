@@ -17,6 +17,7 @@ from heeltoe.cli.common import (
     CaseUnits,
     Details,
     JsonPath,
+    Workbook,
     check_json,
     check_units,
     command_line,
@@ -49,6 +50,7 @@ def study(
     report: Annotated[
         bool, typer.Option("--report", help="Write a report as PDF and HTML into the directory of the runs.")
     ] = False,
+    xlsx: Workbook = False,
     units: CaseUnits = None,
     json_: JsonPath = None,
     details: Details = False,
@@ -58,6 +60,8 @@ def study(
     from heeltoe.study.plan.file import read_study
     from heeltoe.study.plan.plan import plan_of
     from heeltoe.study.run.run import outlook, run_study
+    from heeltoe.views.files.statics import WORKBOOK
+    from heeltoe.views.files.workbook import check_workbook
     from heeltoe.views.files.write import STUDY_REPORT, write_study
     from heeltoe.views.report.write import check_packages, write_study_report
     from heeltoe.views.terminal.study import print_outlook, print_study
@@ -73,6 +77,8 @@ def study(
             finish(expected.to_json(), json_, [], lambda console: None)
         return
     place = out or Path(f"{Path(file).stem}-study")
+    if xlsx:
+        check_workbook()
     if report:
         check_packages()
         check_directory(place, "--out", STUDY_REPORT)
@@ -97,13 +103,15 @@ def study(
         base = (read.directory / read.case).parent
         write_study_report(results, fresh, base=base, units=in_units, command=command_line(), figures=drawn)
 
-    written = write_study(results, place, in_units, figures=not no_figures, report=reported if report else None)
+    written = write_study(
+        results, place, in_units, figures=not no_figures, report=reported if report else None, workbook=xlsx
+    )
     finish(results.to_json(), json_, [], lambda console: print_study(results, console, in_units, details=details))
     say_file("wrote", place, words)
     if not no_figures:
         say_file("wrote", place / "figures", words)
     for path in written:
-        if path.name in STUDY_REPORT:
+        if path.name in (*STUDY_REPORT, WORKBOOK):
             say_file("wrote", path, words)
     if not results.answered:
         raise typer.Exit(NO_RESULT)

@@ -68,6 +68,7 @@ def run_suite_command(
     """Run a suite, write and show it."""
     from heeltoe.case.read import read_case
     from heeltoe.study.run.suite import run_suite
+    from heeltoe.views.files.statics import WORKBOOK
     from heeltoe.views.files.write import STUDY_REPORT, write_study
     from heeltoe.views.report.write import write_study_report
     from heeltoe.views.terminal.study import print_outlook, print_study
@@ -108,13 +109,17 @@ def run_suite_command(
         base = Path(path).parent
         write_study_report(found, fresh, base=base, units=units, command=command_line(), figures=drawn)
 
-    written = [] if place is None else write_study(found, place, units, report=report if request.report else None)
+    written = (
+        []
+        if place is None
+        else write_study(found, place, units, report=report if request.report else None, workbook=request.xlsx)
+    )
     finish(found.to_json(), request.json, [], lambda screen: print_study(found, screen, units, details=request.details))
     if place is not None:
         say_file("wrote", place, words)
         say_file("wrote", place / "figures", words)
         for file in written:
-            if file.name in STUDY_REPORT:
+            if file.name in (*STUDY_REPORT, WORKBOOK):
                 say_file("wrote", file, words)
     if not found.answered:
         raise typer.Exit(NO_RESULT)

@@ -249,6 +249,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "needs the package {value}, which does not work here ({reason})",
         "give the program more memory, or install the package anew",
     ),
+    "workbook-package": ("needs the package {value}, which is not installed", "pip install xlsxwriter"),
     "report-kind": ("{value} is not a kind of report", "use pdf or html"),
     "vtk-without-out": ("needs a directory", "add --out DIR"),
     "vtk-rigid": ("shows elastic parts, which a rigid block does not have", "use --model flexible or both"),

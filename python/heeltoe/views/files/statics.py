@@ -21,7 +21,9 @@ _FIGURES = tuple(
     f"{name}{suffix}" for name in ("section", "checks", "forces-*", "at-*-forces-*") for suffix in (".png", ".svg")
 )
 #: Names of all files that the static checks may leave.
-OWN = (*_TABLES, *_FIGURES, *_REPORT)
+#: The tables as a workbook.
+WORKBOOK = "workbook.xlsx"
+OWN = (*_TABLES, *_FIGURES, *_REPORT, WORKBOOK)
 
 
 def write_statics(
@@ -39,13 +41,13 @@ def write_statics(
 
     def write(fresh: Path) -> None:
         (fresh / "result.json").write_text(json_text(statics_json(joints)) + "\n", encoding="utf-8")
-        write_table(pa.Table.from_pylist(list(_forces(joints))), fresh / "sheet.csv")
-        write_table(pa.Table.from_pylist(list(_checks(joints))), fresh / "checks.csv")
+        write_table(pa.Table.from_pylist(list(force_rows(joints))), fresh / "sheet.csv")
+        write_table(pa.Table.from_pylist(list(check_rows(joints))), fresh / "checks.csv")
         save_all(figures, fresh)
         if report is not None:
             report(fresh)
 
-    own = OWN if report is not None else (*_TABLES, *_FIGURES)
+    own = OWN if report is not None else (*_TABLES, *_FIGURES, WORKBOOK)
     return write_whole(write, directory, own)
 
 
@@ -60,7 +62,7 @@ def write_statics_table(table: StaticsTable, directory: Path) -> list[Path]:
     return write_whole(write, directory, OWN)
 
 
-def _forces(joints: Joints) -> Iterator[dict[str, Any]]:
+def force_rows(joints: Joints) -> Iterator[dict[str, Any]]:
     """Return every force of every load case at every section."""
     for joint in joints.ranked:
         for load_case in joint.statics.to_json()["cases"]:
@@ -68,7 +70,7 @@ def _forces(joints: Joints) -> Iterator[dict[str, Any]]:
                 yield {"elevation_m": joint.elevation_m, "load_case": load_case["name"], **force}
 
 
-def _checks(joints: Joints) -> Iterator[dict[str, Any]]:
+def check_rows(joints: Joints) -> Iterator[dict[str, Any]]:
     """Return every check of every load case at every section."""
     for joint in joints.ranked:
         for check in joint.statics.checks:

@@ -27,8 +27,10 @@ from heeltoe.views.figures.runs import small_figures
 from heeltoe.views.figures.solve import solve_figure
 from heeltoe.views.figures.studies.all import study_figures
 from heeltoe.views.figures.write import save_all
+from heeltoe.views.files.statics import WORKBOOK
 from heeltoe.views.files.vtk import OWN as VTK_FILES
 from heeltoe.views.files.vtk import write_frames
+from heeltoe.views.files.workbook import fill_workbook
 
 #: The directory of the VTK files, one of each kind for each frame, of which only what lists them is told.
 VTK = "vtk"
@@ -50,6 +52,7 @@ def names(*suffixes: str, report: bool = True) -> tuple[str, ...]:
         "result.json",
         *(f"{name}{suffix}" for name in _TABLES for suffix in suffixes),
         *(f"{name}{suffix}" for name in NAMES for suffix in (".png", ".svg")),
+        WORKBOOK,
         *(_REPORT if report else ()),
     )
 
@@ -171,6 +174,7 @@ def write_study(
     *,
     figures: bool = True,
     report: Callable[[Path, Mapping[str, Figure]], None] | None = None,
+    workbook: bool = False,
 ) -> list[Path]:
     """Write the figures of a study into ``figures/`` of its directory, and its report beside them, those of an earlier
     time gone, and return their paths; its runs stay as they are. The ranks of a table of dams go into
@@ -186,6 +190,8 @@ def write_study(
         Whether they are written.
     report
         Writes a report into a directory, given the figures; None for none.
+    workbook
+        Whether its tables go into ``workbook.xlsx``, too.
     """
 
     def write(fresh: Path) -> None:
@@ -195,12 +201,14 @@ def write_study(
         if figures:
             (fresh / "figures").mkdir()
             save_all(drawn, fresh / "figures")
+        if workbook:
+            fill_workbook(study, fresh / WORKBOOK)
         if report is not None:
             report(fresh, drawn)
 
-    if not figures and report is None and study.portfolio is None:
+    if not figures and report is None and study.portfolio is None and not workbook:
         return []
-    own = (PORTFOLIO, *(("*.png", "*.svg") if figures else ()), *(STUDY_REPORT if report is not None else ()))
+    own = (PORTFOLIO, WORKBOOK, *(("*.png", "*.svg") if figures else ()), *(STUDY_REPORT if report is not None else ()))
     return write_whole(write, directory, own)
 
 
