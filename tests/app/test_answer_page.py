@@ -138,6 +138,15 @@ def test_the_limit_and_a_colour_come_with_the_number(page, tmp_path):
     page.wait_for_selector(f"{ELASTIC} .headline.failed >> text=more than the 300.0 mm allowed")
 
 
+def test_a_long_elastic_run_waits_for_its_button(page):
+    page.wait_for_selector(SLIP)
+    page.select_option("#example", "bonded-joint")
+    page.wait_for_selector(f"{ELASTIC} >> text=/It takes about [0-9]+ s: it is run with its button/")
+    # No block knows a bonded joint.
+    page.wait_for_selector(RIGID, state="hidden")
+    assert page.is_enabled("text=Run the elastic dam with evidence")
+
+
 def test_a_row_in_which_nothing_happens_is_a_line(page, tmp_path):
     text = (ROOT / "examples" / "typical-base.toml").read_text()
     path = tmp_path / "rigid.toml"

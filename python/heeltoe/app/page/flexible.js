@@ -80,13 +80,12 @@ export class FlexibleRun {
     this.serial = 0;
     // That with evidence was there sooner.
     if (this.sure && this.shown === this.position) return;
-    const reason = answer.absent || answer.waits || "";
-    this.said.textContent = reason;
-    if (reason || answer.error) {
-      // An error is that of the blocks, and stands there at its slider.
+    this.said.textContent = answer.absent || "";
+    if (answer.absent || answer.waits || answer.error) {
       this.shown = -1;
-      this.card.hide(!answer.error);
-      if (answer.error) this.card.show(answer);
+      // What cannot be has no card; what waits for its button says so where its number will be.
+      if (answer.absent) this.card.hide(true);
+      else this.card.show(answer.waits ? { absent: answer.waits } : answer);
       this.card.mark("");
       this.done(null);
       return;
