@@ -122,11 +122,12 @@ HEADLINES = (
 CRACKED = "cracked_length_m"
 
 
-def leading_crack(slips_m: Sequence[float], first: int) -> int:
-    """Return which of several cracks leads: that which slips most, or the `first` one of the case where none slips by
-    what a joint meter shows. `slips_m` are the residual slips from the crest down [m]."""
+def leading_crack(slips_m: Sequence[float]) -> int:
+    """Return which of several cracks leads: that which slips most, or the lowest one where none slips by what a joint
+    meter shows. `slips_m` are the residual slips from the crest down [m]."""
+    # The order of the cracks in the file says nothing: one dam may be written in several ways.
     sizes = [abs(slip) for slip in slips_m]
-    return sizes.index(max(sizes)) if max(sizes) >= JOINT_METER_M else first
+    return sizes.index(max(sizes)) if max(sizes) >= JOINT_METER_M else len(sizes) - 1
 
 
 def slip_by_mode(row: Mapping[str, float]) -> SlipByMode:

@@ -370,7 +370,7 @@ class Response(Numbered, Shown):
     @property
     def governing_crack(self) -> int:
         """Which of several cracks slips most, from the crest down; its numbers are those of the response."""
-        return leading_crack([crack.residual_slip_m for crack in self.cracks], self.asked)
+        return leading_crack([crack.residual_slip_m for crack in self.cracks])
 
     @property
     def others(self) -> Mapping[str, Self]:

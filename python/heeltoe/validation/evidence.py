@@ -191,7 +191,7 @@ def judge(seed: int, kind: Kind = "plain") -> Judged | None:
     if file in _RECORDS:
         record_named(file)
     response = answer(ShakenDam(case, dam, earthquake(case).shaking), _FRAMES, "full")
-    crack = leading_crack([evidence.slip.value for evidence in response.evidences], response.shaken.dam.asked)
+    crack = leading_crack([evidence.slip.value for evidence in response.evidences])
     evidence = response.evidences[crack]
     by_mesh, by_step = _moved(response.shaken, evidence, crack) if evidence.converged else (None, None)
     return Judged(

@@ -85,7 +85,7 @@ def run_flexible(
     worn = [worn_of(alone, place, dam, run) for place, alone in enumerate(case.single_crack_cases)]
     tension = None if outcome == "unstable" else tension_of(found, envelope)
     cracks = tuple(crack_responses(found, histories, static_state(block)))
-    leads = leading_crack([crack.residual_slip_m for crack in cracks], dam.asked)
+    leads = leading_crack([crack.residual_slip_m for crack in cracks])
     # One that slides by itself needs no vibration to go on.
     growth = None if outcome == "unstable" else self_excitation(shaken, run, leads)
     return FlexibleResponse(
@@ -144,7 +144,7 @@ class Rested(NamedTuple):
     @property
     def leads(self) -> int:
         """Which of its cracks slips most."""
-        return leading_crack([summary.slip for summary in self.run.summaries], self.shaken.dam.asked)
+        return leading_crack([summary.slip for summary in self.run.summaries])
 
     def limits_not_met(self, case: Case) -> int:
         """Return how many of the limits of the case it does not meet."""

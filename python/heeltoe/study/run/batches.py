@@ -257,24 +257,24 @@ def _two_blocks(plan: Plan, runs: Runs, rows: Integers, results: Found, threads:
     done = [(row, *found) for row, found in zip(rows.tolist(), ran, strict=True) if found is not None]
     if done:
         there = np.array([row for row, _, _ in done])
-        results.put(there, *_ran([response for _, response, _ in done], plan.case.asked))
+        results.put(there, *_ran([response for _, response, _ in done]))
         results.undetermined[there] = [undetermined for _, _, undetermined in done]
 
 
-def _ran(responses: Sequence[Response], first: int = 0) -> Ran:
+def _ran(responses: Sequence[Response]) -> Ran:
     """Return what some responses say."""
     outcome = np.array([response.outcome for response in responses], dtype=object)
     cracks = [_of_responses(responses, place) for place in range(len(responses[0].cracks))]
-    return _led(outcome, cracks, first)
+    return _led(outcome, cracks)
 
 
-def _led(outcome: Words, cracks: Sequence[OfCrack], first: int) -> Ran:
-    """Return how runs ended, with the numbers of the crack that leads in each, and of several cracks those of all;
-    `first` is the place of that of ``[crack]``."""
+def _led(outcome: Words, cracks: Sequence[OfCrack]) -> Ran:
+    """Return how runs ended, with the numbers of the crack that leads in each, and of several cracks those of
+    all."""
     if len(cracks) == 1:
         return outcome, cracks[0], ()
     slips = np.column_stack([crack.named["residual_slip_m"] for crack in cracks]).tolist()
-    leads = np.array([leading_crack(row, first) for row in slips])
+    leads = np.array([leading_crack(row) for row in slips])
     places = np.arange(leads.size)
 
     def chosen(columns: Sequence[Floats]) -> Floats:
@@ -375,7 +375,7 @@ def _flexible(plan: Plan, runs: Runs, rows: Integers, results: Found, threads: i
                 )
             )
         outcome = np.array([rested.outcome for rested in ran], dtype=object)
-        return _led(outcome, cracks, dam.asked)
+        return _led(outcome, cracks)
 
     _elastic(plan, runs, rows, results, run)
 

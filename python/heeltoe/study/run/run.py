@@ -271,7 +271,7 @@ def pilot_run(plan: Plan) -> Pilot:
 
 def _pilot(motion: int, response: Answer, ground: Earthquake, other_sign: Pilot | None) -> Pilot:
     """Return what an answer to a motion says of the fineness of the runs, beside that of the other sign."""
-    leads = leading_crack(response.slips, response.shaken.dam.asked)
+    leads = leading_crack(response.slips)
     evidence = response.evidences[leads] if response.evidences else None
     options, first_step = response.shaken.case.flexible, response.shaken.first_step()
     return Pilot(

@@ -73,7 +73,7 @@ def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None
         )
         for place, block in enumerate(blocks)
     ]
-    leads = leading_crack([run.cracks[1 - place].summary.slip for place in range(len(blocks))], asked)
+    leads = leading_crack([run.cracks[1 - place].summary.slip for place in range(len(blocks))])
     return Response(
         model="rigid",
         title=case.title,
