@@ -12,7 +12,7 @@ use super::super::block::{Vector, HEEL, SLIP, TOE};
 use super::super::mode::Mode;
 use super::super::walk::Cause;
 use super::advance::Trial;
-use super::line::CLEAR;
+use super::line::{Bare, Flat, CLEAR};
 use super::power::Power;
 use super::shaking::{Ground, Piece};
 use super::step::State;
@@ -27,17 +27,6 @@ const LEADING: usize = 3;
 const FREE: f64 = 1e-13;
 /// A series that has not come to an end is cut to this part of the length at which it would.
 const SHORTER: f64 = 0.9;
-
-/// Normal forces at heel and toe, the load along the crack, and the acceleration.
-type Felt = [f64; 4];
-
-/// What is felt in a ground at rest without friction, and what each unit of the ground's acceleration and of friction adds.
-#[derive(Clone, Copy)]
-pub(super) struct Flat {
-    still: Felt,
-    per_ground: [Felt; 3],
-    per_friction: Felt,
-}
 
 /// A slide on a piece of the record; all series are in the time over its length.
 pub(super) struct Series {
@@ -287,7 +276,7 @@ impl Varying<'_> {
         if let Some(flat) = place.get() {
             return Some(flat);
         }
-        let felt = |ground: &Ground, friction: f64| -> Option<Felt> {
+        let felt = |ground: &Ground, friction: f64| -> Option<Bare> {
             let instant = self.turning.at(self.corner, &self.state, ground);
             let strength = Strength {
                 constant: [friction; 2],
@@ -298,7 +287,7 @@ impl Varying<'_> {
             Some([reactions[HEEL], reactions[TOE], instant.pushed(), acceleration])
         };
         let still = felt(&[0.0; 3], 0.0)?;
-        let change = |felt: Felt| -> Felt { std::array::from_fn(|i| felt[i] - still[i]) };
+        let change = |felt: Bare| -> Bare { std::array::from_fn(|i| felt[i] - still[i]) };
         // A force of the size of those at hand, so that rounding is small beside it.
         let force = self.walk.block.force_scale;
         let flat = Flat {

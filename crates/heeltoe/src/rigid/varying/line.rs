@@ -56,6 +56,18 @@ pub(super) struct Line {
     pub ground: Option<[f64; 2]>,
 }
 
+/// Normal forces at heel and toe, the load along the crack, and the acceleration, beside friction.
+pub(super) type Bare = [f64; 4];
+
+/// What is felt in a ground at rest without friction, and what each unit of the ground's acceleration and of friction adds,
+/// see [`super::flat`].
+#[derive(Clone, Copy)]
+pub(super) struct Flat {
+    pub still: Bare,
+    pub per_ground: [Bare; 3],
+    pub per_friction: Bare,
+}
+
 impl Line {
     /// The slide from a path on at a speed, on a piece of the record; a slip that starts does so with the acceleration
     /// that it `begins` with. None where friction would grow with the path.

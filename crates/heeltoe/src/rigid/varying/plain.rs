@@ -15,14 +15,13 @@ use super::super::event;
 use super::super::ledger::work;
 use super::super::mode::{Mode, Slip};
 use super::super::reaction::{Felt, Reaction};
-use super::super::shaking::Piece as Level;
 use super::super::walk::Cause;
 use super::advance::Trial;
 use super::flanks::goes_upstream;
 use super::instant::Slope;
 use super::rough::Rough;
 use super::rubbing::Rubbing;
-use super::shaking::Piece;
+use super::shaking::{level, Piece};
 use super::step::State;
 use super::walk::Varying;
 use crate::asperity::rise;
@@ -262,16 +261,6 @@ impl Varying<'_> {
             0.0,
             0.0,
         ]
-    }
-}
-
-/// The same piece without a ground that turns.
-pub(super) fn level(piece: &Piece) -> Level<2> {
-    let ([across, up, _], [per_across, per_up, _]) = (piece.ground, piece.rate);
-    Level {
-        ground: [across, up],
-        rate: [per_across, per_up],
-        left: piece.left,
     }
 }
 

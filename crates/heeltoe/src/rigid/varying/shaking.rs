@@ -1,12 +1,22 @@
 //! The ground's motion: `(a_h, a_v, alpha)(t)`, linear between the samples; the ground may turn, too.
 
-use super::super::shaking::{Range, Shaking};
+use super::super::shaking::{Piece as Level, Range, Shaking};
 
 /// Ground acceleration: horizontal, upward, rotation (counter-clockwise about the middle of the crack).
 pub(super) type Ground = [f64; 3];
 
 /// Ground acceleration from here to the end of the piece.
-pub(super) type Piece = super::super::shaking::Piece<3>;
+pub(super) type Piece = Level<3>;
+
+/// The same piece without a ground that turns.
+pub(super) fn level(piece: &Piece) -> Level<2> {
+    let ([across, up, _], [per_across, per_up, _]) = (piece.ground, piece.rate);
+    Level {
+        ground: [across, up],
+        rate: [per_across, per_up],
+        left: piece.left,
+    }
+}
 
 /// Accelerations of a ground that turns.
 #[derive(Clone, Debug)]
