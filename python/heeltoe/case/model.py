@@ -169,6 +169,24 @@ class Case(Shown, Fields):
         """Return the case whose elastic runs have no evidence."""
         return self.model_copy(update={"flexible": self.flexible.with_evidence("none")})
 
+    @property
+    def has_compressible_water(self) -> bool:
+        """Whether sound travels in the water on either side."""
+        return any(water is not None and water.compressible for water in (self.reservoir, self.tailwater))
+
+    def with_water_as_mass(self) -> Case:
+        """Return the case whose water is incompressible, and so a mass that moves with the dam."""
+        if not self.has_compressible_water:
+            return self
+        sides = {"reservoir": self.reservoir, "tailwater": self.tailwater}
+        return self.model_copy(
+            update={
+                side: water.model_copy(update={"compressible": False})
+                for side, water in sides.items()
+                if water is not None
+            }
+        )
+
     def reversal(self) -> dict[str, Any]:
         """Return the changes that reverse all of its motions."""
         if self.motion is None:

@@ -17,7 +17,7 @@ from heeltoe.models.flexible.body.elastic import dofs
 from heeltoe.models.flexible.body.modes import intact_periods
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.motion.earthquake import Earthquake
-from shared.dams import BASE, KOYNA
+from shared.dams import BASE, KOYNA, example
 
 COARSE = "flexible.elements_across=3"
 # Slender enough for Euler and Bernoulli: 2 m wide, 60 m high, cracked at 40 m.
@@ -246,3 +246,12 @@ def test_a_crack_at_the_base_has_nothing_below():
     with pytest.raises(InputError) as refused:
         chain(read_case({**TOWER, "concrete": {"density": "2400 kg/m^3"}}))
     assert refused.value.code == "modulus-missing"
+
+
+def test_the_chain_takes_compressible_water_as_a_mass():
+    case = example("typical-height")
+    sound = case.with_("reservoir.compressible=true")
+    assert chain(sound).periods.tolist() == chain(case).periods.tolist()
+    assert bonded_chain(sound).periods.tolist() == bonded_chain(case).periods.tolist()
+    dry = case.with_({"reservoir": None})
+    assert chain(dry).periods[0] < 0.9 * chain(case).periods[0]

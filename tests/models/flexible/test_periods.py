@@ -6,9 +6,11 @@ import json
 import math
 
 import pytest
+from rich.console import Console
 
 from heeltoe import InputError, dam_periods, read_case
-from shared.dams import BASE, BLOCK, HEIGHT
+from heeltoe.views.terminal.dam import print_periods
+from shared.dams import BASE, BLOCK, HEIGHT, example
 
 # Slender enough for Euler and Bernoulli: 2 m wide, 60 m high.
 TOWER = {
@@ -71,3 +73,14 @@ def test_a_dam_without_a_modulus():
     with pytest.raises(InputError) as refused:
         dam_periods(read_case(BLOCK))
     assert refused.value.code == "modulus-missing"
+
+
+def test_compressible_water_counts_as_a_mass_and_the_screen_says_so(capsys):
+    case = example("typical-height", "flexible.elements_across=3")
+    still, sound = dam_periods(case), dam_periods(case.with_("reservoir.compressible=true"))
+    assert sound.intact == still.intact
+    assert sound.parts == still.parts
+    assert sound.water_is_mass
+    assert not still.water_is_mass
+    print_periods(sound, Console())
+    assert "The compressible water counts as a mass here" in capsys.readouterr().out

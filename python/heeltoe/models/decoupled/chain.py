@@ -106,6 +106,8 @@ _KEPT: Kept[Chain] = Kept(8)
 
 def _kept(case: Case, build: Callable[[Case], Chain]) -> Chain:
     """Build a chain, or find it by all that it depends on."""
+    # Its modes are real, and so without waves in the water.
+    case = case.with_water_as_mass()
     fields: Any = dict.fromkeys(("section", "concrete", "reservoir", "tailwater", "flexible", "gravity"), True)
     fields["crack"] = {"elevation", "inclination"}
     fields["decoupled"] = {"upper_part"}

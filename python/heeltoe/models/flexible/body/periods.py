@@ -27,7 +27,8 @@ class DamPeriods:
     title
         Of the case.
     intact_dry, intact
-        The whole dam, its crack bonded: without water, and with the virtual water that vibrates with it.
+        The whole dam, its crack bonded: without water, and with the virtual water that vibrates with it. Compressible
+        water counts as that, too: with waves that leave, no modes are real.
     parts
         Each part by itself with its water, from the crest down, by where it is: the lowest held at its base where no
         crack is there, the others free, whose rigid-body motion is none of them.
@@ -43,6 +44,8 @@ class DamPeriods:
         What the lowest modes of the intact dam, at most five, really get.
     elements, nodes
         Of each part, from above.
+    water_is_mass
+        Whether water that is compressible in the case is taken as a mass here.
     """
 
     title: str
@@ -57,6 +60,7 @@ class DamPeriods:
     damping_ratios: tuple[float, ...]
     elements: tuple[int, ...]
     nodes: tuple[int, ...]
+    water_is_mass: bool = False
 
     @property
     def above(self) -> tuple[float, ...]:
@@ -114,14 +118,16 @@ def dam_periods(case: Case, count: int = COUNT, *, field: str = "count") -> DamP
     expect(case, Case, "not-a-case", "case")
     if not 1 <= count <= _MOST:
         raise InputError("period-count", field, count, most=_MOST)
-    dam = build_flexible_dam(case)
+    dam, massed = build_flexible_dam(case), build_flexible_dam(case.with_water_as_mass())
     elevations = tuple(crack.elevation for crack in case.cracks)
     names = _names(elevations, len(dam.modes))
     return DamPeriods(
         title=case.title,
-        intact_dry=tuple(intact_periods(dam, count, water=False).tolist()),
-        intact=tuple(intact_periods(dam, count).tolist()),
-        parts={name: tuple(part_periods(modes, count).tolist()) for name, modes in zip(names, dam.modes, strict=True)},
+        intact_dry=tuple(intact_periods(massed, count, water=False).tolist()),
+        intact=tuple(intact_periods(massed, count).tolist()),
+        parts={
+            name: tuple(part_periods(modes, count).tolist()) for name, modes in zip(names, massed.modes, strict=True)
+        },
         elevations=elevations,
         grounded=len(names) > len(case.cracks),
         rayleigh=dam.damping.coefficients,
@@ -130,6 +136,7 @@ def dam_periods(case: Case, count: int = COUNT, *, field: str = "count") -> DamP
         damping_ratios=tuple(dam.damping.ratios.tolist()),
         elements=tuple(len(body.mesh.elements) for body in dam.bodies),
         nodes=tuple(len(body.mesh.nodes) for body in dam.bodies),
+        water_is_mass=case.has_compressible_water,
     )
 
 
