@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from heeltoe import InputError
+from heeltoe import InputError, read_case
 from heeltoe.study.plan.file import read_study
 from heeltoe.study.plan.plan import plan_of
 from heeltoe.study.run import batches as parts
 from shared.command import command
-from shared.dams import STUDIES
+from shared.dams import STUDIES, example
 from shared.studies import DRAWN, GRID, study_file
 
 
@@ -264,3 +264,16 @@ def test_examples_can_run(path):
     found = plan_of(read_study(path))
     assert found.count >= 100
     assert parts.run_part(found, 0, 1).num_rows == 1
+
+
+def test_a_case_is_no_study_and_a_study_no_case(tmp_path):
+    from heeltoe.case.toml_writer import case_text
+
+    case = tmp_path / "dam.toml"
+    case.write_text(case_text(example("typical-base").model_dump(mode="json", exclude_unset=True)), encoding="utf-8")
+    with pytest.raises(InputError, match=r'is a case, not a study; run it with "heeltoe run".*case = "dam.toml"'):
+        read_study(case)
+    study = tmp_path / "study.toml"
+    study.write_text('case = "dam.toml"\nmodel = "rigid"\n', encoding="utf-8")
+    with pytest.raises(InputError, match='is a study, not a case; run it with "heeltoe study"'):
+        read_case(study)

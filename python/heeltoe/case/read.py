@@ -56,6 +56,8 @@ def read_case(source: str | os.PathLike[str] | Mapping[str, Any], changes: Chang
     elif isinstance(source, str | os.PathLike):
         path = Path(source)
         fields, directory = read_fields(path), path.parent
+        if "section" not in fields and not fields.keys().isdisjoint(("case", "cases")):
+            raise InputError("study-no-case", str(path))
     else:
         raise InputError("case-source", "source", kind=type(source).__name__)
     # Changes by path find the motions as blocks; cracks stay as they are written.

@@ -46,7 +46,7 @@ def solve(
     from heeltoe.case.read import read_case
     from heeltoe.study.small.solve import solve as solve_case
     from heeltoe.views.files.write import SOLVED, write_solved
-    from heeltoe.views.terminal.solve import print_solved
+    from heeltoe.views.terminal.small import print_solved
 
     check_units(units)
     check_json(json_)

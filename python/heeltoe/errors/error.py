@@ -36,6 +36,11 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "give a path or a dictionary; a case changes by its with_",
     ),
     "not-a-case": ("a {kind} is not a case", "give what heeltoe.read_case returns"),
+    "case-no-study": (
+        "is a case, not a study",
+        'run it with "heeltoe run", or name it in a study file: case = "{name}"',
+    ),
+    "study-no-case": ("is a study, not a case", 'run it with "heeltoe study"'),
     "not-a-response": ("a {kind} is not a response", "give what heeltoe.run, rigid, decoupled or flexible returns"),
     "not-a-motion": ("a {kind} is not a ground motion", "give what heeltoe.read_record returns"),
     "not-a-list": ("a {kind} is not a list", "put it into one"),

@@ -335,8 +335,11 @@ def read_study(source: str | PathLike[str]) -> Study:
         The first thing that is wrong, with the others.
     """
     path = Path(source)
+    fields = read_fields(path, "study-file-missing")
+    if "section" in fields and fields.keys().isdisjoint(("case", "cases")):
+        raise InputError("case-no-study", str(path), name=path.name)
     try:
-        study = Study.model_validate(read_fields(path, "study-file-missing"))
+        study = Study.model_validate(fields)
     except ValidationError as found:
         raise first_error(found, Study) from None
     study._directory = path.parent

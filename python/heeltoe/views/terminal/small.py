@@ -1,4 +1,4 @@
-"""What the terminal shows of a table of runs (rich)."""
+"""What the terminal shows of a table of runs, and of a field that was solved for (rich)."""
 
 from __future__ import annotations
 
@@ -19,8 +19,10 @@ from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import advice
 from heeltoe.study.plan.crack_columns import column_of
 from heeltoe.study.small.run_table import SmallStudy
+from heeltoe.study.small.solve import Solved
 from heeltoe.units.systems import INCH
-from heeltoe.views.terminal.render import print_more, print_title, safe
+from heeltoe.views.content.solve import solve_answer, solve_table
+from heeltoe.views.terminal.render import print_more, print_title, render, safe
 
 
 def _length(metres: float, units: str) -> str:
@@ -108,6 +110,14 @@ def print_small(grid: SmallStudy, console: Console, units: str = "si", *, detail
         console.print(f"[yellow]warning[/yellow]  {safe(text)}")
     for text in _judged(grid):
         console.print(f"\n[bold]Verdict[/bold]  {text}")
+
+
+def print_solved(solved: Solved, console: Console, units: str = "si", *, details: bool = False) -> None:
+    """Print where the limit is just met; in detail the runs, too."""
+    print_title(solved.title or "Untitled case", f"{solved.model} model", console)
+    render(solve_answer(solved, units), console)
+    if details:
+        render((solve_table(solved, units),), console)
 
 
 def _of_crack(place: int) -> _Column:
