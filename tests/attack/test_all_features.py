@@ -66,7 +66,9 @@ def attack_pairs(pairs: list[tuple[str, str, str]], place: Path, record_property
         fields = pair_fields(one, other)
         try:
             case = read_case(fields)
-            runs = all(supports(case, user) for user in USERS[model])
+            # A chain needs something below its crack.
+            at_base = model == "decoupled" and case.crack.elevation == 0.0
+            runs = not at_base and all(supports(case, user) for user in USERS[model])
             # The slip for the static checks comes from a run of the model that fits, which may refuse the pair.
             either = model == "statics" and not runs
         except InputError:

@@ -29,6 +29,7 @@ def refusals(*names: str) -> set[str]:
     """Return the features that the table refuses in any case that has all of these."""
     had = set(names)
     had |= {"several cracks"} if "three cracks" in had else set()
+    had |= {"elastic rock"} if "elastic rock without a crack at the base" in had else set()
     had |= {"kinks"} if "kinks off the straight line" in had else set()
     had |= {"a friction law"} if "a law with cohesion" in had else set()
     had |= {"rotation beyond small angles"} if "finite rotation" in had else set()

@@ -47,10 +47,9 @@ def place(tmp_path_factory) -> Path:
     (directory / "records").mkdir()
     (directory / "records" / "my-record.AT2").write_text(RECORD)
     assert command("new", "mydam", cwd=directory).returncode == 0
-    # What the pages say beside the commands: the flexible model needs a modulus, the decoupled one a crack at a height.
+    # What the pages say beside the commands: the decoupled chain needs a crack at a height.
     case = directory / "mydam.toml"
-    text = case.read_text(encoding="utf-8").replace("# modulus", "modulus")
-    case.write_text(text, encoding="utf-8")
+    text = case.read_text(encoding="utf-8")
     (directory / "high.toml").write_text(text.replace('elevation = "0 m"', 'elevation = "60 m"'), encoding="utf-8")
     return directory
 

@@ -69,6 +69,7 @@ def test_what_moves_the_slip_of_an_elastic_dam(moved, mean, failed, said):
         across=8,
         other_across=4,
         third_across=None,
+        cracked=None,
         failed=failed,
         slips=(0.1, 0.1),
         runs=8,

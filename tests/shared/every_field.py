@@ -235,6 +235,14 @@ HELPED |= {
     for side in ("reservoir", "tailwater")
     for name in ("wave_speed", "floor_reflection")
 }
+ON_ROCK: Fields = {
+    "rock": {"modulus": "5 GPa"},
+    "crack.elevation": "0 m",
+    **dict.fromkeys(("anchors", "uplift.during_shaking", "uplift.opening", "flexible.elements_across_below"), GONE),
+}
+HELPED |= {
+    f"rock.{name}": (ON_ROCK, None) for name in ("modulus", "poisson", "density", "damping", "radiation", "massless")
+}
 HELPED["crack.kinks"] = (dict.fromkeys(_STRAIGHT_ALONE, GONE), [["8 m", "0.5 m"]])
 HELPED |= {
     "crack.uplift": (SEVERAL | {"crack.uplift": "none"}, "uniform"),

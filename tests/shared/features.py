@@ -47,6 +47,8 @@ CHANGES: dict[str, Fields] = {
     "virtual water that does not rotate": {"reservoir.virtual_mass_rotates": False},
     "Zangar's water pressure": {"reservoir.hydrodynamic": "zangar"},
     "compressible water": {"reservoir.compressible": True},
+    "elastic rock": {"rock": {"modulus": "20 GPa"}, "crack.elevation": "0 m"},
+    "elastic rock without a crack at the base": {"rock": {"modulus": "20 GPa"}},
     "water that follows the vertical motion": {
         "reservoir.follows_vertical_motion": True,
         "motion.vertical": {"points": [["0 s", "0 g"], ["1 s", "0.05 g"]]},

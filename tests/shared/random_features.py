@@ -248,6 +248,7 @@ _FEATURES = (
     lambda draw, height, width: {"flexible.virtual_mass": "thesis"},
     lambda draw, height, width: {"flexible.contactors": draw.randint(1, 5)},
     lambda draw, height, width: {"reservoir": {"depth": _m(0.8 * height), "compressible": True}},
+    lambda draw, height, width: {"rock": {"modulus": f"{draw.uniform(2, 60):.3g} GPa"}},
     lambda draw, height, width: {"reservoir": {"depth": _m(0.8 * height), "hydrodynamic": "zangar"}},
     lambda draw, height, width: {"reservoir": {"depth": _m(0.8 * height), "virtual_mass_rotates": False}},
     lambda draw, height, width: {

@@ -82,6 +82,24 @@ class Reservoir(Water):
     at the upstream edge of the crest to nothing at the downstream edge."""
 
 
+class Rock(Fields):
+    """The rock below an elastic dam: a half-plane that the dam moves, and into which waves leave. Without it the dam
+    stands on a rigid plane."""
+
+    modulus: Annotated[Pressure, Field(ge=1e8, le=1e15)]
+    """Young's modulus, dynamic."""
+    poisson: Annotated[DimensionlessNumber, Field(ge=0.0, lt=0.5)] = 0.25
+    """Poisson's ratio."""
+    density: Annotated[Density, Field(ge=1000.0, le=5000.0)] = Field(default="2650 kg/m^3", validate_default=True)
+    """Density of the rock."""
+    damping: Annotated[DimensionlessNumber, Field(ge=0.0, le=0.2)] = 0.02
+    """Damping ratio of the material at 5 Hz, in proportion to the stiffness; what leaves as waves comes on top."""
+    radiation: Truth = True
+    """Waves leave the rock; without it springs hold it far away, and nothing but its material damps."""
+    massless: Truth = False
+    """The rock has no mass, and so no waves, as in older practice; damping of the rock is its material's alone."""
+
+
 class Ice(Fields):
     """Push of an ice cover on the upstream face, at all times."""
 

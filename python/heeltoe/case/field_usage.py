@@ -51,6 +51,7 @@ READ_BY: dict[str, frozenset[str]] = {
     ),
     "crack.bond": frozenset({"flexible"}),
     "further_cracks.bond": frozenset({"flexible"}),
+    "rock": frozenset({"flexible"}),
     "reservoir.virtual_mass_rotates": _BLOCKS,
     "tailwater.virtual_mass_rotates": _BLOCKS,
     **dict.fromkeys(
@@ -238,6 +239,8 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
     for side, body in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
         fields = (f"{side}.wave_speed", f"{side}.floor_reflection")
         yield flexible and body is not None and not body.compressible, f"{side}.compressible is not set", fields
+    springs = case.rock is not None and case.rock.massless
+    yield flexible and springs, "rock.massless is set", ("rock.density", "rock.radiation")
     below = case.outline.area - case.cut.area > 1e-9 * case.outline.area
     across, across_below = "flexible.elements_across", "flexible.elements_across_below"
     yield elastic and not below, "nothing is below the crack", (across_below,)

@@ -20,7 +20,7 @@ from heeltoe.case.changes import apply
 from heeltoe.case.combinations import conflicts
 from heeltoe.case.crack.crack import Crack, FurtherCrack
 from heeltoe.case.crack.kinks import climbs, kinks_misfit
-from heeltoe.case.dam import Anchor, Concrete, Ice, Reservoir, Silt, Uplift, Water
+from heeltoe.case.dam import Anchor, Concrete, Ice, Reservoir, Rock, Silt, Uplift, Water
 from heeltoe.case.fields import Fields
 from heeltoe.case.lists import CRACKS, aliases_of, as_blocks, as_listed, crack_path, renamed
 from heeltoe.case.motion import Aftershock, Motion
@@ -65,6 +65,8 @@ class Case(Shown, Fields):
     """The water upstream."""
     tailwater: Water | None = None
     """The water downstream."""
+    rock: Rock | None = None
+    """The rock below an elastic dam."""
     ice: Ice | None = None
     """The ice upstream."""
     silt: Silt | None = None

@@ -114,6 +114,14 @@ depth = "95 m"                     # above the lowest point of the section
 # [tailwater]
 # depth = "5 m"
 
+# [rock]                           # below an elastic dam; without it a rigid plane
+# modulus = "30 GPa"               # dynamic, of the rock
+# poisson = 0.25
+# density = "2650 kg/m^3"
+# damping = 0.02                   # of the material at 5 Hz; waves that leave come on top
+# radiation = true                 # false: springs far away, and no waves leave
+# massless = false                 # true: no waves at all, as in older practice
+
 # [ice]
 # force = "150 kN/m"               # downstream
 # depth = "0.3 m"                  # below the water surface

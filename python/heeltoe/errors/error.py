@@ -36,6 +36,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "give a path or a dictionary; a case changes by its with_",
     ),
     "not-a-case": ("a {kind} is not a case", "give what heeltoe.read_case returns"),
+    "rock-level": (
+        "elastic rock has a level surface, and the base rises by {value} from heel to toe",
+        "give a level base, or remove the block rock",
+    ),
     "case-no-study": (
         "is a case, not a study",
         'run it with "heeltoe run", or name it in a study file: case = "{name}"',

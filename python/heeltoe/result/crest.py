@@ -65,12 +65,12 @@ def crest_histories(time: Floats, place: Floats, ground: Floats) -> dict[str, Fl
     return {DISPLACEMENT: displacement, ACCELERATION: own + ground}
 
 
-def crest_motion(histories: Mapping[str, Floats], gravity: float) -> CrestMotion | None:
-    """Return the largest of these histories; None where a model has none. `gravity` is one g [m/s2]."""
+def crest_motion(histories: Mapping[str, Floats], gravity: float, ground: float) -> CrestMotion | None:
+    """Return the largest of these histories; None where a model has none. `gravity` is one g, `ground` the peak of its
+    acceleration [m/s2], which the histories miss where it jumps."""
     if DISPLACEMENT not in histories:
         return None
     displacement, acceleration = histories[DISPLACEMENT], histories[ACCELERATION]
-    ground = float(np.abs(histories["ground_acceleration_m_s2"]).max(initial=0.0))
     largest = float(np.abs(acceleration).max(initial=0.0))
     return CrestMotion(
         displacement_m=float(np.abs(displacement).max(initial=0.0)),

@@ -72,6 +72,9 @@ class Energy(Block):
     ]
     damping_j: Annotated[float, Number("Energy lost in the concrete's damping; zero for a block.", _J)] = 0.0
     fracture_j: Annotated[float, Number("Energy that the bonds of joints have taken; zero without one.", _J)] = 0.0
+    rock_j: Annotated[
+        float, Number("Energy that left as waves in the rock, or was lost in it; zero on a rigid plane.", _J)
+    ] = 0.0
     floor_j: Annotated[
         float, Number("Energy that left through the floor of the reservoir; zero without compressible water.", _J)
     ] = 0.0
@@ -340,7 +343,7 @@ class Response(Numbered, Shown):
     @property
     def crest(self) -> CrestMotion | None:
         """How the crest moves; None where the model does not say."""
-        return crest_motion(self.histories, self.gravity)
+        return crest_motion(self.histories, self.gravity, self.motion.pga)
 
     @property
     def mode(self) -> tuple[str, ...]:

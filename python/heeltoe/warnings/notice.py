@@ -230,6 +230,12 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "no state of rest was found in which friction holds the crack before the earthquake; the run starts from the "
         "dam with its crack bonded",
     ),
+    "rock-keeps-waves": (
+        "grave",
+        "rock",
+        "no waves leave the rock ({path} = {value}): vibrations of the dam hardly die out, and slips come out too "
+        "large, for massless rock several times; set {path} = {other}",
+    ),
     "outline-simplified": (
         "note",
         "section.polygon",

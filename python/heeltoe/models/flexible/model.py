@@ -158,10 +158,8 @@ class Rested(NamedTuple):
             min(row.cracked_length, section.crack_width) if line.bond is not None else section.crack_width
             for row, line, section in lengths
         )
-        crest = crest_motion(
-            {**crest_of(self.shaken, self.run), "ground_acceleration_m_s2": self.shaken.shaking.horizontal},
-            case.gravity,
-        )
+        peak = float(abs(self.shaken.shaking.horizontal).max())
+        crest = crest_motion(crest_of(self.shaken, self.run), case.gravity, peak)
         if crest is not None:
             worst |= {"crest_displacement": crest.displacement_m, "crest_acceleration": crest.acceleration_g}
         limits = {name: allowed_of(case.limits, name, case.gravity) for name in worst}

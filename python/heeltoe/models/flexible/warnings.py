@@ -93,11 +93,19 @@ def warnings_of(
         *_about_the_start(case, dam, safety),
         *_about_the_growth(growth, run.summaries[leads]),
         *_about_the_mesh(dam),
+        *_about_the_rock(case),
         *_about_the_joints(case, dam),
         *_about_the_concrete(case, dam),
         *about_the_anchors(anchors_of(case, run)),
         *_about_the_contact(case, run, histories),
     ]
+
+
+def _about_the_rock(case: Case) -> Iterator[Notice]:
+    if case.rock is not None and case.rock.massless:
+        yield Notice("rock-keeps-waves", path="rock.massless", value="true", other="false")
+    elif case.rock is not None and not case.rock.radiation:
+        yield Notice("rock-keeps-waves", path="rock.radiation", value="false", other="true")
 
 
 def _about_the_mesh(dam: FlexibleDam) -> Iterator[Notice]:

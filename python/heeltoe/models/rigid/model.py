@@ -47,12 +47,12 @@ def run_rigid(
     if run.outcome == "overturned" and moments[-1] < end:
         # Where it lies is between two moments: the last one is that just before, which a walk still passes.
         run, drainage = walk_with_drainage(case, block, shaking, np.append(moments, np.nextafter(end, 0.0)))
-        moments = np.append(moments, end)
+        # A walk that ends there all the same has no state at the last moment.
+        moments = np.append(moments, end)[: run.mode.size]
     outcome = outcome_of(
         run.outcome, float(largest_rotation(run.summary.by_name())), finite=case.analysis.rotation == "finite"
     )
     started = outcome != "unstable"
-    crack = crack_response(case, block, shaking, moments, run, started=started, drainage=drainage)
     return Response(
         model="rigid",
         title=case.title,
@@ -63,7 +63,11 @@ def run_rigid(
         motion=earthquake.motion,
         vertical=earthquake.vertical,
         gravity=case.gravity,
-        cracks=tuple(with_crest([crack], [block])),
+        cracks=tuple(
+            with_crest(
+                [crack_response(case, block, shaking, moments, run, started=started, drainage=drainage)], [block]
+            )
+        ),
         references=references_of(case, block, run),
         silence_s=earthquake.silence,
     )

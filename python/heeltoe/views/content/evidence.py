@@ -14,6 +14,7 @@ _ENERGY = (
     ("Impacts", "impact_j"),
     ("Damping of the concrete", "damping_j"),
     ("Fracture of the joint", "fracture_j"),
+    ("Left in and through the rock", "rock_j"),
     ("Left through the floor of the reservoir", "floor_j"),
     ("Left along the reservoir", "far_end_j"),
     ("Lost by the time stepping", "numerical_j"),
@@ -21,7 +22,7 @@ _ENERGY = (
     ("Made by contact, which should be none", "gained_j"),
     ("What the ledger leaves unexplained, over the turnover", "residual"),
 )
-_RARE = ("fracture_j", "floor_j", "far_end_j")
+_RARE = ("fracture_j", "rock_j", "floor_j", "far_end_j")
 _FLEXIBLE = (
     ("Time step", "time_step_s", None),
     ("Steps", "steps", None),

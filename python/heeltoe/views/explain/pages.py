@@ -38,6 +38,7 @@ _PAGES = {
         ),
         "water-and-rock.md",
     ),
+    "rock": "water-and-rock.md",
     "reservoir.nappe": "statics.md#water-above-the-crest",
     "uplift": "statics.md#forces",
     "uplift.drain_x": "sections.md#drains",

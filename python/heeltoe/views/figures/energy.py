@@ -32,6 +32,7 @@ _FRICTION = _Entry("friction", "#0072B2", "--", "///")
 _DAMPING = _Entry("damping", "#009E73", "-.", "...")
 _IMPACT = _Entry("impacts", "#D55E00", ":", "xxx")
 _FRACTURE = _Entry("fracture", "#E69F00", (0, (1, 1)), "///\\\\\\")  # type: ignore[arg-type]
+_ROCK = _Entry("the rock", "#8C6D31", (0, (4, 1, 1, 1)), "xx")  # type: ignore[arg-type]
 _WATER = _Entry("the reservoir", "#56B4E9", (0, (3, 2)), "oo")  # type: ignore[arg-type]
 _STORED = _Entry("stored since the start", "#CC79A7", (0, (5, 1, 1, 1, 1, 1)), "\\\\\\")  # type: ignore[arg-type]
 _NUMERICAL = _Entry("time stepping", "#999999", "-", "")
@@ -108,6 +109,7 @@ def _bars(ledger: Energy) -> list[tuple[_Entry, float]]:
         (_DAMPING, ledger.damping_j),
         (_IMPACT, ledger.impact_j),
         (_FRACTURE, ledger.fracture_j),
+        (_ROCK, ledger.rock_j),
         (_WATER, ledger.floor_j + ledger.far_end_j),
         (_STORED, ledger.left_j),
         (_NUMERICAL, ledger.numerical_j),

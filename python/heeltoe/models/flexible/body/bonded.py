@@ -37,6 +37,7 @@ NOT_OF_MODES: Any = _ANY | {
     "further_cracks": {"__all__": {"restitution", *_FRICTION}},
     "concrete": {"damping", *_STRENGTH},
     "flexible": {*_OF_RUNS, "damping", "damping_on_water", "contact", "contactors"},
+    "rock": True,
 }
 
 

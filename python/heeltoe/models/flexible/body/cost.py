@@ -17,8 +17,8 @@ from heeltoe.models.flexible.mesh.rows import ROWS
 
 # Seconds of the equations of a dam, of each d m and of each k^3 of them.
 _SET_UP, _SOLVED, _RESTED = 0.15, 8e-7, 2e-6
-# Of the modes of compressible water on one side.
-_WATER = 0.45
+# Of the modes of a body with waves: water with sound on one side; rock takes as long as so many of them.
+_WAVES, _ROCK = 0.45, 4
 # Seconds of each d^3 and copies of d^2 numbers where all modes are wanted.
 _DENSE, _DENSE_COPIES = 2e-9, 4.0
 # Copies of the d m numbers of the modes that are there at once, and their bytes.
@@ -91,14 +91,17 @@ def parts_of(case: Case) -> list[Part]:
     return [part_of(case, (1 + twice) * (2 * each + 1)) for each, twice in zip(across, both, strict=True)]
 
 
-def compressible_sides(case: Case) -> int:
-    """Return on how many sides of a dam there is compressible water."""
-    return sum(body is not None and body.compressible and body.depth > 0.0 for body in (case.reservoir, case.tailwater))
+def wave_bodies(case: Case) -> int:
+    """Return how many bodies with waves surround a dam: water with sound on either side, and rock for several."""
+    sides = sum(
+        body is not None and body.compressible and body.depth > 0.0 for body in (case.reservoir, case.tailwater)
+    )
+    return sides + (0 if case.rock is None else _ROCK)
 
 
-def building(parts: Sequence[Part], compressible: int = 0) -> Cost:
-    """Return what the equations of a dam cost, with compressible water on so many sides."""
-    seconds = _SET_UP + _WATER * compressible + sum(part.cost.seconds for part in parts) + _RESTED * parts[0].nodes ** 3
+def building(parts: Sequence[Part], waves: int = 0) -> Cost:
+    """Return what the equations of a dam cost, with so many bodies of :func:`wave_bodies` around it."""
+    seconds = _SET_UP + _WAVES * waves + sum(part.cost.seconds for part in parts) + _RESTED * parts[0].nodes ** 3
     return Cost(seconds, sum(part.cost.memory for part in parts))
 
 

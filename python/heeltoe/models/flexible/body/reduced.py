@@ -24,6 +24,7 @@ from heeltoe.models.flexible.body.elastic import Body
 from heeltoe.models.flexible.body.inside import CrackAnchor, FollowingWater, crack_anchors, following_water
 from heeltoe.models.flexible.body.modes import Modes
 from heeltoe.models.flexible.body.reservoir import WaterBody, water_body
+from heeltoe.models.flexible.body.rock import RockBody, rock_body
 from heeltoe.models.flexible.body.rocking_thresholds import elastic_give
 from heeltoe.models.flexible.mesh.kinks import angles
 
@@ -117,6 +118,8 @@ class FlexibleDam(BondedDam):
         The cracks as the kernel takes them.
     reservoir
         The compressible water before it, if there is any.
+    rock
+        The rock below it, if it is elastic.
     """
 
     section: CutSection
@@ -132,6 +135,7 @@ class FlexibleDam(BondedDam):
     anchors: tuple[CrackAnchor, ...]
     lines: tuple[CrackLine, ...]
     reservoir: WaterBody | None
+    rock: RockBody | None
 
     def __repr__(self) -> str:
         parts = zip(self.bodies, self.modes, strict=True)
@@ -176,8 +180,9 @@ def _build(case: Case) -> FlexibleDam:
         for place, (body, basis, still) in enumerate(zip(bodies, modes, bonded.bent, strict=True))
     )
     water, anchors = following_water(case, bodies), crack_anchors(case, bodies)
-    lines = _lines(case, bonded)
-    kernel = _cracked(case, reduced, water, anchors, lines, reservoir)
+    rock = rock_body(case, bodies[-1])
+    lines = _lines(case, bonded, rock)
+    kernel = _cracked(case, reduced, water, anchors, lines, reservoir, rock)
     # The penalty method begins with its crack bonded and its springs unloaded.
     exact = case.flexible.contact == "coulomb"
     static, start = bonded.bent, Start(not exact, (0.0,) * len(lines), (0,) * len(lines))
@@ -209,6 +214,7 @@ def _build(case: Case) -> FlexibleDam:
         anchors=anchors,
         lines=lines,
         reservoir=reservoir,
+        rock=rock,
     )
 
 
@@ -219,7 +225,10 @@ def _cracked(
     anchors: tuple[CrackAnchor, ...],
     lines: tuple[CrackLine, ...],
     reservoir: WaterBody | None,
+    rock: RockBody | None,
 ) -> CrackedDam:
+    if rock is not None:
+        reduced = (*reduced, _reduced_rock(rock, case.cut, reduced[0]))
     upper, *lower = (side_by_side_in(reduced[first::2]) for first in range(min(2, len(reduced))))
     contactors = case.flexible.contactors
     return CrackedDam(
@@ -227,16 +236,18 @@ def _cracked(
     )
 
 
-def _lines(case: Case, bonded: BondedDam) -> tuple[CrackLine, ...]:
+def _lines(case: Case, bonded: BondedDam, rock: RockBody | None) -> tuple[CrackLine, ...]:
     """Return the cracks of a case, with where their faces are among the nodes of the kernel's two bodies."""
     # Parts that make up one body stand side by side in it, from the crest down.
-    sizes = [body.mesh.crack.size for body in bonded.bodies]
+    sizes = [body.mesh.crack.size for body in bonded.bodies] + ([] if rock is None else [len(rock.points)])
     firsts = [sum(sizes[place % 2 : place : 2]) for place in range(len(sizes))]
     found = []
     for place, (alone, force) in enumerate(zip(case.single_crack_cases, bonded.bonded_forces, strict=True)):
         above, below = bonded.bodies[place].mesh, bonded.below(place)
         upper = firsts[place] + above.top, above.crack.size - above.top
         lower = (0, 0) if below is None else (firsts[place + 1], below.mesh.faces[0].size)
+        if rock is not None and below is None:
+            lower = firsts[place + 1], len(rock.points)
         friction, law = (alone.crack.mu_static, alone.crack.mu_kinetic), alone.crack.law
         give = elastic_give(alone, alone.cut, force)
         turned = (
@@ -289,7 +300,8 @@ def apart(of_bodies: Sequence[Floats], modes: tuple[Modes, ...]) -> tuple[Floats
     found = [np.empty(0)] * len(modes)
     for side in range(min(2, len(modes))):
         sizes = [basis.omega_squared.size for basis in modes[side::2]]
-        found[side::2] = np.split(of_bodies[side], np.cumsum(sizes)[:-1], axis=-1)
+        # What comes after them is the rock.
+        found[side::2] = np.split(of_bodies[side], np.cumsum(sizes), axis=-1)[: len(sizes)]
     return tuple(found)
 
 
@@ -302,8 +314,29 @@ def damped(case: Case, dam: FlexibleDam, factor: float) -> FlexibleDam:
             dam.reduced, damping.sticking, damping.free, damping.dashpots, strict=True
         )
     )
-    kernel = _cracked(case, reduced, dam.water, dam.anchors, dam.lines, dam.reservoir)
+    kernel = _cracked(case, reduced, dam.water, dam.anchors, dam.lines, dam.reservoir, dam.rock)
     return replace(dam, reduced=reduced, damping=damping, kernel=kernel)
+
+
+def _reduced_rock(rock: RockBody, section: CutSection, part: ReducedBody) -> ReducedBody:
+    """Return the rock as a body of the kernel: nobody shakes it, and it has settled under its own weight. Its dashpots
+    and its share in the water are as many as those of a `part` of the dam, and none."""
+    none, size = np.zeros(rock.omega_squared.size), rock.omega_squared.size
+    return ReducedBody(
+        omega_squared=rock.omega_squared,
+        damping_sticking=none,
+        damping_free=none,
+        load=none,
+        participation_horizontal=none,
+        participation_vertical=none,
+        start=none,
+        shapes=rock.shapes,
+        position=places(rock.points, section).T.reshape(-1),
+        dampers=np.zeros((len(part.dampers), size)),
+        damper_signs=part.damper_signs,
+        wet=np.zeros((len(part.wet), size)),
+        boundary=rock.damping,
+    )
 
 
 def _reduced(

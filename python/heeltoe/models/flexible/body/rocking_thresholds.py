@@ -34,8 +34,9 @@ def elastic_give(case: Case, section: CutSection, crack_force: NDArray[np.float6
     -------
     tuple
         20 N/(E B) and N/E: the latter is by how much a block as high as it is wide shortens under *N*. Both vanish
-        with 1/E, as the rigid model needs it, and turn with the crack.
+        with 1/E, as the rigid model needs it, and turn with the crack. On elastic rock its 1/E comes on top.
     """
     normal = float(along_and_across(crack_force.reshape(-1, 2), section)[:, 1].sum())
-    gap = max(normal, 0.0) / (case.concrete.modulus or np.inf)
+    soft = 1.0 / (case.concrete.modulus or np.inf) + (0.0 if case.rock is None else 1.0 / case.rock.modulus)
+    gap = max(normal, 0.0) * soft
     return _TURNS * gap / section.crack_width, gap

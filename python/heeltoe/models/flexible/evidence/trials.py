@@ -14,7 +14,7 @@ from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.kernel.dam import DAM_OUTCOMES, DamRun, Ending
-from heeltoe.models.flexible.body.cost import Cost, building, compressible_sides, parts_of
+from heeltoe.models.flexible.body.cost import Cost, building, parts_of, wave_bodies
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import running
@@ -85,7 +85,7 @@ class Trials:
         """Return what so many runs at level 0 are estimated to take with one at another level among them."""
         first = self._shaken[0]
         case, end = with_mesh(first.case, level.mesh), first.shaking.end
-        parts = building(parts_of(case), compressible_sides(case))
+        parts = building(parts_of(case), wave_bodies(case))
         runs = running(first.case, end, self._frame_step, self.step, runs=work)
         finest = running(case, end, self._frame_step, self.step_of(level))
         return Cost(parts.seconds + runs.seconds, parts.memory + finest.memory)

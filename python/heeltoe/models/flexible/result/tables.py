@@ -204,6 +204,7 @@ def energy_of(run: DamRun) -> Energy:
         residual=raw.energy_residual,
         damping_j=raw.energy_damping,
         fracture_j=raw.energy_fracture,
+        rock_j=raw.energy_boundary,
         floor_j=raw.energy_floor,
         far_end_j=raw.energy_far_end,
         numerical_j=raw.energy_numerical,

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 from heeltoe.case.model import Case
-from heeltoe.models.flexible.body.cost import NUMBER, Cost, building, compressible_sides, parts_of
+from heeltoe.models.flexible.body.cost import NUMBER, Cost, building, parts_of, wave_bodies
 from heeltoe.models.flexible.run.dam_runner import usual_step
 from heeltoe.models.runner import STEP
 
@@ -18,8 +18,8 @@ _FRAME_STEP = 0.01
 _STEP, _ANSWERED, _FETCHED = 6e-7, 4.3e-10, 8.6e-13
 # Times as much where a friction law is found by passes, 1.7 to 4 of it.
 _BY_LAW = 2.5
-# Times as much where bonds soften: 6 to 10 of it; seconds of a step with compressible water of one side, measured with
-# water of 30 to 100 m.
+# Times as much where bonds soften: 6 to 10 of it; seconds of a step with a body with waves, measured with
+# water of 30 to 100 m on one side.
 _BY_BOND, _WATERED = 10.0, 1.1e-5
 # Bytes of a step of the ground; copies of a frame.
 _GROUND, _COPIES = 300.0, 3.0
@@ -59,7 +59,7 @@ def running(case: Case, end: float, frame_step: float, step: float | None = None
         each *= _BY_LAW
     if any(crack.bond is not None for crack in cracks):
         each *= _BY_BOND
-    each += steps * _WATERED * compressible_sides(case)
+    each += steps * _WATERED * wave_bodies(case)
     frame = 16.0 + sum(part.modes + 6.0 * part.nodes for part in parts)
     frames = min(steps, end / frame_step) * frame * NUMBER * _COPIES
     return Cost(each * (_RUNS[case.flexible.evidence] if runs is None else runs), _GROUND * steps + frames)
@@ -80,7 +80,7 @@ def analysing(
     spread
         How many runs with the shaking varied follow.
     """
-    parts, counted = building(parts_of(case), compressible_sides(case)), _RUNS[case.flexible.evidence] + spread
+    parts, counted = building(parts_of(case), wave_bodies(case)), _RUNS[case.flexible.evidence] + spread
     runs = [running(case, end + min(silence, STEP), frame_step, step, counted)]
     if silence:
         runs += [running(case, through, frame_step, step, 1.0) for through in (end, end + silence)]
