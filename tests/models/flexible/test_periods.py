@@ -80,7 +80,14 @@ def test_compressible_water_counts_as_a_mass_and_the_screen_says_so(capsys):
     still, sound = dam_periods(case), dam_periods(case.with_("reservoir.compressible=true"))
     assert sound.intact == still.intact
     assert sound.parts == still.parts
-    assert sound.water_is_mass
-    assert not still.water_is_mass
+    assert not still.simplified
     print_periods(sound, Console())
     assert "The compressible water counts as a mass here" in capsys.readouterr().out
+
+
+def test_rock_counts_as_rigid_and_the_screen_says_so(capsys):
+    case = example("typical-base", "flexible.elements_across=3")
+    on_rock = dam_periods(case.with_("rock.modulus=20 GPa"))
+    assert on_rock.intact == dam_periods(case).intact
+    print_periods(on_rock, Console())
+    assert "The rock counts as rigid here." in capsys.readouterr().out

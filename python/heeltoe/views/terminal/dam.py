@@ -64,8 +64,8 @@ def print_periods(
     for number, row in enumerate(zip_longest(*columns.values()), start=1):
         table.add_row(str(number), *("-" if value is None else f"{value:.4f} s" for value in row))
     console.print(table)
-    if periods.water_is_mass:
-        console.print("The compressible water counts as a mass here, as if it were incompressible.")
+    for sentence in periods.simplified:
+        console.print(sentence)
     if not details:
         print_more(console, "parts, mesh and damping")
         return

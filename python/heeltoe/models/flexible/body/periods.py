@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -44,8 +44,8 @@ class DamPeriods:
         What the lowest modes of the intact dam, at most five, really get.
     elements, nodes
         Of each part, from above.
-    water_is_mass
-        Whether water that is compressible in the case is taken as a mass here.
+    simplified
+        Sentences on what of the case is simpler here.
     """
 
     title: str
@@ -60,7 +60,7 @@ class DamPeriods:
     damping_ratios: tuple[float, ...]
     elements: tuple[int, ...]
     nodes: tuple[int, ...]
-    water_is_mass: bool = False
+    simplified: tuple[str, ...] = ()
 
     @property
     def above(self) -> tuple[float, ...]:
@@ -136,8 +136,16 @@ def dam_periods(case: Case, count: int = COUNT, *, field: str = "count") -> DamP
         damping_ratios=tuple(dam.damping.ratios.tolist()),
         elements=tuple(len(body.mesh.elements) for body in dam.bodies),
         nodes=tuple(len(body.mesh.nodes) for body in dam.bodies),
-        water_is_mass=case.has_compressible_water,
+        simplified=tuple(_simplified(case)),
     )
+
+
+def _simplified(case: Case) -> Iterator[str]:
+    """Walk what of the case would make no mode real: what waves take with them."""
+    if case.has_compressible_water:
+        yield "The compressible water counts as a mass here, as if it were incompressible."
+    if case.rock is not None:
+        yield "The rock counts as rigid here."
 
 
 def _names(elevations: Sequence[float], count: int, units: str = "si") -> list[str]:
