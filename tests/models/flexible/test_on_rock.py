@@ -13,6 +13,7 @@ import pytest
 from heeltoe import InputError, flexible, read_case, run
 from heeltoe.models.flexible.body import rock as rock_module
 from heeltoe.models.flexible.body.reduced import _KEPT
+from heeltoe.models.flexible.result.history import crack_table
 from shared.dams import example
 
 PULSES = [["0 s", "0 g"], ["0.1 s", "0.6 g"], ["0.3 s", "-0.9 g"], ["0.5 s", "0.9 g"], ["0.6 s", "0 g"]]
@@ -145,3 +146,8 @@ def test_the_example_runs():
     response = flexible(case)
     assert response.ok
     assert response.energy.rock_j > 0.0
+    # The surface of the rock is the lower face of the crack, and wider than the base.
+    table = crack_table(response.crack).to_pandas()
+    lower, upper = (table[table.side == side] for side in ("lower", "upper"))
+    assert lower.x_m.min() < upper.x_m.min()
+    assert lower.x_m.max() > upper.x_m.max()

@@ -97,7 +97,9 @@ class CrackHistory:
         """Where the nodes of the faces are in the mesh (k, 2) [m]."""
         above, below = self.dam.bodies[self.place].mesh, self.dam.below(self.place)
         upper = above.nodes[above.faces[-1]]
-        return (upper,) if below is None else (upper, below.mesh.nodes[below.mesh.faces[0]])
+        if below is not None:
+            return upper, below.mesh.nodes[below.mesh.faces[0]]
+        return (upper,) if self.dam.rock is None else (upper, self.dam.rock.points)
 
     def node_gaps(self) -> tuple[Floats, ...]:
         """Return the gap (f, k) [m] from the nodes of each face to the other; NaN where they are beyond its end."""
