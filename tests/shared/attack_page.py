@@ -9,8 +9,8 @@ from importlib.metadata import version
 from pathlib import Path
 
 ENDS = ("accepted", "refused", "no result", "defect")
-#: How many random cases a long attack tries, and with which seed; see the Makefile.
-CASES, SEED = int(os.environ.get("HEELTOE_ATTACK_CASES", "300")), int(os.environ.get("HEELTOE_ATTACK_SEED", "34"))
+#: How many random cases a long attack tries, and with which seed; `make test-slow` takes a few, `make attack` many.
+CASES, SEED = int(os.environ.get("HEELTOE_ATTACK_CASES", "100")), int(os.environ.get("HEELTOE_ATTACK_SEED", "34"))
 _TEXT = """# Attacks
 
 `make attack` tries to break heeltoe, with {cases:,} random cases from the seed {seed} (`CASES`, `SEED`), and writes
