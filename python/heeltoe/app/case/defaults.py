@@ -18,6 +18,7 @@ from heeltoe.mechanics.law_curve import SAMPLES, curve_of
 # Blocks and items, as a file has them.
 _BEGIN: dict[str, dict[str, Any]] = {
     "crack.roughness": {"asperity_height": "20 mm", "wave_length": "200 mm"},
+    "rock": {"modulus": "30 GPa"},
     "ice": {"force": "150 kN/m"},
     "motion": {"file": "elcentro-1940-180-nga", "pga": "0.4 g"},
     "motion.vertical": {"file": "elcentro-1940-up-nga"},
