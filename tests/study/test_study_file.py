@@ -188,7 +188,7 @@ def test_all_that_is_wrong_is_told_at_once(tmp_path):
     lines = wrongs(tmp_path, text)
     assert [line.partition(": ")[0] for line in lines] == [
         *("vary.crack.fricton", "vary.crack.mu", "vary.reservoir.depth", "vary.reservoir.depth"),
-        *("vary.crack.restitution.from", "vary.crack.restitution.to", "motions", "motions"),
+        *("vary.crack.restitution.from", "vary.crack.restitution.to", "motions.files[0]", "motions.files[1]"),
         *("motions.scale.values[0]", "motions.scale.values[1]"),
     ]
     assert len(set(lines)) == len(lines)
@@ -196,6 +196,19 @@ def test_all_that_is_wrong_is_told_at_once(tmp_path):
         plan_of(read_study(tmp_path / "study.toml"))
     assert [str(caught.value), *map(str, caught.value.others)] == lines
     assert caught.value.__notes__ == lines[1:]
+
+
+def test_what_is_wrong_with_a_record_names_the_field_that_has_it(tmp_path):
+    event = 'events = [{ horizontal = ["quakes/quake-a-000.txt", "x"], vertical = "y" }]'
+    lines = wrongs(tmp_path, changed(GRID, 'folder = "quakes"', event))
+    fields = [line.partition(": ")[0] for line in lines]
+    assert fields == ["motions.events[0].horizontal[1]", "motions.events[0].vertical"]
+    ordered = changed(GRID, 'folder = "quakes"', 'files = ["synthetic:M6"]')
+    assert wrongs(tmp_path, ordered)[0].startswith("motions.files[0]: ")
+    (tmp_path / "bare.txt").write_text("0.1\n0.2\n0.1\n" * 20)
+    (line,) = wrongs(tmp_path, changed(GRID, 'folder = "quakes"', 'files = ["bare.txt"]\nunit = "g"'))
+    assert line.startswith("bare.txt: ")
+    assert "motions.time_step" in line
 
 
 def test_what_does_not_agree_is_told_at_once(tmp_path):

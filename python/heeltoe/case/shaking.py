@@ -101,30 +101,43 @@ def resolve_all(case: Case) -> tuple[GroundMotion, GroundMotion | None]:
 
 
 def read_source(
-    shaking: Source, gravity: float, base_directory: Path, field: str, *, upward: bool = False
+    shaking: Source,
+    gravity: float,
+    base_directory: Path,
+    field: str,
+    *,
+    upward: bool = False,
+    options_field: str | None = None,
 ) -> GroundMotion:
-    """Read, or make, the motion, look for damage that would be hidden later, and process it."""
-    motion = _source(shaking, gravity, base_directory, field, upward)
+    """Read, or make, the motion, look for damage that would be hidden later, and process it.
+
+    `field` is where it stands, for errors. In a list of files that is the entry of the file itself; its unit and its
+    time step then stand in the block `options_field`.
+    """
+    motion = _source(shaking, gravity, base_directory, field, upward, options_field)
     motion = motion.with_warnings(*check_record(motion, gravity, field=field, upward=upward))
     motion = process(motion, shaking.processing, gravity, field=f"{field}.processing")
     check_moved(motion, field)
     return motion
 
 
-def _source(shaking: Source, gravity: float, base_directory: Path, field: str, upward: bool) -> GroundMotion:
+def _source(
+    shaking: Source, gravity: float, base_directory: Path, field: str, upward: bool, options_field: str | None
+) -> GroundMotion:
     if shaking.points is not None:
         time = [moment for moment, _ in shaking.points]
         values = [value.si(gravity) for _, value in shaking.points]
         motion = GroundMotion.from_points(time, values, name="points of the case")
         return replace(motion, format="points", source="the case")
     assert shaking.file is not None
+    file_field, block = (f"{field}.file", field) if options_field is None else (field, options_field)
     if shaking.file.startswith(PREFIX):
         for option in ("channel", "unit", "time_step"):
             if getattr(shaking, option) is not None:
-                raise InputError("synthetic-option", f"{field}.{option}")
-        return synthetic(shaking.file, gravity=gravity, field=f"{field}.file")
-    path = find(shaking.file, base_directory, field=f"{field}.file")
-    options = {"unit": shaking.unit, "time_step": shaking.time_step, "gravity": gravity, "field": field}
+                raise InputError("synthetic-option", f"{block}.{option}")
+        return synthetic(shaking.file, gravity=gravity, field=file_field)
+    path = find(shaking.file, base_directory, field=file_field)
+    options = {"unit": shaking.unit, "time_step": shaking.time_step, "gravity": gravity, "field": block}
     motion = _KEPT.get(
         (_state_of(path), shaking.channel, *options.values()),
         lambda: read_record(path, shaking.channel, **options),  # type: ignore[arg-type]

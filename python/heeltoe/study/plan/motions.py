@@ -103,12 +103,16 @@ def _shakes(motions: Motions, case: Case, directory: Path, number: int, event: E
         raise InputError("study-pair", "motions.pairs", shown(event.name), count=len(event.horizontal))
     if motions.vertical and event.vertical is None:
         raise InputError("study-vertical", "motions.vertical", shown(event.name))
-    horizontal, vertical, problems = list[GroundMotion](), None, Problems()
-    for name in event.horizontal:
+    horizontal, problems = list[GroundMotion](), Problems()
+    vertical: GroundMotion | None = None
+    for place, name in enumerate(event.horizontal):
         with problems:
-            horizontal.append(_read(motions, case, directory, name, "horizontal"))
+            field = _field_of(motions, name, f"events[{number}].horizontal[{place}]")
+            horizontal.append(_read(motions, case, directory, name, field))
     with problems:
-        vertical = event.vertical and _read(motions, case, directory, event.vertical, "vertical")
+        if event.vertical is not None:
+            field = _field_of(motions, event.vertical, f"events[{number}].vertical")
+            vertical = _read(motions, case, directory, event.vertical, field, upward=True)
     problems.tell()
     if motions.match is not None:
         target = target_of(beside_file(motions.match, directory), "motions.match", case.gravity)
@@ -117,7 +121,7 @@ def _shakes(motions: Motions, case: Case, directory: Path, number: int, event: E
     if motions.pairs:
         references = [float(np.sqrt(np.prod(references)))] * 2
     for motion, reference in zip(horizontal, references, strict=True):
-        shake = Shake(motion.name, number, motion, vertical or None, reference=reference)
+        shake = Shake(motion.name, number, motion, vertical, reference=reference)
         yield shake
         if both_signs(motions, case):
             yield replace(shake, turned=True)
@@ -144,13 +148,23 @@ def _reference(motions: Motions, motion: GroundMotion, case: Case) -> float:
     return value
 
 
-def _read(motions: Motions, case: Case, directory: Path, name: str, way: str) -> GroundMotion:
+def _field_of(motions: Motions, name: str, entry: str) -> str:
+    """Return where the name of a record stands in the study: `entry` in a study whose events are listed."""
+    if motions.files is not None:
+        entry = f"files[{motions.files.index(name)}]"
+    elif motions.folder is not None:
+        entry = "folder"
+    return f"motions.{entry}"
+
+
+def _read(
+    motions: Motions, case: Case, directory: Path, name: str, field: str, *, upward: bool = False
+) -> GroundMotion:
     try:
         source = Source(file=name, unit=motions.unit, time_step=motions.time_step)
     except ValidationError as found:
         raise first_error(found, Source) from None
-    field = f"motions: {name}"
-    return read_source(source, case.gravity, directory, field, upward=way == "vertical")
+    return read_source(source, case.gravity, directory, field, upward=upward, options_field="motions")
 
 
 def _events(motions: Motions, directory: Path) -> Iterator[Event]:
