@@ -270,6 +270,16 @@ def test_periods():
     assert f"{periods['intact'][0]:.4f} s" in result.stderr
 
 
+def test_periods_with_the_response_of_the_crest(tmp_path):
+    result = command("periods", HEIGHT, *COARSE, "--response", "--out", tmp_path, "--json", "-")
+    assert result.returncode == 0, result.stderr
+    assert {"response.csv", "response.png", "response.svg"} < {path.name for path in tmp_path.iterdir()}
+    assert len(json.loads(result.stdout)["response"]["curves"]) == 6
+    refused = command("periods", HEIGHT, "--out", tmp_path)
+    assert refused.returncode == 2
+    assert "--response" in refused.stderr
+
+
 @pytest.mark.usefixtures("no_figures")
 def test_vtk_files_go_beside_the_rest(tmp_path):
     arguments = ("--model", "both", *FAST, "--out", tmp_path, "--vtk")

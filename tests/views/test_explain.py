@@ -87,7 +87,7 @@ def results(tmp_path_factory, study):
         "spread": with_spread(block, read_case(HEIGHT, FAST), 2).to_json(),
         "statics": statics(koyna.with_("statics.seismic_coefficient=0.1"), 0.01).to_json(),
         "sections": statics_of_sections(koyna.with_({"statics.sections": ["0 m", "30 m"]})).to_json(),
-        "periods": dam_periods(koyna, 2).to_json(),
+        "periods": dam_periods(koyna, 2, response=True).to_json(),
         "overturning": overturning_map(read_case(SLENDER), count=12).to_json(),
         "motion": json.loads(said.stdout),
         "study": study.to_json(),

@@ -32,6 +32,13 @@ from heeltoe.errors.sanitize import plain
 def periods(
     case: CasePath,
     count: Annotated[int, typer.Option(metavar="N", help="Number of periods of the dam and of its parts.")] = 5,
+    response: Annotated[
+        bool,
+        typer.Option("--response", help="Print how the crest answers by frequency, with and without rock and water."),
+    ] = False,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Write the figure of the response here; needs --response.")
+    ] = None,
     set_: Changes = None,
     json_: JsonPath = None,
     units: CaseUnits = None,
@@ -43,18 +50,28 @@ def periods(
     from heeltoe.views.terminal.dam import about_dam, print_periods
 
     check_units(units)
+    if out is not None and not response:
+        raise InputError("needs-other", "--out", other="--response")
     loaded = read_case(case, list(set_ or []))
     check_json(json_)
+    if out is not None:
+        from heeltoe.views.files.write import RESPONSE
+
+        check_directory(out, "--out", RESPONSE)
     with status() as say:
         say("building the elastic parts")
-        periods = dam_periods(loaded, count, field="--count")
+        periods = dam_periods(loaded, count, response=response, field="--count")
     shown = units_of(loaded, units)
     dam = about_dam(loaded, shown)
+    written: list[Path] = []
+    if out is not None and periods.amplification is not None:
+        from heeltoe.views.files.write import write_amplification
 
+        written = write_amplification(periods.title, periods.amplification, out)
     finish(
         periods.to_json(),
         json_,
-        [],
+        written,
         lambda console: print_periods(periods, console, dam, details=details, units=shown),
     )
 

@@ -85,6 +85,41 @@ def test_compressible_water_counts_as_a_mass_and_the_screen_says_so(capsys):
     assert "The compressible water counts as a mass here" in capsys.readouterr().out
 
 
+# Pine Flat, rigid rock, compressible water: 2.53 Hz (Samii and Lotfi 2007), 2.60 Hz (Gorai and Maity 2020).
+def test_pine_flat_amplifies_where_others_find_it():
+    found = dam_periods(example("pine-flat", "flexible.elements_across=8"), 1, response=True)
+    curves = {(curve.rock, curve.water): curve.response for curve in found.amplification.curves}
+    assert list(curves) == [
+        (rock, water) for rock in ("rigid", "elastic") for water in ("empty", "incompressible", "compressible")
+    ]
+    assert not found.amplification.assumptions
+    assert 2.45 < curves["rigid", "compressible"].resonance < 2.62
+    # Without waves the peaks are those of the modes; the concrete's damping is theirs.
+    for water, period in (("empty", found.intact_dry[0]), ("incompressible", found.intact[0])):
+        response = curves["rigid", water]
+        assert response.resonance == pytest.approx(1.0 / period, rel=0.01)
+        assert response.damping == pytest.approx(0.05, rel=0.03)
+    # Rock gives way, and takes waves.
+    for water in ("empty", "incompressible", "compressible"):
+        assert curves["elastic", water].resonance < curves["rigid", water].resonance
+        assert curves["elastic", water].damping > 1.5 * curves["rigid", water].damping
+    assert all(abs(response.amplification[0] - 1.0) < 1e-12 for response in curves.values())
+
+
+def test_response_says_what_it_assumes(capsys):
+    case = example("typical-height", "flexible.elements_across=3")
+    found = dam_periods(case, 1, response=True)
+    print_periods(found, Console(width=200), units="us")
+    screen = capsys.readouterr().out
+    assert "elastic rock has the modulus of the concrete" in screen
+    assert "The case has water without sound" in screen
+    assert "effective damping" in screen
+    data = json.loads(json.dumps(found.to_json(), allow_nan=False))["response"]
+    assert {len(curve["amplification"]) for curve in data["curves"]} == {len(data["frequency_hz"])}
+    empty = dam_periods(case.with_({"reservoir": None}), 1, response=True).amplification
+    assert [curve.water for curve in empty.curves] == ["empty", "empty"]
+
+
 def test_rock_counts_as_rigid_and_the_screen_says_so(capsys):
     case = example("typical-base", "flexible.elements_across=3")
     on_rock = dam_periods(case.with_("rock.modulus=20 GPa"))

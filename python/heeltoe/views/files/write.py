@@ -13,6 +13,7 @@ from heeltoe.case.model import Case
 from heeltoe.mechanics.law_curve import LawCurve
 from heeltoe.models.flexible.result.history import crack_table
 from heeltoe.models.flexible.result.response import FlexibleResponse
+from heeltoe.models.flexible.surroundings.amplification import Amplification
 from heeltoe.result.response import Response
 from heeltoe.result.write import json_text, write_table
 from heeltoe.study.answers.study_results import Opened
@@ -21,6 +22,7 @@ from heeltoe.study.small.run_table import SmallStudy
 from heeltoe.study.small.solve import Solved
 from heeltoe.views.content.solve import field_scale
 from heeltoe.views.figures.all import NAMES, all_figures
+from heeltoe.views.figures.amplification import amplification_figure
 from heeltoe.views.figures.law import law_figure
 from heeltoe.views.figures.overturning import overturning_figure
 from heeltoe.views.figures.runs import small_figures
@@ -38,6 +40,8 @@ VTK = "vtk"
 OVERTURNING = ("overturning.csv", "overturning.png", "overturning.svg")
 #: Files of a field that was solved for.
 SOLVED = ("solve.json", "solve.csv", "solve.png", "solve.svg")
+#: Files of the response of a crest.
+RESPONSE = ("response.csv", "response.png", "response.svg")
 #: Files of a friction law.
 LAW = ("law.png", "law.svg")
 _TABLES = ("histories", "events", "crack", "table")
@@ -156,6 +160,16 @@ def write_solved(solved: Solved, directory: Path, units: str = "si") -> list[Pat
         save_all({"solve": solve_figure(solved, field_scale(solved, units), units)}, fresh)
 
     return write_whole(write, directory, SOLVED)
+
+
+def write_amplification(title: str, amplification: Amplification, directory: Path) -> list[Path]:
+    """Write the response of a crest as ``response.csv``, ``.png`` and ``.svg``, all or none, and return their paths."""
+
+    def write(fresh: Path) -> None:
+        write_table(amplification.to_table(), fresh / "response.csv")
+        save_all({"response": amplification_figure(title, amplification)}, fresh)
+
+    return write_whole(write, directory, ())
 
 
 def write_law(curves: Mapping[str, LawCurve], directory: Path) -> list[Path]:

@@ -15,6 +15,7 @@ from heeltoe.views.terminal.render import label_grid, print_more, print_title, q
 # Not at run time: neither waits for the other's parts.
 if TYPE_CHECKING:
     from heeltoe.models.flexible.body.periods import DamPeriods
+    from heeltoe.models.flexible.surroundings.amplification import Amplification
     from heeltoe.study.small.overturning import OverturningMap
 
 
@@ -66,6 +67,8 @@ def print_periods(
     console.print(table)
     for sentence in periods.simplified:
         console.print(sentence)
+    if periods.amplification is not None:
+        _print_amplification(periods.amplification, console, units)
     if not details:
         print_more(console, "parts, mesh and damping")
         return
@@ -79,6 +82,28 @@ def print_periods(
     grid.add_row("mesh", _mesh_line(names, periods.elements, periods.nodes))
     grid.add_row("damping", _damping_line(periods.damping, periods.damping_ratios, periods.rayleigh))
     console.print(grid)
+
+
+def _print_amplification(amplification: Amplification, console: Console, units: str) -> None:
+    """Print the first resonance of the crest on each rock and with each water."""
+    console.print()
+    table = quiet_table()
+    for name in ("rock", "water"):
+        table.add_column(name)
+    for name in ("resonance", "crest over ground", "effective damping"):
+        table.add_column(name, justify="right")
+    for curve in amplification.curves:
+        first = curve.response
+        table.add_row(
+            curve.rock,
+            curve.water,
+            "-" if first.resonance is None else f"{first.resonance:.3f} Hz",
+            "-" if first.peak is None else f"{first.peak:.1f}",
+            "-" if first.damping is None else f"{100.0 * first.damping:.1f} %",
+        )
+    console.print(table)
+    for sentence in amplification.sentences(units):
+        console.print(sentence)
 
 
 def _mesh_line(names: Sequence[str], elements: Sequence[int], nodes: Sequence[int]) -> str:

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from heeltoe.models.flexible.surroundings.response import (
-    COMBINATIONS,
     IntactDam,
+    WaterOfDam,
     base_nodes,
     crest_response,
-    crest_responses,
 )
 from heeltoe.models.flexible.surroundings.rock import RockMaterial, reduced_rock
 from heeltoe.models.flexible.surroundings.water import reduced_water
@@ -21,6 +20,13 @@ TYPICAL = [(0.0, 0.0), (80.0, 0.0), (12.0, 90.0), (10.0, 100.0), (0.0, 100.0)]
 DEPTH, SPEED, REFLECTION, RATIO = 92.0, 1440.0, 0.8, 0.05
 # So little that it does not matter that the closed form has it at all frequencies.
 ROCK = RockMaterial(20e9, 0.33, 2650.0, damping=0.003, damping_frequency=2.5)
+# Whether the reservoir is full, whether there is rock.
+COMBINATIONS = {
+    "empty, rigid": (False, False),
+    "full, rigid": (True, False),
+    "empty, rock": (False, True),
+    "full, rock": (True, True),
+}
 # Section of Pine Flat dam, from the axis upstream, as published by Samii and Lotfi (2007).
 PINE_FLAT = [
     (0.0, 0.0), (95.71, 0.0), (24.38, 91.44), (15.64, 106.68), (14.86, 112.41), (14.86, 121.92), (5.11, 121.92),
@@ -38,7 +44,7 @@ def typical():
 def around(typical):
     _, intact = typical
     water = reduced_water(list(intact.faces), DEPTH, wave_speed=SPEED, reflection=REFLECTION)
-    return water, reduced_rock(intact.base, ROCK)
+    return WaterOfDam.before(intact, water), reduced_rock(intact.base, ROCK)
 
 
 @pytest.mark.parametrize("name", COMBINATIONS)
@@ -71,7 +77,7 @@ def test_pine_flat_with_its_reservoir():
     water = reduced_water(list(intact.faces), 116.19, wave_speed=1440.0, reflection=0.9)
     frequencies = np.linspace(0.0, 6.0, 61)
     empty = crest_response(intact, frequencies, 0.01, water=None, rock=None)
-    full = crest_response(intact, frequencies, 0.01, water=water, rock=None)
+    full = crest_response(intact, frequencies, 0.01, water=WaterOfDam.before(intact, water), rock=None)
     assert empty.resonance == pytest.approx(3.15, rel=0.02)
     assert empty.damping == pytest.approx(0.01, rel=0.02)
     assert 2.45 < full.resonance < 2.62
@@ -80,10 +86,14 @@ def test_pine_flat_with_its_reservoir():
 
 def test_water_and_rock_make_the_dam_slower_and_damp_it(typical, around):
     _, intact = typical
-    found = crest_responses(intact, np.linspace(0.0, 8.0, 41), 0.05, *around)
-    assert list(found) == list(COMBINATIONS)
-    assert all(response.amplification[0] == 1.0 for response in found.values())
-    rigid, full, rock, both = found.values()
+    water, soft = around
+    rigid, full, rock, both = responses = [
+        crest_response(
+            intact, np.linspace(0.0, 8.0, 41), 0.05, water=water if wet else None, rock=soft if loose else None
+        )
+        for wet, loose in COMBINATIONS.values()
+    ]
+    assert all(response.amplification[0] == 1.0 for response in responses)
     assert both.resonance < min(full.resonance, rock.resonance) < rigid.resonance
     assert rigid.damping == pytest.approx(0.05, rel=0.05)
     assert rock.damping > 0.08

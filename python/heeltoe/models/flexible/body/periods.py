@@ -11,6 +11,7 @@ from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError, expect
 from heeltoe.models.flexible.body.modes import intact_periods, part_periods
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from heeltoe.models.flexible.surroundings.amplification import Amplification, crest_amplification
 from heeltoe.result.write import build_info
 from heeltoe.units.sentences import written
 
@@ -46,6 +47,8 @@ class DamPeriods:
         Of each part, from above.
     simplified
         Sentences on what of the case is simpler here.
+    amplification
+        How the crest answers by frequency, with and without rock and water; None where nobody asked.
     """
 
     title: str
@@ -61,6 +64,7 @@ class DamPeriods:
     elements: tuple[int, ...]
     nodes: tuple[int, ...]
     simplified: tuple[str, ...] = ()
+    amplification: Amplification | None = None
 
     @property
     def above(self) -> tuple[float, ...]:
@@ -94,11 +98,12 @@ class DamPeriods:
             if self.rayleigh is None
             else dict(zip(("mass_1_s", "stiffness_s"), self.rayleigh, strict=True)),
             "mesh": {"elements": list(self.elements), "nodes": list(self.nodes)},
+            "response": None if self.amplification is None else self.amplification.to_json(),
             "build": build_info(),
         }
 
 
-def dam_periods(case: Case, count: int = COUNT, *, field: str = "count") -> DamPeriods:
+def dam_periods(case: Case, count: int = COUNT, *, response: bool = False, field: str = "count") -> DamPeriods:
     """Return the longest periods of a dam and of its parts.
 
     Parameters
@@ -107,6 +112,9 @@ def dam_periods(case: Case, count: int = COUNT, *, field: str = "count") -> DamP
         A dam with a modulus; it needs no earthquake.
     count
         How many of each, 1 to 50; fewer where the mesh has no more.
+    response
+        Whether to compute how the crest answers by frequency, too, on rigid and on elastic rock, with its reservoir
+        empty, its water a mass, and its water with sound.
     field
         What the count is called where it cannot be used.
 
@@ -137,6 +145,7 @@ def dam_periods(case: Case, count: int = COUNT, *, field: str = "count") -> DamP
         elements=tuple(len(body.mesh.elements) for body in dam.bodies),
         nodes=tuple(len(body.mesh.nodes) for body in dam.bodies),
         simplified=tuple(_simplified(case)),
+        amplification=crest_amplification(case) if response else None,
     )
 
 

@@ -14,8 +14,8 @@ from heeltoe.models.flexible.body.elastic import Body, dofs
 from heeltoe.models.flexible.body.modes import Modes
 from heeltoe.models.flexible.surroundings.water import NEAR, ReducedWater, reduced_water
 
-# Frequency [Hz] up to which the water answers well.
-_HIGHEST = 15.0
+#: Frequency [Hz] up to which the water of a run answers well.
+HIGHEST = 15.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +64,9 @@ class WetFace:
     pressure: Floats
 
 
-def water_body(case: Case, bodies: Sequence[Body], *, longer: float = 1.0) -> WaterBody | None:
+def water_body(
+    case: Case, bodies: Sequence[Body], *, longer: float = 1.0, highest: float = HIGHEST
+) -> WaterBody | None:
     """Return the compressible water before the parts of a dam, from the crest down; None where there is none.
 
     Parameters
@@ -75,6 +77,8 @@ def water_body(case: Case, bodies: Sequence[Body], *, longer: float = 1.0) -> Wa
         The parts of the dam.
     longer
         Factor on the length of the near field.
+    highest
+        Frequency [Hz] up to which the water answers well.
     """
     waters: list[tuple[ReducedWater, str, list[tuple[int, Integers]]]] = []
     base = case.cut.base_elevation
@@ -89,7 +93,7 @@ def water_body(case: Case, bodies: Sequence[Body], *, longer: float = 1.0) -> Wa
             wave_speed=water.wave_speed,
             reflection=water.floor_reflection,
             density=water.density,
-            highest=_HIGHEST,
+            highest=highest,
             floor=base,
             upstream=side == "reservoir",
             near=longer * NEAR,

@@ -8,6 +8,7 @@ import numpy as np
 
 from heeltoe.base.arrays import Floats
 from heeltoe.base.cache import Kept
+from heeltoe.case.dam import Rock
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.models.flexible.body.elastic import Body
@@ -72,15 +73,7 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
     ahead = [base[0] - (_BEYOND - k / 2.0) * first for k in range(2 * _BEYOND)]
     behind = [base[-1] + (k + 1) / 2.0 * last for k in range(2 * _BEYOND)]
     points = np.vstack([*ahead, base, *behind])
-    rock = case.rock
-    material = RockMaterial(
-        rock.modulus,
-        rock.poisson,
-        rock.density,
-        damping=rock.damping,
-        radiation=rock.radiation,
-        massless=rock.massless,
-    )
+    material = rock_material(case.rock)
     extent = larger * EXTENT
     # The same rock lies below dams that differ in all else.
     key = (points.tobytes(), material, extent)
@@ -88,3 +81,15 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
     count = reduced.omega_squared.size
     shapes = reduced.shapes.T.reshape(count, -1, 2).swapaxes(1, 2).reshape(count, -1)
     return RockBody(reduced.omega_squared, reduced.damping, np.ascontiguousarray(shapes), points)
+
+
+def rock_material(rock: Rock) -> RockMaterial:
+    """Return the rock of a case as a material."""
+    return RockMaterial(
+        rock.modulus,
+        rock.poisson,
+        rock.density,
+        damping=rock.damping,
+        radiation=rock.radiation,
+        massless=rock.massless,
+    )

@@ -20,6 +20,7 @@ from scipy.sparse.linalg import splu
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.models.flexible.body.elastic import Body, Dam, Sparse, dofs, side_by_side
 from heeltoe.models.flexible.body.modes import lowest
+from heeltoe.models.flexible.body.reservoir import WaterBody
 from heeltoe.models.flexible.surroundings.reduction import Complexes, congruent
 from heeltoe.models.flexible.surroundings.rock import ReducedRock
 from heeltoe.models.flexible.surroundings.water import ReducedWater
@@ -28,14 +29,6 @@ from heeltoe.models.flexible.surroundings.water import ReducedWater
 _MODES = 30
 # Combinations of shapes with less than this part of the energy of others hold nothing new.
 _NOTHING = 1e-8
-
-#: What stands around the dam in each of four responses: whether the reservoir is full, whether there is rock.
-COMBINATIONS = {
-    "empty, rigid": (False, False),
-    "full, rigid": (True, False),
-    "empty, rock": (False, True),
-    "full, rock": (True, True),
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +66,8 @@ class IntactDam:
     ----------
     stiffness, mass
         (m, m), of the concrete.
+    shapes
+        (N, m) displacements of all parts, from the crest down.
     load
         (m,) inertia forces ``M iota`` for a unit horizontal acceleration of the ground [kg per m].
     crest
@@ -87,6 +82,7 @@ class IntactDam:
 
     stiffness: Floats
     mass: Floats
+    shapes: Floats
     load: Floats
     crest: Floats
     face: Floats
@@ -112,6 +108,7 @@ class IntactDam:
         return cls(
             shapes.T @ (stiffness @ shapes),
             shapes.T @ (mass @ shapes),
+            shapes,
             shapes.T @ (mass @ horizontal),
             shapes[2 * dam.bodies[0].mesh.upstream[-1]],
             shapes[upstream],
@@ -120,21 +117,21 @@ class IntactDam:
         )
 
     def crest_motion(
-        self, frequencies: Floats, ratio: float, water: ReducedWater | None, rock: ReducedRock | None
+        self, frequencies: Floats, ratio: float, water: WaterOfDam | None, rock: ReducedRock | None
     ) -> Complexes:
         """Return the amplification of the crest (k,) at frequencies [Hz], from 0 on, with a damping ratio of the
         concrete."""
+        added = 0.0 if water is None else water.mass
+        standing_load = self.load if water is None else self.load + water.load
         standing = slice(0, self.mass.shape[0] - (0 if rock is not None else 2 * len(self.base)))
         found = np.ones(frequencies.size, dtype=complex)
         for place, omega in enumerate(2.0 * np.pi * frequencies):
             if omega == 0.0:
                 continue
-            operator = (1.0 + 2j * ratio) * self.stiffness - omega**2 * self.mass
-            load = -self.load + 0j
-            if water is not None:
-                face = water.coupling @ self.face
-                driven = np.column_stack([face, water.ground[:, 0] / (1j * omega)])
-                moved = face.T @ water.amplitudes(omega, driven)
+            operator = (1.0 + 2j * ratio) * self.stiffness - omega**2 * (self.mass + added)
+            load = -standing_load + 0j
+            if water is not None and water.omega_squared.size:
+                moved = water.pressed(omega)
                 operator = operator + 1j * omega * moved[:, :-1]
                 load = load - moved[:, -1]
             if rock is not None:
@@ -145,8 +142,72 @@ class IntactDam:
         return found
 
 
+@dataclass(frozen=True, eq=False)
+class WaterOfDam:
+    """The water on both faces in the m unknowns of a dam: what moves with it as a mass, and w modes of what has waves.
+
+    Attributes
+    ----------
+    mass
+        (m, m) virtual mass [kg per m]; zero of water with waves.
+    load
+        (m,) its inertia forces for a unit horizontal acceleration of the ground.
+    omega_squared, damping
+        (w,) and (w, w) of the waves, see :class:`heeltoe.models.flexible.surroundings.water.ReducedWater`.
+    coupling
+        (w, m) rows by the unknowns of the dam.
+    ground
+        (w,) for the horizontal velocity of the ground.
+    """
+
+    mass: Floats
+    load: Floats
+    omega_squared: Floats
+    damping: Floats
+    coupling: Floats
+    ground: Floats
+
+    @classmethod
+    def before(cls, dam: IntactDam, water: ReducedWater) -> WaterOfDam:
+        """Return water with waves, made for ``dam.faces``."""
+        size = dam.load.size
+        return cls(
+            np.zeros((size, size)),
+            np.zeros(size),
+            water.omega_squared,
+            water.damping,
+            water.coupling @ dam.face,
+            water.ground[:, 0],
+        )
+
+    @classmethod
+    def of(cls, dam: IntactDam, parts: Dam, water: WaterBody | None) -> WaterOfDam:
+        """Return the virtual water of the parts of a dam, and what has waves before them."""
+        virtual = side_by_side(parts, "mass") - side_by_side(parts, "mass_concrete")
+        horizontal = np.tile([1.0, 0.0], dam.shapes.shape[0] // 2)
+        mass, load = dam.shapes.T @ (virtual @ dam.shapes), dam.shapes.T @ (virtual @ horizontal)
+        if water is None:
+            return cls(mass, load, np.zeros(0), np.zeros((0, 0)), np.zeros((0, load.size)), np.zeros(0))
+        return cls(
+            mass,
+            load,
+            water.omega_squared,
+            water.damping_floor + water.damping_far,
+            np.hstack(water.coupling) @ dam.shapes,
+            water.ground[:, 0],
+        )
+
+    def pressed(self, omega: float) -> Complexes:
+        """Return the forces on the unknowns, against them, for unit velocities of each and, last, for the ground that
+        moves with a unit acceleration, (m, m + 1)."""
+        operator = np.diag(self.omega_squared - omega**2 + 0j) + 1j * omega * self.damping
+        driven = np.column_stack([self.coupling, self.ground / (1j * omega)])
+        forces: Complexes = self.coupling.T @ (1j * omega * np.linalg.solve(operator, driven))
+        return forces
+
+
 def crest_response(
-    dam: IntactDam, frequencies: Floats, ratio: float, *, water: ReducedWater | None, rock: ReducedRock | None
+    dam: IntactDam, frequencies: Floats, ratio: float, *, water: WaterOfDam | None, rock: ReducedRock | None
 ) -> CrestResponse:
     """Return the response of the crest.
 
@@ -159,7 +220,7 @@ def crest_response(
     ratio
         Damping ratio of the concrete.
     water
-        Made for ``dam.faces``; None for an empty reservoir.
+        On the faces; None for an empty reservoir.
     rock
         Made for ``dam.base``; None for a rigid one.
     """
@@ -178,16 +239,6 @@ def crest_response(
     resonance, peak = float(near[top]), float(sizes[top])
     damping = _width(dam, ratio, (water, rock), (resonance, peak))
     return CrestResponse(frequencies, amplification, resonance, peak, damping)
-
-
-def crest_responses(
-    dam: IntactDam, frequencies: Floats, ratio: float, water: ReducedWater, rock: ReducedRock
-) -> dict[str, CrestResponse]:
-    """Return the four responses of :data:`COMBINATIONS`; parameters as in :func:`crest_response`."""
-    return {
-        name: crest_response(dam, frequencies, ratio, water=water if full else None, rock=rock if soft else None)
-        for name, (full, soft) in COMBINATIONS.items()
-    }
 
 
 def base_nodes(body: Body) -> Integers:
@@ -218,7 +269,7 @@ def _shapes(stiffness: Sparse, mass: Sparse, tie: Sparse, standing: Sparse, pres
 def _width(
     dam: IntactDam,
     ratio: float,
-    around: tuple[ReducedWater | None, ReducedRock | None],
+    around: tuple[WaterOfDam | None, ReducedRock | None],
     top: tuple[float, float],
 ) -> float | None:
     """Return half the relative width of a peak at ``1 / sqrt(2)`` of its height."""
