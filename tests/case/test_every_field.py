@@ -136,9 +136,9 @@ def faults(model: str, records: dict[str, tuple[Fields, Any]], skip: Skip, *, br
         if isinstance(old, str) and old.startswith("further_cracks[0].law: "):
             assert model == "rigid"
             continue
-        if isinstance(old, str) and old.startswith(("crack.bond: ", "further_cracks[0].bond: ")):
-            assert model in ("rigid", "decoupled")
-            continue  # a block knows no bond, and says so
+        if isinstance(old, str) and old.startswith("further_cracks[0].bond: "):
+            assert model == "rigid"
+            continue  # two blocks know no bond, and say so
         if isinstance(old, str) and path != "motion.allow_zero":
             found.append(f"{path}: {old}")
         # Fields of the static checks are for `heeltoe statics`.

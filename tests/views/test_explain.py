@@ -79,7 +79,7 @@ def results(tmp_path_factory, study):
         "cracks": run(example("two-cracks", *FAST, "limits.residual_slip=1mm"), "flexible").to_json(),
         "law": run(example("typical-base", *FAST).with_({"crack": LAW}), "both").to_json(),
         "joint": run(
-            example("typical-base", *FAST, "flexible.evidence=step").with_({"crack.bond": BOND}), "flexible"
+            example("typical-base", *FAST, "flexible.evidence=step").with_({"crack.bond": BOND}), "both"
         ).to_json(),
         "rough": run(example("rough-crack", *FAST), "rigid").to_json(),
         "aftershocks": run(example("aftershocks", *FAST), "rigid").to_json(),

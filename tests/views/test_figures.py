@@ -55,7 +55,7 @@ US = [(path, "us") for path in (BASE, BLOCK)]
 def test_every_figure_of_every_example(path, units):
     short = [] if path.stem == "block" else ["motion.duration=3s"]
     case = read_case(path, short)
-    elastic_only = case.further_cracks or case.crack.kinks or case.crack.bond
+    elastic_only = case.further_cracks or case.crack.kinks
     responses = [] if elastic_only else [rigid(case)]
     if case.concrete.modulus:
         below = ["flexible.elements_across_below=3"] if case.crack.elevation and not case.crack.kinks else []

@@ -50,6 +50,8 @@ READ_BY: dict[str, frozenset[str]] = {
         (f"further_cracks.law.{name}" for name in ("form", "slip", "speed", "surface")), frozenset({"flexible"})
     ),
     "crack.bond": frozenset({"flexible"}),
+    # A rigid block bears its bond or not; it opens no crack that would take energy.
+    **dict.fromkeys((f"crack.bond.{name}" for name in ("tensile_strength", "cohesion", "dynamic_factor")), _SHAKEN),
     "further_cracks.bond": frozenset({"flexible"}),
     "rock": frozenset({"flexible"}),
     "reservoir.virtual_mass_rotates": _BLOCKS,

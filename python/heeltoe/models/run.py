@@ -173,7 +173,8 @@ def check_model(name: str, field: str) -> None:
 
 def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
     """Return the models that are run for a case where `model` is asked for, the better one last, and why it is that."""
-    if case.further_cracks or case.crack.kinks or case.crack.bond is not None:
+    joint_alone = case.crack.bond is not None and model == AUTO and case.concrete.modulus is not None
+    if case.further_cracks or case.crack.kinks or joint_alone:
         return _of_several(case, model)
     if model in BOTH:
         return (BOTH[model], "flexible"), "it is the better one of the two that were asked for"
@@ -194,8 +195,10 @@ def _of_several(case: Case, model: str) -> tuple[tuple[str, ...], str]:
         check(case, "beside" if model in BOTH else model)
         return (model,), _ASKED_FOR
     what = "several cracks, and its parts can vibrate as they do"
-    alone = "a crack with kinks" if case.crack.kinks else "a bonded joint"
-    why = f"the case has {what if case.further_cracks else f'{alone}, which the flexible model alone knows'}"
+    alone = "a crack with kinks, which the flexible model alone knows"
+    if not case.crack.kinks:
+        alone = "a bonded joint, which the flexible model alone cracks step by step"
+    why = f"the case has {what if case.further_cracks else alone}"
     return ("flexible",), _ASKED_FOR if model == "flexible" else why
 
 
@@ -393,7 +396,7 @@ def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *
         *standing_warnings(case, response.cracks[case.asked].static),
         *between,
     )
-    if alone and not response.elastic:
+    if alone and not response.elastic and case.crack.bond is None:
         left_out = omitted(case, response) if response.model == "rigid" else (Notice("rigid-top"),)
         warnings = (*warnings, *left_out)
     return replace(

@@ -122,13 +122,14 @@ def _check(name: str, limit: float, crack: CrackResponse, *, failed: bool) -> Li
     numbers = crack.numbers
     assert numbers is not None
     if name == "cracked_length":
-        joint = numbers.get("joint")
+        joint, bond = numbers.get("joint"), numbers.get("bond")
+        # A crack that is no joint was there from the beginning; the bond of a block breaks all at once.
+        all_or_none = 0.0 if bond is not None and bond["breaks_s"] is None else numbers["crack_width_m"]
         evidence = numbers.get("evidence")
         worth = None if evidence is None else evidence["cracked_length_m"]
         return LimitCheck(
             name=name,
-            # A crack that is no joint was there from the beginning.
-            value=numbers["crack_width_m"] if joint is None else joint["cracked_length_m"],
+            value=all_or_none if joint is None else joint["cracked_length_m"],
             allowed=limit,
             failed=failed,
             uncertainty=0.0 if worth is None else worth.uncertainty,

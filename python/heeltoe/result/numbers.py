@@ -112,6 +112,24 @@ class BondState(Block):
     ]
 
 
+class BlockBond(Block):
+    """How the bond of the joint below a rigid block fares, by equilibrium and linear stresses."""
+
+    breaks_s: Annotated[
+        float | None, Number("When the bond below a rigid block breaks, all at once; null where it holds.", "s")
+    ]
+    breaks_by: Annotated[
+        str | None,
+        Number("What breaks it: tension at the heel or toe, shear downstream or upstream; null where it holds."),
+    ]
+    tensile_strength_used: Annotated[
+        float, Number("Largest tension at heel or toe while it holds, as a share of the tensile strength.")
+    ]
+    shear_strength_used: Annotated[
+        float, Number("Largest shear on the joint while it holds, as a share of the shear strength.")
+    ]
+
+
 class Roughness(Block):
     """What the asperities of a rough crack have come to."""
 
@@ -226,6 +244,7 @@ class BlockNumbers(CrackNumbers):
     roughness: Annotated[
         Roughness | None, Number("What the asperities of a rough crack have come to; null of a flat one.")
     ]
+    bond: Annotated[BlockBond | None, Number("How the bond of the joint below a rigid block fares; null of a crack.")]
     overturned_about: Annotated[str | None, Number("Corner about which a block has overturned; null where it has not.")]
 
 

@@ -26,6 +26,7 @@ from heeltoe.result.limits import LimitCheck
 from heeltoe.result.numbers import (
     OF_SEVERAL,
     AnchorForce,
+    BlockBond,
     CrackNumbers,
     FrictionLawState,
     Roughness,
@@ -151,6 +152,7 @@ class Numbered(ABC):
     rotation = Of[str]()
     friction_law = Of[FrictionLawState | None]()
     roughness = Of[Roughness | None]()
+    bond = Of[BlockBond | None]()
     drainage_by_motion = Of[list[float] | None]()
     overturned_about = Of[str | None]()
 

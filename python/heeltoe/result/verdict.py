@@ -14,7 +14,7 @@ from heeltoe.units.write import angle, length, measured, speed
 # Not at run time: a response says its verdict in its JSON.
 if TYPE_CHECKING:
     from heeltoe.result.limits import LimitCheck
-    from heeltoe.result.numbers import BondState
+    from heeltoe.result.numbers import BlockBond, BondState
     from heeltoe.result.response import CrackResponse, Response
 
 # Less time in the air in all [s] is a few bounces, which the strikes tell of.
@@ -53,6 +53,7 @@ def verdict(response: Response, units: str = "si", *, brief: bool = False) -> st
         ]
     else:
         sentences = [
+            _bond_of_block(response),
             _slip(response, units),
             _rocking(response, units),
             _other_cracks(response, units, brief),
@@ -160,6 +161,21 @@ def joint_said(response: Response, units: str = "si") -> str:
         for crack in response.cracks
         if (text := _joint(crack, f"The joint at {_level(crack.elevation, units)}", units))
     )
+
+
+def _bond_of_block(response: Response) -> str:
+    """Say how the bond below a rigid block fares; nothing of a crack."""
+    bond: BlockBond | None = getattr(response, "bond", None)
+    if bond is None:
+        return ""
+    if bond.breaks_s is None:
+        used = max((bond.tensile_strength_used, "tensile"), (bond.shear_strength_used, "shear"))
+        return (
+            f"The bond below the block holds, so that the block does not move: it bears {100.0 * used[0]:.0f} % of its "
+            f"{used[1]} strength at most."
+        )
+    when = "before the earthquake" if bond.breaks_s == 0.0 else f"at {bond.breaks_s:.2f} s"
+    return f"The bond below the block breaks {when}, all at once, by {bond.breaks_by}."
 
 
 def _joint(crack: Response | CrackResponse, joint: str, units: str) -> str:

@@ -50,6 +50,13 @@ OF_CRACKS: dict[str, tuple[Severity, str, str]] = {
         "{field}: {wave_m:.3g m} is more than the crack is wide, {width_m:.4g m}: heel and toe would not stand on like "
         "flanks",
     ),
+    "bond-of-block": (
+        "caution",
+        "crack.bond",
+        "a rigid block bears its bond up to the strength, by linear stresses, and then cracks through at once: an "
+        "elastic dam cracks step by step, earlier or later, and may vibrate several times as hard; the flexible model "
+        "says how far",
+    ),
     "joint-coarse": (
         "caution",
         "flexible.elements_across",

@@ -110,12 +110,6 @@ def test_a_bond_that_no_step_follows_is_refused():
     assert wrong.value.field == "crack.bond"
 
 
-@pytest.mark.parametrize("model", ["rigid", "decoupled", "both"])
-def test_a_block_refuses_a_bond(model):
-    with pytest.raises(InputError, match="bonded joint"):
-        run(read_case(dam()), model)
-
-
 def test_the_flexible_model_is_taken_by_itself():
     assert run(read_case(dam())).model == "flexible"
 

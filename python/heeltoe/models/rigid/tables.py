@@ -15,6 +15,7 @@ from heeltoe.kernel.block import EVENT_KINDS, MODES, SUMMARY, BlockRun
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, static_state
 from heeltoe.mechanics.references import cited
+from heeltoe.models.rigid.bond import BondedBlock, bonded_block, held_histories
 from heeltoe.models.rigid.slip_history import law_found, law_histories, roughness_found, roughness_histories
 from heeltoe.result.contract import HEADLINES, headlines, slip_by_mode, time_by_mode
 from heeltoe.result.crest import crest_histories
@@ -73,8 +74,11 @@ def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
     return cited(*keys)
 
 
-def numbers_of(case: Case, block: Block, run: BlockRun, drainage: Sequence[float] = ()) -> BlockNumbers:
-    """Return the numbers of a crack below a block; `drainage` is what each motion of a sequence met of its drainage."""
+def numbers_of(
+    case: Case, block: Block, run: BlockRun, drainage: Sequence[float] = (), bonded: BondedBlock | None = None
+) -> BlockNumbers:
+    """Return the numbers of a crack below a block; `drainage` is what each motion of a sequence met of its drainage,
+    `bonded` how its bond has fared."""
     raw, row = run.summary, run.summary.by_name()
     table = {name: np.array([row[name]]) for name in _COLUMNS}
     first: dict[str, Any] = {
@@ -100,6 +104,7 @@ def numbers_of(case: Case, block: Block, run: BlockRun, drainage: Sequence[float
         drainage_by_motion=list(drainage) or None,
         friction_law=None if case.crack.law is None else law_found(case, block, run),
         roughness=roughness_found(case.crack, run),
+        bond=None if bonded is None else bonded.numbers,
         overturned_about=about if run.outcome == "overturned" else None,
         anchors=anchors_of(case, run),
     )
@@ -117,10 +122,11 @@ def crack_response(
 ) -> CrackResponse:
     """Return what the crack below a block did; of a run that never started events and static state alone. `drainage` is
     what each motion of a sequence met of its drainage."""
+    bonded = bonded_block(block, shaking)
     return CrackResponse(
         elevation=block.section.heel[1] - block.section.base_elevation,
-        of_crack=numbers_of(case, block, run, drainage) if started else None,
-        histories=histories_of(case, block, shaking, moments, run) if started else {},
+        of_crack=numbers_of(case, block, run, drainage, bonded) if started else None,
+        histories=histories_of(case, block, shaking, moments, run, bonded) if started else {},
         mode=tuple(MODE_NAMES.take(run.mode).tolist()) if started else (),
         event_log=events_of(run),
         static=static_state(block),
@@ -163,7 +169,9 @@ def energy_of(run: BlockRun) -> Energy:
     )
 
 
-def histories_of(case: Case, block: Block, shaking: Shaking, moments: Floats, run: BlockRun) -> dict[str, Floats]:
+def histories_of(
+    case: Case, block: Block, shaking: Shaking, moments: Floats, run: BlockRun, bonded: BondedBlock | None = None
+) -> dict[str, Floats]:
     """Return the histories of the contract at the moments that the run has reached."""
     column, time = run.histories, shaking.time
     result = {"time_s": moments, "ground_acceleration_m_s2": np.interp(moments, time, shaking.horizontal)}
@@ -189,6 +197,9 @@ def histories_of(case: Case, block: Block, shaking: Shaking, moments: Floats, ru
         "normal_force_heel_n": column.normal_force_heel,
         "normal_force_toe_n": column.normal_force_toe,
     }
+    if bonded is not None:
+        held, forces = held_histories(block, shaking, moments, bonded.until)
+        result |= {name: np.where(held, force, result[name]) for name, force in forces.items()}
     if case.crack.law is not None and run.worn is not None:
         result |= law_histories(case, block, run)
     return result | roughness_histories(run)

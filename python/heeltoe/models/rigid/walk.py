@@ -11,6 +11,7 @@ from heeltoe.case.model import Case
 from heeltoe.kernel.block import BlockRun, Limits, run_block
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block
+from heeltoe.models.rigid.bond import bonded_block
 from heeltoe.models.rigid.stages import in_stages, start_of, walk_in_stages
 from heeltoe.models.rigid.varying import varies, varying
 
@@ -39,9 +40,14 @@ def walk_with_drainage(
     """
     wanted = np.empty(0) if moments is None else moments
     ends = limits or limits_of(case)
+    bonded = bonded_block(block, shaking)
+    holds = bonded is not None and bonded.holds
+    if bonded is not None:
+        block, shaking = bonded.block, bonded.shaking
 
     def run(now: Case, block: Block, shaking: Shaking, moments: Floats, before: BlockRun | None) -> BlockRun:
-        what = varying(now, block) if varies(now) or shaking.turning is not None else None
+        # Nothing varies below a block that does not move.
+        what = varying(now, block) if not holds and (varies(now) or shaking.turning is not None) else None
         start, worn = (None, None) if before is None else start_of(before)
         if what is not None and before is not None and before.rough is not None:
             dilation, _, work = before.rough.end

@@ -81,6 +81,8 @@ def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:
     if raw.jams:
         notices.append(Notice("paradox-jammed", jams=int(raw.jams)))
     notices += law_warnings(case, block)
+    if case.crack.bond is not None:
+        notices.append(Notice("bond-of-block"))
     notices += _about_rare_choices(case, run)
     notices += _about_the_slip(case, run)
     # Integration is exact to a part of the crack's width, of which tiny motions are a tiny part.

@@ -9,7 +9,7 @@ from heeltoe.case.model import Case
 from heeltoe.errors.sanitize import plain
 from heeltoe.models.statics.joints import Joints, statics_of_sections
 from heeltoe.models.statics.model import Statics, statics
-from heeltoe.result.numbers import BondState
+from heeltoe.result.numbers import BlockBond, BondState
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.warnings.notice import Notice
@@ -83,6 +83,9 @@ def ligament_of(run: Response) -> tuple[float, float] | None:
 
     What has cracked or softened between its ends is taken off the side of the heel.
     """
+    bond: BlockBond | None = getattr(run, "bond", None)
+    if bond is not None:
+        return (0.0, run.crack_width_m) if bond.breaks_s is None else None
     joint: BondState | None = getattr(run, "joint", None)
     if joint is None or joint.cracked_through_s is not None:
         return None

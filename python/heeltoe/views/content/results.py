@@ -98,6 +98,11 @@ _JOINT: tuple[tuple[str, str, str | None], ...] = (
     ("Longest element along the joint", "element_m", "length"),
     ("Tensile strength that the model takes", "tensile_strength_pa", None),
 )
+_BOND: tuple[tuple[str, str, str | None], ...] = (
+    ("Bond breaks", "breaks_s", "time"),
+    ("Part of the tensile strength used until then", "tensile_strength_used", None),
+    ("Part of the shear strength used until then", "shear_strength_used", None),
+)
 _FIGURES = (
     "comparison",
     "response",
@@ -290,18 +295,20 @@ def _joint(subject: Subject) -> list[Block]:
     """Return what has become of the bonds of joints."""
     blocks: list[Block] = []
     for run in subject.runs:
-        for prefix, joint_state in _laws_of(run.response, "joint"):
-            at = (
-                written(" at {at_m:g m}", subject.units, at_m=joint_state["elevation_m"])
-                if "elevation_m" in joint_state
-                else ""
-            )
-            rows = tuple(
-                (label, subject.numbers(f"{run.prefix}{prefix}joint.{key}", quantity))
-                for label, key, quantity in _JOINT
-                if joint_state["joint"][key] is not None
-            )
-            blocks.append(Table(("", "value"), rows, f"What has become of the joint{at}.", "lr"))
+        for name, labels in (("joint", _JOINT), ("bond", _BOND)):
+            whose = " below the block" if name == "bond" else ""
+            for prefix, state in _laws_of(run.response, name):
+                at = (
+                    written(" at {at_m:g m}", subject.units, at_m=state["elevation_m"])
+                    if "elevation_m" in state
+                    else ""
+                )
+                rows = tuple(
+                    (label, subject.numbers(f"{run.prefix}{prefix}{name}.{key}", quantity))
+                    for label, key, quantity in labels
+                    if state[name][key] is not None
+                )
+                blocks.append(Table(("", "value"), rows, f"What has become of the joint{whose}{at}.", "lr"))
     return blocks
 
 
