@@ -94,6 +94,20 @@ def test_the_title_block_stands_in_both_files():
     assert tuple(Project().rows()) == ()
 
 
+def test_the_table_of_revisions_stands_on_page_one(typical_both):
+    lines = '[{revision = "A", change = "first issue"}, {revision = 1, change = "new record", author = "N. N."}]'
+    case = example("typical-base", f"project.revisions={lines}")
+    report = build_report(case, typical_both, figures={})
+    table = report.blocks[0]
+    assert isinstance(table, Table)
+    # Nobody has checked them: there is no such column, and no title block, for which there are no words.
+    assert table.head == ("Revision", "What was changed", "Prepared")
+    assert table.rows == (("A", "first issue", ""), ("1", "new record", "N. N."))
+    assert report.about == ()
+    assert "new record" in html(report)
+    assert "new record" in source(report)
+
+
 def test_the_report_says_what_its_models_leave_out(typical_both):
     case = example("typical-base", "project.name=Review", "project.revision=3")
     report = build_report(case, typical_both, figures={})

@@ -120,4 +120,4 @@ def test_the_picture_of_page_one_has_every_crack():
     from heeltoe.views.figures.summary import summary_figure
 
     texts = [text.get_text() for axes in summary_figure(example("two-cracks"), ()).axes for text in axes.texts]
-    assert {"crack", "another crack"} <= set(texts)
+    assert {"crack at 90 m", "crack at 0 m"} <= set(texts)

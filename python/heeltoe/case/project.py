@@ -21,6 +21,23 @@ Words = Annotated[
 ]
 
 
+class Revision(Fields):
+    """A line of the table of revisions of a report."""
+
+    revision: Words = ""
+    """Its number or letter."""
+    date: Words = ""
+    """When it was made."""
+    change: Words = ""
+    """What was changed, and why."""
+    author: Words = ""
+    """Who made it."""
+    checker: Words = ""
+    """Who checked it."""
+    approver: Words = ""
+    """Who approved it."""
+
+
 class Project(Fields):
     """The title block of a report, as free words; no number depends on it."""
 
@@ -38,14 +55,33 @@ class Project(Fields):
     """Of the report."""
     revision: Words = ""
     """Of the report."""
+    revisions: tuple[Revision, ...] = ()
+    """All revisions of the report, for the table on its page one."""
 
     def rows(self) -> Iterator[tuple[str, str]]:
         """Return label and words of each entry; nothing where none is given."""
-        if any(self.model_dump().values()):
+        if any(getattr(self, name) for name in _LABELS.values()):
             for label, name in _LABELS.items():
                 yield label, getattr(self, name)
 
+    def history(self) -> tuple[tuple[str, ...], ...]:
+        """Return the table of revisions, its head first; nothing where none is given. Columns without a word are left
+        out."""
+        lines = [revision.model_dump() for revision in self.revisions]
+        names = [name for name in _COLUMNS if any(line[name] for line in lines)]
+        if not names:
+            return ()
+        return (tuple(_COLUMNS[name] for name in names), *(tuple(line[name] for name in names) for line in lines))
 
+
+_COLUMNS = {
+    "revision": "Revision",
+    "date": "Date",
+    "change": "What was changed",
+    "author": "Prepared",
+    "checker": "Checked",
+    "approver": "Approved",
+}
 _LABELS = {
     "Project": "name",
     "Client": "client",

@@ -35,6 +35,8 @@ prestress = "2 MN/m" }}]
 # approver = "E. F."
 # date = "2026-01-31"
 # revision = "0"
+# revisions = [{{ revision = "0", date = "2026-01-31", change = "first issue", author = "A. B.", checker = "C. D.", \
+approver = "E. F." }}]
 
 [section]                          # vertical upstream face at x = 0, downstream to the right
 height = "100 m"

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from heeltoe.case.model import Case
 from heeltoe.errors.sanitize import plain
 from heeltoe.result.write import build_info
 from heeltoe.views.content.checks import static_checks
 from heeltoe.views.content.evidence import evidence
-from heeltoe.views.content.input import defaults, given_input, input_hash, rerun
+from heeltoe.views.content.input import defaults, given_input, input_hash, named, rerun, revisions
 from heeltoe.views.content.limitations import limitations
 from heeltoe.views.content.limits import limits
 from heeltoe.views.content.method import method
@@ -31,13 +30,6 @@ def run_sections(subject: Subject) -> tuple[Block, ...]:
     return one_unit_each(sections, subject.numbers)
 
 
-def named(case: Case) -> list[str]:
-    """Return the project and the revision of a report, for every page, where they are given."""
-    project = case.project
-    revision = f"revision {project.revision}" if project.revision else ""
-    return [plain(text, 40) for text in (project.name, revision) if text]
-
-
 def document(subject: Subject) -> Document:
     """Return the whole report."""
     models = " and ".join(run.model for run in subject.runs)
@@ -56,7 +48,7 @@ def document(subject: Subject) -> Document:
         rerun(subject),
         defaults(subject),
     )
-    blocks = without_gaps(*sections)
+    blocks = without_gaps(revisions(subject.case), *sections)
     return Document(
         title=subject.title,
         subtitle=f"What the dam does in the earthquake, by {models}",

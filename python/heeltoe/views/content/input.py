@@ -8,6 +8,7 @@ import json
 import numpy as np
 
 from heeltoe.case.model import Case
+from heeltoe.errors.sanitize import plain
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.write import build_info
 from heeltoe.units.sentences import quantity
@@ -18,6 +19,8 @@ from heeltoe.views.words.sheet import lines
 
 _SYSTEMS = {"si": "SI", "us": "US"}
 # Blocks that only one model looks at.
+_WIDE = 2.6
+"""Width of the column that says what a revision changed, over that of each of the others."""
 _OWNERS = {"flexible": ("flexible",), "decoupled": ("decoupled",), "analysis": ("rigid", "decoupled")}
 
 
@@ -89,6 +92,23 @@ def rerun(subject: Subject) -> Section:
         ),
     ]
     return Section("To run it again", tuple(blocks))
+
+
+def named(case: Case) -> list[str]:
+    """Return the project and the revision of a report, for every page, where they are given."""
+    project = case.project
+    revision = f"revision {project.revision}" if project.revision else ""
+    return [plain(text, 40) for text in (project.name, revision) if text]
+
+
+def revisions(case: Case) -> Table | None:
+    """Return the table of revisions of a report, where the case has one."""
+    head, *lines = case.project.history() or ((),)
+    if not lines:
+        return None
+    rows: tuple[tuple[Inline, ...], ...] = tuple(tuple(map(plain, line)) for line in lines)
+    widths = tuple(_WIDE if name == "What was changed" else 1.0 for name in head)
+    return Table(head, rows, "Revisions of this report.", "l" * len(head), widths)
 
 
 def input_hash(case: Case, motions: tuple[GroundMotion, GroundMotion | None]) -> str:

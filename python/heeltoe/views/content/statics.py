@@ -14,7 +14,7 @@ from heeltoe.result.write import build_info
 from heeltoe.units.sentences import quantity
 from heeltoe.views.content.checks import answer_of, load_cases, missed_of, remarks, section_table
 from heeltoe.views.content.drawings import drawing
-from heeltoe.views.content.input import case_rows
+from heeltoe.views.content.input import case_rows, named, revisions
 from heeltoe.views.content.one_unit import one_unit_each
 from heeltoe.views.content.tree import (
     Block,
@@ -109,8 +109,8 @@ def statics_document(
     return Document(
         title=plain(case.title) or "Untitled case",
         subtitle=f"{what} by {joints.joints[0].statics.criteria}",
-        footer=f"heeltoe {build_info()['heeltoe']} · static checks",
-        blocks=without_gaps(*sections),
+        footer=" · ".join([*named(case), f"heeltoe {build_info()['heeltoe']}", "static checks"]),
+        blocks=without_gaps(revisions(case), *sections),
         about=tuple((label, plain(words)) for label, words in case.project.rows()),
     )
 

@@ -11,7 +11,7 @@ from heeltoe.case.at_crack import anchor_line
 from heeltoe.case.model import Case
 from heeltoe.geometry.beside import beside
 from heeltoe.mechanics.loads import uplift_profile
-from heeltoe.units.systems import Units, unit_system
+from heeltoe.units.systems import Scale, Units, unit_system
 from heeltoe.views.figures.canvas import Canvas
 from heeltoe.views.figures.section_forces import draw_forces, draw_uplift
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
@@ -151,7 +151,7 @@ def draw_crack(canvas: Canvas, case: Case, *, small: bool) -> None:
     canvas.line(line, keep_off=True, color="white", linewidth=3.6, zorder=4.5)
     canvas.line(line, color=COLOURS["crack"], linewidth=2.0, zorder=4.6)
     if small:
-        canvas.label("crack" if case.crack.bond is None else "joint", section.toe, COLOURS["crack"], first=(1, 1))
+        canvas.label(crack_name(case, case, canvas.length), section.toe, COLOURS["crack"])
         return
     canvas.label("heel", section.heel, first=(-1, -1))
     canvas.label("toe", section.toe, first=(1, -1))
@@ -167,7 +167,15 @@ def draw_further(canvas: Canvas, case: Case) -> None:
             ends = [alone.cut.heel, alone.cut.toe]
             canvas.line(ends, keep_off=True, color="white", linewidth=3.6, zorder=4.5)
             canvas.line(ends, color=COLOURS["crack"], linewidth=1.4, linestyle=(0, (4, 1.5)), zorder=4.6)
-            canvas.label("another crack", alone.cut.toe, COLOURS["crack"], first=(1, 1))
+            canvas.label(crack_name(case, alone, canvas.length), alone.cut.toe, COLOURS["crack"])
+
+
+def crack_name(case: Case, alone: Case, length: Scale) -> str:
+    """Return what one of the cracks of a case is called in a drawing: by its level, where the dam has several."""
+    name = "crack" if alone.crack.bond is None else "joint"
+    if not case.further_cracks:
+        return name
+    return f"{name} at {length(alone.crack.elevation):.4g} {length.unit}"
 
 
 def _draw_anchors(canvas: Canvas, case: Case) -> Floats | None:
