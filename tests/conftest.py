@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
+from collections.abc import Iterator
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -42,22 +43,40 @@ settings.load_profile("heeltoe")
 _CATALOGUES = {"error": ERRORS, "warning": WARNINGS}
 # All errors and warnings that the tests of this process have raised: "error" or "warning", and the code.
 _RAISED: set[tuple[str, str]] = set()
+# What a complete run has not raised of the catalogues.
+_UNTESTED = pytest.StashKey[list[str]]()
 
 
 def pytest_configure(config: pytest.Config) -> None:
     """Note every error and warning that is made, to see in the end whether all of the catalogues are tested."""
     _note(InputError, "error")
     _note(Notice, "warning")
+    if not hasattr(config, "workerinput"):
+        config.pluginmanager.register(FailuresAtOnce(config))
 
 
-def _note(made: type[InputError] | type[Notice], kind: str) -> None:
-    plain = made.__init__
+def _note(notice: type[InputError] | type[Notice], kind: str) -> None:
+    plain = notice.__init__
 
     def noting(self: InputError | Notice, code: str, *args: object, **context: object) -> None:
         _RAISED.add((kind, code))
         plain(self, code, *args, **context)  # type: ignore[arg-type]
 
-    made.__init__ = noting  # type: ignore[assignment, method-assign]
+    notice.__init__ = noting  # type: ignore[assignment, method-assign]
+
+
+class FailuresAtOnce:
+    """The name of a test on a line of its own as soon as it fails: a run that is ended early has said it, too."""
+
+    def __init__(self, config: pytest.Config) -> None:
+        self.config = config
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        terminal = self.config.pluginmanager.get_plugin("terminalreporter")
+        if report.failed and terminal:
+            # The letter of the test stands on the line before.
+            terminal.write(f"\nFAILED {report.nodeid} ({report.when}, {report.duration:.0f} s)\n")
 
 
 def pytest_testnodedown(node: object) -> None:
@@ -77,32 +96,48 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
     )
     if complete and config.args == config.getini("testpaths") and session.exitstatus == 0:
         declared = {(kind, code) for kind, codes in _CATALOGUES.items() for code in codes}
-        untested = sorted(f"{kind} {code}" for kind, code in declared - _RAISED)
-        if untested:
-            print(f"\ndeclared in a catalogue, but raised by no test: {', '.join(untested)}")
+        config.stash[_UNTESTED] = sorted(f"{kind} {code}" for kind, code in declared - _RAISED)
+        if config.stash[_UNTESTED]:
             session.exitstatus = 1
 
 
-def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Show what came of all attacks."""
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> Iterator[None]:
+    """Show what came of all attacks, and after all else what the tests have left out of the catalogues."""
+    _show_attacks(terminalreporter)
+    yield
+    if untested := terminalreporter.config.stash.get(_UNTESTED, []):
+        terminalreporter.write_sep("=", "declared in a catalogue, but raised by no test")
+        for entry in untested:
+            terminalreporter.write_line(f"FAILED catalogue: {entry}")
+
+
+def _show_attacks(terminalreporter: pytest.TerminalReporter) -> None:
     # Tests that were not chosen stand there, too, and are none.
     reports = [
-        each for found in terminalreporter.stats.values() for each in found if isinstance(each, pytest.TestReport)
+        report
+        for reports in terminalreporter.stats.values()
+        for report in reports
+        if isinstance(report, pytest.TestReport)
     ]
     rows = [
-        value for each in reports if each.when == "call" for name, value in each.user_properties if name == "attack"
+        value
+        for report in reports
+        if report.when == "call"
+        for name, value in report.user_properties
+        if name == "attack"
     ]
     if not rows:
         return
     ends = ("accepted", "refused", "no result", "defect")
     terminalreporter.write_sep("-", "attacks")
     terminalreporter.write_line(f"{'':32s}{'tried':>10s}" + "".join(f"{end:>10s}" for end in ends))
-    for what, found in [
+    for what, counts in [
         *sorted(rows, key=lambda row: str(row[0])),
-        ("all", sum((Counter(found) for _, found in rows), Counter())),
+        ("all", sum((Counter(counts) for _, counts in rows), Counter())),
     ]:
-        counts = "".join(f"{found.get(end, 0):>10d}" for end in ends)
-        terminalreporter.write_line(f"{what:32s}{sum(found.values()):>10d}{counts}")
+        columns = "".join(f"{counts.get(end, 0):>10d}" for end in ends)
+        terminalreporter.write_line(f"{what:32s}{sum(counts.values()):>10d}{columns}")
     if page := os.environ.get("HEELTOE_ATTACK_PAGE"):
         write_page(Path(page), rows)
 

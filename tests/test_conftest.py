@@ -1,0 +1,50 @@
+"""A run of tests says what failed where a reader of its end, or of a run that was stopped, finds it."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from shared.dams import ROOT
+
+
+def pytest_run(place: Path, *options: str) -> tuple[int, list[str]]:
+    """Run the tests in a folder with our conftest; return the code of its end and its lines."""
+    (place / "pytest.ini").write_text("[pytest]\ntestpaths = .\nmarkers = slow: long\n")
+    run = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "-p", "conftest", *options],
+        cwd=place,
+        env={**os.environ, "PYTHONPATH": str(ROOT / "tests")},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    return run.returncode, run.stdout.splitlines()
+
+
+def test_the_last_lines_name_what_no_test_raises(tmp_path):
+    (tmp_path / "test_nothing.py").write_text(
+        "from heeltoe import InputError\ndef test_one(): InputError('case-file-missing', 'dam.toml')\n"
+    )
+    code, lines = pytest_run(tmp_path)
+    assert code == 1
+    assert lines[-2].startswith("FAILED catalogue: ")
+    named = [line for line in lines if line.startswith("FAILED catalogue: ")]
+    assert lines[-1 - len(named) : -1] == named
+    assert "FAILED catalogue: error case-file-encoding" in named
+    assert not [line for line in named if line.endswith(" case-file-missing")]
+    assert pytest_run(tmp_path, "-k", "one")[0] == 0
+
+
+@pytest.mark.parametrize("workers", [(), ("-n1",)])
+def test_a_test_that_fails_is_named_at_once(tmp_path, workers):
+    (tmp_path / "test_two.py").write_text("def test_fails(): assert 0\ndef test_holds(): pass\n")
+    code, lines = pytest_run(tmp_path, *workers)
+    assert code == 1
+    at_once, end = [k for k, line in enumerate(lines) if line.startswith("FAILED test_two.py::test_fails")]
+    assert at_once < lines.index(next(line for line in lines if "FAILURES" in line)) < end
