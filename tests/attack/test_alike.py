@@ -31,8 +31,8 @@ def answer(model: str, fields: Fields, place: Path, *options: str) -> Answer | N
     (place / "case.json").write_text(json.dumps(fields))
     words = ("statics",) if model == "statics" else ("run", "--model", model)
     with limited(30.0):
-        said = command(*words, "case.json", "--json", "-", *options, cwd=place)
-    return None if said.returncode == 2 else json.loads(said.stdout)
+        reply = command(*words, "case.json", "--json", "-", *options, cwd=place)
+    return None if reply.returncode == 2 else json.loads(reply.stdout)
 
 
 def differences(one: Any, other: Any, close: float = 0.0, path: str = "", scale: float = 1.0) -> Iterator[str]:
@@ -49,7 +49,7 @@ def differences(one: Any, other: Any, close: float = 0.0, path: str = "", scale:
             beside = largest.get(name.rpartition("_")[2], 1.0)
             yield from differences(one[name], other[name], close, f"{path}.{name}", beside)
     elif isinstance(one, list) and isinstance(other, list) and len(one) == len(other):
-        beside = max((abs(each) for each in one if isinstance(each, float)), default=1.0)
+        beside = max((abs(value) for value in one if isinstance(value, float)), default=1.0)
         for place, (inner, twin) in enumerate(zip(one, other, strict=True)):
             yield from differences(inner, twin, close, f"{path}[{place}]", beside)
     elif isinstance(one, float) and isinstance(other, float):
@@ -68,10 +68,10 @@ def keys_in_another_order(fields: Fields, draw: random.Random) -> Fields:
             names = list(value)
             draw.shuffle(names)
             return {name: shuffled(value[name]) for name in names}
-        return [shuffled(each) for each in value] if isinstance(value, list) else value
+        return [shuffled(item) for item in value] if isinstance(value, list) else value
 
-    found: Fields = shuffled(fields)
-    return found
+    other: Fields = shuffled(fields)
+    return other
 
 
 #: How many SI units a unit of the United States is: definitions of the international foot, pound and gravity.
@@ -97,15 +97,15 @@ def in_units_of_the_united_states(fields: Fields, draw: random.Random) -> Fields
         if isinstance(value, dict):
             return {name: turned(inner) for name, inner in value.items()}
         if isinstance(value, list):
-            return [turned(each) for each in value]
-        found = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
-        if found is None or found[2] not in IN_US:
+            return [turned(item) for item in value]
+        quantity = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
+        if quantity is None or quantity[2] not in IN_US:
             return value
-        unit, factor = IN_US[found[2]]
-        return f"{float(found[1]) * factor!r} {unit}"
+        unit, factor = IN_US[quantity[2]]
+        return f"{float(quantity[1]) * factor!r} {unit}"
 
-    found: Fields = turned(fields)
-    return found
+    other: Fields = turned(fields)
+    return other
 
 
 def reversed_twice(fields: Fields, draw: random.Random) -> Fields | None:
@@ -131,10 +131,10 @@ def a_point_more(fields: Fields, draw: random.Random) -> Fields | None:
     return fields | {"motion": motion | {"points": [*points[: place + 1], between, *points[place + 1 :]]}}
 
 
-def _without_crest(found: Answer | None) -> None:
-    if found is not None and "limits" in found:
-        found.pop("crest", None)
-        found["limits"] = [limit for limit in found["limits"] if not limit["name"].startswith("crest")]
+def _without_crest(answer: Answer | None) -> None:
+    if answer is not None and "limits" in answer:
+        answer.pop("crest", None)
+        answer["limits"] = [limit for limit in answer["limits"] if not limit["name"].startswith("crest")]
 
 
 Law = Callable[[Fields, random.Random], Fields | None]
@@ -151,7 +151,7 @@ LAWS: dict[str, tuple[Law, tuple[str, ...], float]] = {
 
 def attack(law: str, seeds: range, place: Path, record_property: Any) -> None:
     change, models, close = LAWS[law]
-    found = Attack(f"the same otherwise: {law}")
+    strikes = Attack(f"the same otherwise: {law}")
     for seed in seeds:
         draw = random.Random(seed)
         model, fields = random_case(draw)
@@ -165,12 +165,12 @@ def attack(law: str, seeds: range, place: Path, record_property: Any) -> None:
         one, twin = answer(model, fields, place), answer(model, other, place)
         if change is a_point_more:
             # The crest of a block is told at the samples of its record: of few, its largest motion may lie between.
-            for each in (one, twin):
-                _without_crest(each)
+            for result in (one, twin):
+                _without_crest(result)
         wrong = list(differences(one, twin, close))
-        found.ends["defect" if wrong else "refused" if one is None else "accepted"] += 1
-        found.defects += [f"random_case(random.Random({seed})), {model}: {each}" for each in wrong[:5]]
-    found.told(record_property)
+        strikes.ends["defect" if wrong else "refused" if one is None else "accepted"] += 1
+        strikes.defects += [f"random_case(random.Random({seed})), {model}: {difference}" for difference in wrong[:5]]
+    strikes.report(record_property)
 
 
 @pytest.mark.parametrize("law", LAWS)

@@ -25,19 +25,19 @@ USERS = {"rigid": ("rigid",), "decoupled": ("decoupled",), "flexible": ("flexibl
 USERS["statics"] = ("flexible",)
 
 
-def strike(found: Attack, what: str, model: str, fields: dict[str, Any], place: Path) -> str:
+def strike(strikes: Attack, what: str, model: str, fields: dict[str, Any], place: Path) -> str:
     """Run a case, and look at what it answers."""
     (place / "case.json").write_text(json.dumps(fields))
     command = ("statics",) if model == "statics" else ("run", "--model", model)
-    return found.strike(what, *command, "case.json", "--json", "-", cwd=place, data=True, judge=contradictions)
+    return strikes.strike(what, *command, "case.json", "--json", "-", cwd=place, data=True, judge=contradictions)
 
 
 def attack(seeds: range, place: Path, record_property: Any) -> None:
-    found = Attack("random cases of all features", seconds=HANGS)
+    strikes = Attack("random cases of all features", seconds=HANGS)
     for seed in seeds:
         model, fields = random_case(random.Random(seed))
-        strike(found, f"random_case(random.Random({seed})), {model}", model, fields, place)
-    found.told(record_property)
+        strike(strikes, f"random_case(random.Random({seed})), {model}", model, fields, place)
+    strikes.report(record_property)
 
 
 def test_some_random_cases(tmp_path, record_property):
@@ -61,7 +61,7 @@ PAIRS = [
 
 def attack_pairs(pairs: list[tuple[str, str, str]], place: Path, record_property: Any) -> None:
     """What the table of features says of each pair is so: it runs, or is refused by the table."""
-    found = Attack("pairs of features", seconds=HANGS)
+    strikes = Attack("pairs of features", seconds=HANGS)
     for one, other, model in pairs:
         fields = pair_fields(one, other)
         try:
@@ -73,11 +73,11 @@ def attack_pairs(pairs: list[tuple[str, str, str]], place: Path, record_property
             either = model == "statics" and not runs
         except InputError:
             runs = either = False
-        end = strike(found, f"{one}, {other}, {model}", model, fields, place)
+        end = strike(strikes, f"{one}, {other}, {model}", model, fields, place)
         if (end == "refused") is runs and not either:
-            found.defects.append(f"{one} with {other}, {model}: {end}, the table says {'yes' if runs else 'no'}")
-            found.ends["defect"] += 1
-    found.told(record_property)
+            strikes.defects.append(f"{one} with {other}, {model}: {end}, the table says {'yes' if runs else 'no'}")
+            strikes.ends["defect"] += 1
+    strikes.report(record_property)
 
 
 def test_some_pairs_of_features(tmp_path, record_property):
@@ -111,7 +111,7 @@ SOUND: dict[str, Any] = {
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "part"),
     [
         ({}, None),
         ({"residual_slip_m": 0.03}, "outside its extremes"),
@@ -132,6 +132,6 @@ SOUND: dict[str, Any] = {
         ({"joint": {"cracked_length_m": 1.1}}, "cracked length"),
     ],
 )
-def test_contradictions_are_found(change, said):
-    found = contradictions(SOUND | change)
-    assert any(said in each for each in found) if said else not found
+def test_contradictions_are_found(change, part):
+    sentences = contradictions(SOUND | change)
+    assert any(part in sentence for sentence in sentences) if part else not sentences

@@ -66,7 +66,7 @@ def test_the_chain():
 def test_what_is_proposed_allows_it():
     error = refused("flexible", "analysis.time_limit=0.1s", "analysis.memory_limit=1MB", "flexible.elements_across=2")
     allowed = str(error).split("allow it by ")[1].split(" and ")
-    case = example("typical-base", *DAM, "flexible.elements_across=2", *(each.replace('"', "") for each in allowed))
+    case = example("typical-base", *DAM, "flexible.elements_across=2", *(change.replace('"', "") for change in allowed))
     assert run(case, "flexible").summary
 
 

@@ -34,9 +34,9 @@ def test_runs_with_evidence_end_at_once_and_say_how_far_they_have_come(monkeypat
     """Here they are threads; all would take half a minute."""
     prepare = Trials.prepare
 
-    def alarmed(self, *given):
+    def alarmed(self, *arguments):
         signal.setitimer(signal.ITIMER_REAL, 0.5)
-        prepare(self, *given)
+        prepare(self, *arguments)
 
     def handler(*_):
         raise KeyboardInterrupt
@@ -78,11 +78,11 @@ def test_a_bug_of_a_kernel_is_one_line(panic, monkeypatch, capsys, tmp_path):
     monkeypatch.setattr("sys.argv", ["heeltoe", "run", str(BLOCK), "--json", str(tmp_path / "before.json")])
     with pytest.raises(SystemExit) as ended:
         command.main()
-    said = capsys.readouterr()
-    assert (ended.value.code, said.out) == (1, "")
-    assert said.err.startswith("heeltoe: this is a bug of its kernel: ")
-    assert said.err.count("\n") == 1
-    assert "please report it" in said.err
+    streams = capsys.readouterr()
+    assert (ended.value.code, streams.out) == (1, "")
+    assert streams.err.startswith("heeltoe: this is a bug of its kernel: ")
+    assert streams.err.count("\n") == 1
+    assert "please report it" in streams.err
     assert (tmp_path / "before.json").read_text() == "{}"
 
 

@@ -19,7 +19,7 @@ COMMANDS: dict[str, Sequence[str | Path]] = {
     "version": ["--version"],
     "run": ["run", "dam.toml", "--json", "result.json"],
     "report": ["run", "dam.toml", "--report", "--out", "out"],
-    "elastic": ["run", BASE, "--motion", "record.txt", *(part for each in FAST for part in ("--set", each))],
+    "elastic": ["run", BASE, "--motion", "record.txt", *(part for change in FAST for part in ("--set", change))],
     "motion": ["motion", "record.txt"],
     "statics": ["statics", "dam.toml"],
     "periods": ["periods", BASE],
@@ -72,12 +72,12 @@ PLACES = {
 SCREENS = ("no input", "no columns", "one column", "a million columns", "words for columns", "ascii", "latin-1")
 DRAWN = {"report", "page", "video"}
 QUICK = [
-    *[("1 GB", each) for each in ("run", "report")],
+    *[("1 GB", name) for name in ("run", "report")],
     ("files of 30 kB", "report"),
     ("C", "report"),
     # A command that draws one figure.
-    *[(each, "motion") for each in ("no home", "no figures")],
-    *[(each, "run") for each in ("latin-1", "no output", "no streams", "no columns")],
+    *[(around, "motion") for around in ("no home", "no figures")],
+    *[(around, "run") for around in ("latin-1", "no output", "no streams", "no columns")],
 ]
 
 
@@ -116,19 +116,19 @@ def ended(name: str, around: Place, cwd: Path) -> subprocess.CompletedProcess[by
 
 def judge(name: str, around: Place, cwd: Path) -> None:
     before = set(cwd.iterdir())
-    found = ended(name, around, prepared(cwd))
-    said = found.stderr.decode(errors="replace")
-    assert found.returncode in (0, 2, 3), said
-    assert "Traceback" not in said
-    if found.returncode == 0:
-        assert found.stdout or 1 in around.closed or 2 in around.closed, said
+    run = ended(name, around, prepared(cwd))
+    errors = run.stderr.decode(errors="replace")
+    assert run.returncode in (0, 2, 3), errors
+    assert "Traceback" not in errors
+    if run.returncode == 0:
+        assert run.stdout or 1 in around.closed or 2 in around.closed, errors
     elif 2 not in around.closed:
-        lines = [line for line in said.splitlines() if line.startswith("heeltoe: ")]
-        assert len(lines) == 1, said
+        lines = [line for line in errors.splitlines() if line.startswith("heeltoe: ")]
+        assert len(lines) == 1, errors
     left = [path.name for path in cwd.rglob(".heeltoe-*") if path.name != ".heeltoe-files"]
     assert not left, left
     # Files come before what is said of them.
-    if found.returncode == 2 and 1 not in around.closed:
+    if run.returncode == 2 and 1 not in around.closed:
         assert {path.name for path in cwd.iterdir()} - {path.name for path in before} <= {"dam.toml", "record.txt"}
 
 
@@ -165,13 +165,13 @@ def small(tmp_path) -> Iterator[Path]:
 def test_a_full_disk_for_temporary_files(name, small, tmp_path):
     (small / "full").write_bytes(bytes(60_000))
     (tmp_path / "here").mkdir()
-    found = ended(name, Place({"TMPDIR": str(small)}), prepared(tmp_path / "here"))
-    assert b"Traceback" not in found.stderr
-    assert found.returncode == (2 if name == "report" else 0), found.stderr
-    assert name != "report" or b"set TMPDIR" in found.stderr
+    run = ended(name, Place({"TMPDIR": str(small)}), prepared(tmp_path / "here"))
+    assert b"Traceback" not in run.stderr
+    assert run.returncode == (2 if name == "report" else 0), run.stderr
+    assert name != "report" or b"set TMPDIR" in run.stderr
 
 
-@pytest.mark.parametrize("name", ["report", *(pytest.param(each, marks=pytest.mark.slow) for each in COMMANDS)])
+@pytest.mark.parametrize("name", ["report", *(pytest.param(name, marks=pytest.mark.slow) for name in COMMANDS)])
 def test_a_full_disk(name, small):
     (small / "full").write_bytes(bytes(30_000))
     judge(name, PLACES["read-only home"], small)

@@ -60,38 +60,38 @@ def armed(patch: pytest.MonkeyPatch, fault: Fault) -> None:
 
 
 def attack(code: int, every: int, place: Path, record_property: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    out, found = place / "out", Attack("calls of the system that fail")
+    out, strikes = place / "out", Attack("calls of the system that fail")
     words = ("run", BLOCK, "--out", out, "--csv", "--set")
-    assert found.strike("before", *words, "title=old", cwd=place) == "accepted", found.defects
-    told = "old"
+    assert strikes.strike("before", *words, "title=old", cwd=place) == "accepted", strikes.defects
+    title_before = "old"
     for fails in itertools.count(1, every):
         title = f"run {fails}"
         with monkeypatch.context() as patch:
             fault = Fault(fails, code, place)
             armed(patch, fault)
-            end = _strike(found, f"{fault.failed or fails}", *words, f"title={title}", cwd=place)
+            end = _strike(strikes, f"{fault.failed or fails}", *words, f"title={title}", cwd=place)
         settle(out)
         names = files(out)
         written = str(json.loads((out / "result.json").read_text())["title"])
-        if written not in (told, title) or (written == told and end == "accepted"):
-            found.defects.append(f"{fault.failed}: {end}, the title is {written}")
+        if written not in (title_before, title) or (written == title_before and end == "accepted"):
+            strikes.defects.append(f"{fault.failed}: {end}, the title is {written}")
         if any(not (out / name).exists() for name in names):
-            found.defects.append(f"{fault.failed}: {names}")
-        told = written
+            strikes.defects.append(f"{fault.failed}: {names}")
+        title_before = written
         if not fault.failed:
             break
-    found.told(record_property)
+    strikes.report(record_property)
 
 
-def _strike(found: Attack, what: str, *words: str | Path, cwd: Path) -> str:
+def _strike(strikes: Attack, what: str, *words: str | Path, cwd: Path) -> str:
     """Run a command that may leave half of what it began, to be settled by the next one."""
-    defects = list(found.defects)
-    end = found.strike(what, *words, cwd=cwd)
-    new = [each for each in found.defects[len(defects) :] if ": leaves " not in each]
+    defects = list(strikes.defects)
+    end = strikes.strike(what, *words, cwd=cwd)
+    new = [defect for defect in strikes.defects[len(defects) :] if ": leaves " not in defect]
     if end == "defect" and not new:
-        found.ends["defect"] -= 1
-        found.ends[end := "refused"] += 1
-    found.defects = [*defects, *new]
+        strikes.ends["defect"] -= 1
+        strikes.ends[end := "refused"] += 1
+    strikes.defects = [*defects, *new]
     return end
 
 
@@ -132,7 +132,7 @@ def named(name: bytes, ending: str) -> str:
     "number", [0, 2, *(pytest.param(k, marks=pytest.mark.slow) for k in (1, *range(3, len(NAMES))))]
 )
 def test_names_of_all_kinds(number, tmp_path, record_property):
-    found = Attack("names of files")
+    strikes = Attack("names of files")
     for name in NAMES[number : number + 1]:
         place = tmp_path / str(number)
         place.mkdir()
@@ -153,8 +153,8 @@ def test_names_of_all_kinds(number, tmp_path, record_property):
             ("run", place / named(name, "-nowhere.toml")),
             ("run", BLOCK, "--motion", place / named(name, "-nowhere.txt")),
         ):
-            found.strike(f"{name!r} {words[0]}", *words, cwd=place)
-    found.told(record_property)
+            strikes.strike(f"{name!r} {words[0]}", *words, cwd=place)
+    strikes.report(record_property)
 
 
 # Clocks
@@ -172,22 +172,22 @@ def jumping(steps: list[float]) -> Callable[[], float]:
     [[1e9, 0.0, -1e9, 5.0], *(pytest.param(steps, marks=pytest.mark.slow) for steps in ([0.0], [1e18, -1e18]))],
 )
 def test_clocks_that_jump(steps, tmp_path, record_property, monkeypatch):
-    file, found = study_file(tmp_path, GRID), Attack("clocks that jump")
+    file, strikes = study_file(tmp_path, GRID), Attack("clocks that jump")
     before = tmp_path / "before"
-    assert found.strike("before", "study", file, "--out", before, cwd=tmp_path) == "accepted", found.defects
+    assert strikes.strike("before", "study", file, "--out", before, cwd=tmp_path) == "accepted", strikes.defects
     clocks = {time.time, time.monotonic, time.perf_counter, time.process_time}
     modules = [module for name, module in list(sys.modules.items()) if name.startswith("heeltoe")]
     for module in modules:
         for name, value in list(vars(module).items()):
             if value in clocks if callable(value) and getattr(value, "__module__", "") == "time" else False:
                 monkeypatch.setattr(module, name, jumping(steps))
-    found.strike("study", "study", file, "--out", "out", cwd=tmp_path)
-    found.strike("run", "run", BLOCK, cwd=tmp_path)
+    strikes.strike("study", "study", file, "--out", "out", cwd=tmp_path)
+    strikes.strike("run", "run", BLOCK, cwd=tmp_path)
     monkeypatch.undo()
     for path in sorted((before / "runs").glob("*.parquet")):
         if path.read_bytes() != (tmp_path / "out/runs" / path.name).read_bytes():
-            found.defects.append(f"{path.name} differs")
-    found.told(record_property)
+            strikes.defects.append(f"{path.name} differs")
+    strikes.report(record_property)
 
 
 # Two at one place
@@ -195,7 +195,7 @@ def test_clocks_that_jump(steps, tmp_path, record_property, monkeypatch):
 
 @pytest.mark.slow
 def test_two_processes_at_one_place(tmp_path, record_property):
-    found, out = Attack("two processes at one place"), tmp_path / "out"
+    strikes, out = Attack("two processes at one place"), tmp_path / "out"
     words = [sys.executable, "-m", "heeltoe", "run", str(BLOCK), "--out", str(out), "--csv", "--set"]
     for turn in range(4):
         titles = [f"one {turn}", f"two {turn}"]
@@ -204,14 +204,14 @@ def test_two_processes_at_one_place(tmp_path, record_property):
             for title in titles
         ]
         for running in pair:
-            _, said = running.communicate(timeout=120)
+            _, errors = running.communicate(timeout=120)
             end = {0: "accepted", 2: "refused"}.get(running.returncode, "defect")
-            found.ends[end] += 1
-            if end == "defect" or (end == "refused" and (not said.startswith("heeltoe: ") or said.count("\n") > 1)):
-                found.defects.append(f"{running.returncode}: {said[-300:]}")
+            strikes.ends[end] += 1
+            if end == "defect" or (end == "refused" and (not errors.startswith("heeltoe: ") or errors.count("\n") > 1)):
+                strikes.defects.append(f"{running.returncode}: {errors[-300:]}")
         settle(out)
         if json.loads((out / "result.json").read_text())["title"] not in titles:
-            found.defects.append(f"turn {turn}: an older result is there")
+            strikes.defects.append(f"turn {turn}: an older result is there")
         if missing := [name for name in files(out) if not (out / name).exists()]:
-            found.defects.append(f"turn {turn}: {missing} are missing")
-    found.told(record_property)
+            strikes.defects.append(f"turn {turn}: {missing} are missing")
+    strikes.report(record_property)

@@ -36,20 +36,20 @@ def place(tmp_path) -> Path:
 def help_of(place: Path) -> dict[str, tuple[Fields, Any]]:
     """Return what must be in a case that has the fields of records and of sections in files."""
     corners = {"section": {"file": str(place / "corners.csv"), "unit": "m"}}
-    found: dict[str, tuple[Fields, Any]] = {f"section.{name}": (corners, "1") for name in ("file", "layer", "unit")}
+    beside: dict[str, tuple[Fields, Any]] = {f"section.{name}": (corners, "1") for name in ("file", "layer", "unit")}
     for block in ("motion", "motion.vertical"):
         file = {block: {"file": str(place / "record.txt")}}
         for name in ("file", "channel", "unit", "time_step"):
-            found[f"{block}.{name}"] = (file, "1")
-        found |= {f"{block}.points": ({}, []), f"{block}.pga": ({}, "0.5 g")}
-    return found | {"motion.duration": ({}, "1 s"), "motion.allow_zero": ({}, True)}
+            beside[f"{block}.{name}"] = (file, "1")
+        beside |= {f"{block}.points": ({}, []), f"{block}.pga": ({}, "0.5 g")}
+    return beside | {"motion.duration": ({}, "1 s"), "motion.allow_zero": ({}, True)}
 
 
 def unit_of(field: FieldInfo) -> str | None:
     """Return the unit of a quantity by the example that the schema gives; none for what is no quantity."""
     for part in field.metadata:
         if isinstance(part, WithJsonSchema) and part.json_schema:
-            return next((UNITS[each] for each in part.json_schema.get("examples", ()) if each in UNITS), None)
+            return next((UNITS[example] for example in part.json_schema.get("examples", ()) if example in UNITS), None)
     return None
 
 
@@ -63,9 +63,9 @@ def cases(place: Path) -> Iterator[tuple[str, Any, Callable[[], Fields]]]:
         put(fields, written, value)
         return fields
 
-    help_ = help_of(place)
+    beside = help_of(place)
     for path, field in ALL.items():
-        before, _, written = pair(path, field, help_)
+        before, _, written = pair(path, field, beside)
         for value in values(unit_of(field)):
             yield path, value, partial(with_it, before, written, value)
 
@@ -90,7 +90,7 @@ def in_turn(number: int, path: str, model: str) -> bool:
 
 
 def attack(place: Path, model: str, chosen: Callable[[int, str, str], bool], record_property: Any) -> None:
-    found = Attack(f"fields, {model}")
+    strikes = Attack(f"fields, {model}")
     run = set()
     for number, (path, value, made) in enumerate(cases(place)):
         if not chosen(number, path, model):
@@ -106,8 +106,8 @@ def attack(place: Path, model: str, chosen: Callable[[int, str, str], bool], rec
         run.add(same) if same else None
         (place / "case.json").write_text(json.dumps(fields), encoding="utf-8", errors="surrogatepass")
         command = ("statics",) if model == "statics" else ("run", "--model", model)
-        found.strike(f"{path} = {value!r}", *command, "case.json", "--json", "-", cwd=place, data=True)
-    found.told(record_property)
+        strikes.strike(f"{path} = {value!r}", *command, "case.json", "--json", "-", cwd=place, data=True)
+    strikes.report(record_property)
 
 
 @pytest.mark.parametrize("model", MODELS)

@@ -26,7 +26,7 @@ def start(directory: Path, title: str) -> subprocess.Popen[bytes]:
 def state(directory: Path) -> dict[str, tuple[int, int]]:
     """Return size and time of all files of a result."""
     return {
-        name: (found.st_size, found.st_mtime_ns) for name in files(directory) if (found := (directory / name).stat())
+        name: (status.st_size, status.st_mtime_ns) for name in files(directory) if (status := (directory / name).stat())
     }
 
 
@@ -44,7 +44,7 @@ def test_killed_at_thirty_moments_a_directory_holds_the_old_result_or_the_new(tm
     whole = time.monotonic() - began
     old = new = moving = 0
     for kill in range(KILLS):
-        before, said = state(place), title(place)
+        before, title_before = state(place), title(place)
         running = start(place, f"run {kill + 2}")
         try:
             # Over all of the run, and a little beyond its end.
@@ -58,7 +58,7 @@ def test_killed_at_thirty_moments_a_directory_holds_the_old_result_or_the_new(tm
         after = state(place)
         assert after.keys() == before.keys() >= {"result.json", "report.pdf", "report.html", "response.png"}
         assert {path.name for path in place.iterdir()} == {*after, LISTED, "notes.txt"}
-        if title(place) == said and not ready:
+        if title(place) == title_before and not ready:
             assert after == before
             old += 1
         else:

@@ -108,7 +108,7 @@ CALLS: dict[str, tuple[str, tuple[BaseException, ...], Prepared]] = {
 def test_what_a_library_raises_is_one_sentence(name, tmp_path, record_property, monkeypatch):
     target, errors, prepare = CALLS[name]
     words = prepare(tmp_path)
-    found = Attack("exceptions of libraries")
+    strikes = Attack("exceptions of libraries")
     for error in errors:
 
         def fail(*_: Any, error: BaseException = error, **named: Any) -> None:
@@ -116,10 +116,10 @@ def test_what_a_library_raises_is_one_sentence(name, tmp_path, record_property, 
 
         with monkeypatch.context() as patch:
             patch.setattr(target, fail)
-            end = found.strike(f"{name}: {error!r}", *words, cwd=tmp_path)
+            end = strikes.strike(f"{name}: {error!r}", *words, cwd=tmp_path)
         if end == "accepted":
-            found.defects.append(f"{name}: {error!r} is taken for nothing")
-    found.told(record_property)
+            strikes.defects.append(f"{name}: {error!r} is taken for nothing")
+    strikes.report(record_property)
 
 
 # Some of them as files.
@@ -128,17 +128,17 @@ def test_what_a_library_raises_is_one_sentence(name, tmp_path, record_property, 
 def test_a_cell_without_end_is_one_sentence(tmp_path, record_property):
     words = _dams(tmp_path)
     (tmp_path / "dams.csv").write_text('name,crack.friction\na,"' + 200_000 * "x" + "\n")
-    found = Attack("exceptions of libraries")
-    assert found.strike("a long cell", *words, cwd=tmp_path) == "refused"
-    found.told(record_property)
+    strikes = Attack("exceptions of libraries")
+    assert strikes.strike("a long cell", *words, cwd=tmp_path) == "refused"
+    strikes.report(record_property)
 
 
 def test_a_damaged_archive_packed_by_lzma_is_one_sentence(tmp_path, record_property):
     whole = io.BytesIO()
     with zipfile.ZipFile(whole, "w", zipfile.ZIP_LZMA) as packed:
         packed.writestr("record.txt", RECORD)
-    data, found = whole.getvalue(), Attack("exceptions of libraries")
+    data, strikes = whole.getvalue(), Attack("exceptions of libraries")
     for place in range(38, 60):
         (tmp_path / "record.zip").write_bytes(data[:place] + bytes([data[place] ^ 0xFF]) + data[place + 1 :])
-        found.strike(f"byte {place}", "motion", "record.zip", cwd=tmp_path)
-    found.told(record_property)
+        strikes.strike(f"byte {place}", "motion", "record.zip", cwd=tmp_path)
+    strikes.report(record_property)

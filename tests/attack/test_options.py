@@ -39,8 +39,8 @@ RECORD = "# units: time [s], acceleration [g]\n" + "".join(f"{0.01 * k:.2f} {(-1
 # A run of one dam.
 STUDY = json.dumps({"case": str(BLOCK), "vary": {"crack.friction": [0.5]}})
 WORDS = (
-    *(each for each in TEXTS if len(each) < 10_000),
-    *(str(each) for each in NUMBERS),
+    *(text for text in TEXTS if len(text) < 10_000),
+    *(str(number) for number in NUMBERS),
     *(f"{number} {unit}" for number in WITH_UNITS for unit in ("s", "g", "m")),
     *("synthetic:", "synthetic:M9e9,0km", "synthetic:M6.5,20km,seed=-1", "synthetic:M6.5,1e308km", "both", "full,step"),
 )
@@ -58,7 +58,7 @@ def calls(name: str) -> Iterator[list[str | Path]]:
             yield from ([word, *usual[1:]] for word in WORDS if name != "validate" or word)
             continue
         option = max(parameter.opts, key=len)
-        kept = [each for each in usual if not str(each).startswith(f"{option}=")]
+        kept = [argument for argument in usual if not str(argument).startswith(f"{option}=")]
         words = WORDS
         if option in ("--set", "--vary"):
             words = (*WORDS, *SETTINGS, *(f"crack.friction={word}" for word in WORDS), *(f"{word}=1" for word in WORDS))
@@ -68,7 +68,7 @@ def calls(name: str) -> Iterator[list[str | Path]]:
 
 
 def attack(name: str, place: Path, every: int, record_property: Any) -> None:
-    found = Attack(f"options of {name}")
+    strikes = Attack(f"options of {name}")
     for number, arguments in enumerate(calls(name)):
         if number % every:
             continue
@@ -76,9 +76,9 @@ def attack(name: str, place: Path, every: int, record_property: Any) -> None:
         cwd.mkdir()
         (cwd / "record.txt").write_text(RECORD)
         (cwd / "study.json").write_text(STUDY)
-        found.strike(f"{name} {arguments[-1] if len(arguments) > 1 else arguments!r}", name, *arguments, cwd=cwd)
+        strikes.strike(f"{name} {arguments[-1] if len(arguments) > 1 else arguments!r}", name, *arguments, cwd=cwd)
         shutil.rmtree(cwd)
-    found.told(record_property)
+    strikes.report(record_property)
 
 
 @pytest.fixture(autouse=True)

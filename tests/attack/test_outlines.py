@@ -50,9 +50,9 @@ def test_a_crest_that_is_hardly_uneven(uneven):
     assert mesh.nodes[:, 1].max() == max(100.0, 100.0 + uneven)
 
 
-@pytest.mark.parametrize(("missed", "said"), [(0.05, []), (0.5, ["outline-simplified"])])
-def test_a_mesh_that_misses_much_is_told(missed, said):
+@pytest.mark.parametrize(("missed", "codes"), [(0.05, []), (0.5, ["outline-simplified"])])
+def test_a_mesh_that_misses_much_is_told(missed, codes):
     from types import SimpleNamespace as There
 
     dam = There(section=There(height=100.0), bodies=[There(mesh=There(missed=0.0)), There(mesh=There(missed=missed))])
-    assert [each.code for each in _about_the_mesh(dam)] == said
+    assert [notice.code for notice in _about_the_mesh(dam)] == codes

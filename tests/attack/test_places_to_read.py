@@ -95,21 +95,22 @@ READERS: dict[str, list[str | Path]] = {
 def test_what_is_there_is_read_or_refused(reader, tmp_path, record_property, monkeypatch):
     if reader in ("mesh", "gmsh"):
         pytest.importorskip("meshio")
-    found = Attack(f"places to read, {reader}")
+    strikes = Attack(f"places to read, {reader}")
     for what, make in WHAT.items():
         if what == "no permission" and os.geteuid() == 0:
             continue  # permissions are nothing to the administrator
         place = tmp_path / what.replace("/", "-").replace(" ", "-")
         place.mkdir()
         monkeypatch.chdir(place)
-        names = [str(each).partition("=")[2] or each for each in READERS[reader] if "what" in str(each)]
+        names = [str(argument).partition("=")[2] or argument for argument in READERS[reader] if "what" in str(argument)]
         writing = make(place / str(names[0]))
         arguments: list[Any] = [
-            f"flexible.mesh_above={place / str(names[0])}" if "=what" in str(each) else each for each in READERS[reader]
+            f"flexible.mesh_above={place / str(names[0])}" if "=what" in str(argument) else argument
+            for argument in READERS[reader]
         ]
-        end = found.strike(f"{reader} {what}", *arguments, cwd=place)
+        end = strikes.strike(f"{reader} {what}", *arguments, cwd=place)
         if isinstance(writing, subprocess.Popen):
             writing.kill()
             writing.wait()
         assert end != "accepted" or what == "a record", what
-    found.told(record_property)
+    strikes.report(record_property)

@@ -62,8 +62,8 @@ def numbers(fields: Fields, model: str, place: Path) -> dict[str, float] | None:
     """Return what the command says of a dam; None without a result, and of a block that still moves in the end: how far
     it has slid then depends on how long it was watched."""
     (place / "case.json").write_text(json.dumps(fields))
-    said = command("run", "case.json", "--model", model, "--json", "-", cwd=place)
-    answer: dict[str, Any] = json.loads(said.stdout) if said.returncode == 0 else {"outcome": said.stderr}
+    reply = command("run", "case.json", "--model", model, "--json", "-", cwd=place)
+    answer: dict[str, Any] = json.loads(reply.stdout) if reply.returncode == 0 else {"outcome": reply.stderr}
     if answer["outcome"] != "ok" or any(warning["code"] == "block-still-moves" for warning in answer["warnings"]):
         return None
     return {name: answer[name] for name in NUMBERS}
@@ -85,20 +85,20 @@ LAWS: dict[str, tuple[Change, float, str, float]] = {
 
 def attack(law: str, seeds: range, place: Path, record_property: Any) -> None:
     change, factor, model, close = LAWS[law]
-    found = Attack(f"laws: {law}")
+    strikes = Attack(f"laws: {law}")
     for seed in seeds:
         one = numbers(dam(random.Random(seed), watched=WATCHED[model]), model, place)
         other = numbers(dam(random.Random(seed), watched=WATCHED[model], **change), model, place)
-        known = len(found.defects)
+        known = len(strikes.defects)
         if (one is None) is not (other is None):
-            found.defects.append(f"dam(random.Random({seed})): {one}, {other}")
+            strikes.defects.append(f"dam(random.Random({seed})): {one}, {other}")
         elif one and other:
             size = max(abs(value) for value in one.values())
             wrong = {name for name in one if abs(other[name] - factor * one[name]) > close * factor * size}
-            found.defects += [f"dam(random.Random({seed})), {name}: {one[name]!r}, {other[name]!r}" for name in wrong]
-        found.ends["defect" if len(found.defects) > known else "accepted" if one else "no result"] += 1
-    assert found.ends["accepted"]
-    found.told(record_property)
+            strikes.defects += [f"dam(random.Random({seed})), {name}: {one[name]!r}, {other[name]!r}" for name in wrong]
+        strikes.ends["defect" if len(strikes.defects) > known else "accepted" if one else "no result"] += 1
+    assert strikes.ends["accepted"]
+    strikes.report(record_property)
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -135,30 +135,32 @@ def ran(out: Path) -> dict[str, bytes]:
 
 @pytest.mark.usefixtures("empty_figures")
 def test_studies_in_another_order_and_resumed(tmp_path, record_property):
-    found = Attack("laws: studies")
+    strikes = Attack("laws: studies")
     one, other = study_file(tmp_path, GRID), study_file(tmp_path, REORDERED, "other.toml")
     assert REORDERED != GRID
     for file, out in ((one, "one"), (other, "other")):
-        assert found.strike(out, "study", file, "--out", out, cwd=tmp_path) == "accepted", found.defects
+        assert strikes.strike(out, "study", file, "--out", out, cwd=tmp_path) == "accepted", strikes.defects
     whole = rows(tmp_path / "one")
     assert len(whole) > 10
     assert whole == rows(tmp_path / "other")
     before = ran(tmp_path / "one")
     (tmp_path / "one/runs" / next(iter(before))).unlink()
-    assert found.strike("resumed", "study", one, "--out", "one", "--resume", cwd=tmp_path) == "accepted", found.defects
+    assert strikes.strike("resumed", "study", one, "--out", "one", "--resume", cwd=tmp_path) == "accepted", (
+        strikes.defects
+    )
     assert ran(tmp_path / "one") == before
-    found.told(record_property)
+    strikes.report(record_property)
 
 
 @pytest.mark.slow
 def test_studies_on_one_thread_and_on_many(tmp_path, record_property):
-    file, found = study_file(tmp_path, GRID), Attack("laws: threads")
+    file, strikes = study_file(tmp_path, GRID), Attack("laws: threads")
     for threads in ("1", "4"):
         words = [sys.executable, "-m", "heeltoe", "study", str(file), "--out", str(tmp_path / threads)]
-        said = subprocess.run(
+        run = subprocess.run(
             words, env=os.environ | {"RAYON_NUM_THREADS": threads}, capture_output=True, text=True, check=False
         )
-        assert said.returncode == 0, said.stderr
-        found.ends["accepted"] += 1
+        assert run.returncode == 0, run.stderr
+        strikes.ends["accepted"] += 1
     assert ran(tmp_path / "1") == ran(tmp_path / "4")
-    found.told(record_property)
+    strikes.report(record_property)

@@ -67,15 +67,15 @@ def test_words_of_strangers(text, shown):
 def test_titles_and_names_reach_the_terminal_harmless(tmp_path):
     text = BLOCK.read_text(encoding="utf-8").replace("Block pushed once", "a\\u001b[31m\\u202e\\nVerdict  fine")
     (tmp_path / "dam.toml").write_text(text, encoding="utf-8")
-    said = process("run", "dam.toml", cwd=tmp_path, columns=0)
-    assert said.returncode == 0, said.stderr
-    assert said.stdout.startswith("a\\x1b[31m Verdict fine  (rigid model)\n")
-    assert sum(line.startswith("Verdict") for line in said.stdout.splitlines()) == 1
+    reply = process("run", "dam.toml", cwd=tmp_path, columns=0)
+    assert reply.returncode == 0, reply.stderr
+    assert reply.stdout.startswith("a\\x1b[31m Verdict fine  (rigid model)\n")
+    assert sum(line.startswith("Verdict") for line in reply.stdout.splitlines()) == 1
 
 
 def test_a_directory_named_like_an_address(tmp_path, empty_figures):
-    said = command("run", BLOCK, "--out", "memory:dam", cwd=tmp_path)
-    assert said.returncode == 0, said.stderr
+    reply = command("run", BLOCK, "--out", "memory:dam", cwd=tmp_path)
+    assert reply.returncode == 0, reply.stderr
     assert (tmp_path / "memory:dam" / "histories.parquet").exists()
 
 
@@ -83,10 +83,10 @@ def test_a_directory_named_like_an_address(tmp_path, empty_figures):
     "arguments", [("run",), ("run", "a", "b"), ("periods", BLOCK, "--count=x"), ("fly",), ("--fly",), ("run", "--set")]
 )
 def test_options_and_commands_that_there_are_not_are_refused_in_one_line(arguments):
-    said = command(*arguments)
-    assert (said.returncode, said.stdout, said.stderr.count("\n")) == (2, "", 1)
-    assert said.stderr.startswith("heeltoe: ")
-    assert "--help` lists the options" in said.stderr
+    reply = command(*arguments)
+    assert (reply.returncode, reply.stdout, reply.stderr.count("\n")) == (2, "", 1)
+    assert reply.stderr.startswith("heeltoe: ")
+    assert "--help` lists the options" in reply.stderr
 
 
 def test_halves_of_letters_are_refused():
@@ -103,10 +103,10 @@ def test_halves_of_letters_are_refused():
     ids=["motion", "new", "mesh"],
 )
 def test_names_longer_than_a_file_may_have(arguments, tmp_path):
-    said = process(*arguments, cwd=tmp_path)
-    assert said.returncode == 2
-    assert said.stderr.count("\n") == 1
-    assert "standard output" not in said.stderr
+    reply = process(*arguments, cwd=tmp_path)
+    assert reply.returncode == 2
+    assert reply.stderr.count("\n") == 1
+    assert "standard output" not in reply.stderr
     assert not list(tmp_path.iterdir())
 
 

@@ -152,15 +152,15 @@ def twin(dam: dict[str, Any]) -> dict[str, tuple[Stand, float]]:
         total = tuple(math.fsum(force[k] for force in forces) for k in range(3))
         return total, Water(unit * surface, unit * back, dam["uplift"], wall.base, unit)
 
-    found: dict[str, tuple[Stand, float]] = {}
+    stands: dict[str, tuple[Stand, float]] = {}
     loads, water = still(dam["depth"], dam["tail"], dam["ice"])
     bends = [place for place, _ in water.points()]
     usual = stand(wall.base, loads, water.open, bends)
-    found["usual"] = usual, loads[0]
+    stands["usual"] = usual, loads[0]
     flood, high = still(dam["flood"], dam["tail"], 0.0)
-    found["flood"] = stand(wall.base, flood, high.open, bends), flood[0]
+    stands["flood"] = stand(wall.base, flood, high.open, bends), flood[0]
     if dam["quake"] is None:
-        return found
+        return stands
     shake, lift = dam["quake"]
     before = water.open(usual.from_heel, usual.from_toe)
     depth, surface = dam["depth"], dam["depth"] - dam["crack"]
@@ -187,8 +187,8 @@ def twin(dam: dict[str, Any]) -> dict[str, tuple[Stand, float]]:
             low, end = (old[0], from_heel) if from_heel > old[0] else (wall.base - from_toe, wall.base - old[1])
             return _emptied(before, low, end)
 
-        found[name] = stand(wall.base, total, opened, [*bends, *(place for place, _ in before)]), total[0]
-    return found
+        stands[name] = stand(wall.base, total, opened, [*bends, *(place for place, _ in before)]), total[0]
+    return stands
 
 
 def _westergaard(depth: float, surface: float) -> tuple[float, float, float]:
@@ -253,7 +253,7 @@ def attack(seeds: range, record_property: Any) -> None:
         twins.ends["defect"] += min(len(differences), count)
         twins.ends["accepted"] += count - min(len(differences), count)
         twins.defects += [f"{name}, {dam['uplift']}, {dam['rule']}: {difference}" for difference in differences]
-    twins.told(record_property)
+    twins.report(record_property)
 
 
 def test_some_static_twins(record_property):

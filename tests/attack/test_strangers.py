@@ -37,12 +37,12 @@ TEXTS = {
 EVERY = pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
 
 
-def told(text: str) -> tuple[Case, Response]:
+def strange_run(text: str) -> tuple[Case, Response]:
     """Return a case and its result in which all that strangers write is this."""
     case = read_case(BLOCK, [{"title": text}])
-    found = rigid(case)
-    motion = replace(found.motion, name=text, event=text, station=text, component=text, processing=(text,))
-    return case, replace(found, motion=motion)
+    response = rigid(case)
+    motion = replace(response.motion, name=text, event=text, station=text, component=text, processing=(text,))
+    return case, replace(response, motion=motion)
 
 
 def strange(text: str) -> set[str]:
@@ -56,7 +56,7 @@ def strange(text: str) -> set[str]:
 @pytest.fixture(scope="module")
 def usual() -> int:
     """How many pages a report has."""
-    return pages(*told("Block pushed once"))
+    return pages(*strange_run("Block pushed once"))
 
 
 def pages(case: Case, result: Response) -> int:
@@ -65,7 +65,7 @@ def pages(case: Case, result: Response) -> int:
 
 @EVERY
 def test_reports_as_html(text):
-    case, result = told(text)
+    case, result = strange_run(text)
     shown = page(build_report(case, result, figures={}))
     assert not strange(shown)
     assert "<script>alert" not in shown
@@ -76,23 +76,23 @@ def test_reports_as_html(text):
 @pytest.mark.parametrize("name", ["markup", "controls", "long word", pytest.param("long", marks=pytest.mark.slow)])
 def test_reports_as_pdf(name, usual):
     # What is long takes some lines more where the case is said again in full, and no page full of itself.
-    assert pages(*told(TEXTS[name])) <= usual + 2
+    assert pages(*strange_run(TEXTS[name])) <= usual + 2
 
 
 @EVERY
 def test_notebooks(text):
-    for thing in told(text):
+    for thing in strange_run(text):
         shown = notebook(thing)
         assert not strange(shown)
         assert "<script>" not in shown
         assert len(shown) < 30_000
-    assert not strange(repr(told(text)[0]))
-    assert not strange(repr(told(text)[1]))
+    assert not strange(repr(strange_run(text)[0]))
+    assert not strange(repr(strange_run(text)[1]))
 
 
 @EVERY
 def test_animations(text, tmp_path):
-    written = animate(*told(text), tmp_path / "dam.html").read_text(encoding="utf-8")
+    written = animate(*strange_run(text), tmp_path / "dam.html").read_text(encoding="utf-8")
     head = written[: written.index("<style")] + written[written.index("</style>") :][:2000]
     assert not strange(head)
     assert "<script>alert" not in written

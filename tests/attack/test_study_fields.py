@@ -72,7 +72,7 @@ def paths() -> Iterator[tuple[str, ...]]:
 def cases() -> Iterator[tuple[tuple[str, ...], Any, Fields]]:
     """Walk all fields with all values: the way, the value, and the study that gets it."""
     for way in dict.fromkeys(paths()):
-        plain = ".".join(each for each in way if each not in (FRICTION, "0"))
+        plain = ".".join(key for key in way if key not in (FRICTION, "0"))
         base = HELPED.get(plain) or (HELPED["motions.events"] if "events" in way else STUDY)
         tried = [value for unit in QUANTITIES for value in values(unit)[0 if unit is None else len(values()) :]]
         yield from ((way, value, base) for value in tried)
@@ -90,20 +90,20 @@ def with_it(way: tuple[str, ...], value: Any, base: Fields) -> Fields:
 
 
 def attack(place: Path, every: int, record_property: Any) -> None:
-    file, found = study_file(place, "", "study.json"), Attack("fields of a study")
+    file, strikes = study_file(place, "", "study.json"), Attack("fields of a study")
     for number, (way, value, base) in enumerate(cases()):
         if number % every:
             continue
         file.write_text(json.dumps(with_it(way, value, base)), encoding="utf-8", errors="surrogatepass")
-        found.strike(f"{'.'.join(way)} = {value!r}", "study", "study.json", "--dry-run", cwd=place)
-    found.told(record_property)
+        strikes.strike(f"{'.'.join(way)} = {value!r}", "study", "study.json", "--dry-run", cwd=place)
+    strikes.report(record_property)
 
 
 @pytest.mark.parametrize("fields", [STUDY, GRID, *HELPED.values()])
 def test_without_hostile_values_a_study_is_sound(fields, tmp_path):
-    file, found = study_file(tmp_path, "", "study.json"), Attack("studies")
+    file, strikes = study_file(tmp_path, "", "study.json"), Attack("studies")
     file.write_text(json.dumps(fields))
-    assert found.strike("", "study", "study.json", "--dry-run", cwd=tmp_path) == "accepted", found.defects
+    assert strikes.strike("", "study", "study.json", "--dry-run", cwd=tmp_path) == "accepted", strikes.defects
 
 
 def test_some_values_of_every_field(tmp_path, record_property):

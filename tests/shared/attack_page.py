@@ -35,10 +35,10 @@ The cases are in {generator}; a defect names the seed that makes its case. Of tw
 def write_page(path: Path, rows: Iterable[tuple[str, Mapping[str, int]]]) -> None:
     """Write what came of all attacks; rows of one name are added up."""
     sums: dict[str, Counter[str]] = {}
-    for what, found in rows:
-        sums.setdefault(str(what), Counter()).update(found)
+    for what, counts in rows:
+        sums.setdefault(str(what), Counter()).update(counts)
     total: Counter[str] = sum(sums.values(), Counter())
-    lines = [_row(what, found) for what, found in [*sorted(sums.items()), ("all", total)]]
+    lines = [_row(what, counts) for what, counts in [*sorted(sums.items()), ("all", total)]]
     text = _TEXT.format(
         cases=CASES,
         seed=SEED,
@@ -50,6 +50,6 @@ def write_page(path: Path, rows: Iterable[tuple[str, Mapping[str, int]]]) -> Non
     path.write_text(text, encoding="utf-8")
 
 
-def _row(what: str, found: Mapping[str, int]) -> str:
-    counts = " | ".join(f"{found.get(end, 0):,}" for end in ENDS)
-    return f"| {what} | {sum(found.values()):,} | {counts} |"
+def _row(what: str, ends: Mapping[str, int]) -> str:
+    counts = " | ".join(f"{ends.get(end, 0):,}" for end in ENDS)
+    return f"| {what} | {sum(ends.values()):,} | {counts} |"

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NoReturn
 
-from shared.command import Said, command
+from shared.command import Reply, command
 
 # Of computing, on any machine; of waiting, on one that others share.
 SECONDS, WAITED, BYTES = 10.0, 60.0, 3 * 10**9
@@ -45,60 +45,60 @@ class Attack:
         before = _files(cwd)
         try:
             with limited(self.seconds):
-                said = command(*arguments, cwd=cwd)
-            wrong = faults(said, data=data)
-            if judge and not wrong and said.returncode != 2:
-                wrong = answers(said, judge)
+                reply = command(*arguments, cwd=cwd)
+            wrong = faults(reply, data=data)
+            if judge and not wrong and reply.returncode != 2:
+                wrong = answers(reply, judge)
         except TooLong:
-            said, wrong = None, [f"computes longer than {self.seconds:g} s"]
+            reply, wrong = None, [f"computes longer than {self.seconds:g} s"]
         except BaseException as error:
             last = traceback.extract_tb(error.__traceback__)[-1]
-            said, wrong = None, [f"{type(error).__name__}: {error} ({last.filename}:{last.lineno})"]
+            reply, wrong = None, [f"{type(error).__name__}: {error} ({last.filename}:{last.lineno})"]
         after = _files(cwd)
-        if (said is None or said.returncode == 2) and after != before:
+        if (reply is None or reply.returncode == 2) and after != before:
             wrong.append(f"leaves {sorted(after.keys() ^ before.keys()) or 'a changed file'}")
         wrong += [f"leaves {name}" for name in after if ".heeltoe-" in name and not name.endswith(".heeltoe-files")]
-        end = "defect" if wrong or said is None else ENDS[said.returncode]
+        end = "defect" if wrong or reply is None else ENDS[reply.returncode]
         self.ends[end] += 1
-        self.defects += [f"{what[:160]}: {each[:300]}" for each in wrong]
+        self.defects += [f"{what[:160]}: {fault[:300]}" for fault in wrong]
         return end
 
-    def told(self, record_property: Any) -> None:
+    def report(self, record_property: Any) -> None:
         """Hand the counts to the table at the end of the test run, and fail where anything was found."""
         record_property("attack", (self.name, dict(self.ends)))
         assert not self.defects, f"{len(self.defects)} defects\n" + "\n".join(self.defects[:100])
 
 
-def faults(said: Said, *, data: bool) -> list[str]:
+def faults(reply: Reply, *, data: bool) -> list[str]:
     """Return what is wrong with the end of a command."""
-    if said.returncode not in ENDS:
-        return [f"ends with {said.returncode}: {said.stderr[-200:]}"]
+    if reply.returncode not in ENDS:
+        return [f"ends with {reply.returncode}: {reply.stderr[-200:]}"]
     wrong = []
-    if said.returncode == 2:
+    if reply.returncode == 2:
         # A line for each thing that is wrong, and for each field one.
-        *lines, rest = said.stderr.split("\n")
+        *lines, rest = reply.stderr.split("\n")
         fields = [line.removeprefix("heeltoe: ").partition(": ")[0] for line in lines]
         if rest or not lines or not all(line.startswith("heeltoe: ") for line in lines) or len({*fields}) < len(fields):
-            wrong.append(f"refuses in other than a line for each field: {said.stderr[:300]!r}")
-    if said.returncode == 2 and said.stdout:
-        wrong.append(f"refuses and says {said.stdout[:100]!r}")
-    if said.returncode != 2 and data:
+            wrong.append(f"refuses in other than a line for each field: {reply.stderr[:300]!r}")
+    if reply.returncode == 2 and reply.stdout:
+        wrong.append(f"refuses and says {reply.stdout[:100]!r}")
+    if reply.returncode != 2 and data:
         try:
-            json.loads(said.stdout, parse_constant=_no_constant)
+            json.loads(reply.stdout, parse_constant=_no_constant)
         except ValueError as error:
             wrong.append(f"JSON: {error}")
-    for text in (said.stderr, "" if data else said.stdout):
+    for text in (reply.stderr, "" if data else reply.stdout):
         strange = {letter for letter in text if not letter.isprintable() and letter != "\n"}
         if strange:
             wrong.append(f"says {strange!r} raw")
     return wrong
 
 
-def answers(said: Said, judge: Callable[[dict[str, Any]], list[str]]) -> list[str]:
+def answers(reply: Reply, judge: Callable[[dict[str, Any]], list[str]]) -> list[str]:
     """Return what is wrong with the JSON of a command, and with its end beside that."""
-    answer = json.loads(said.stdout)
+    answer = json.loads(reply.stdout)
     trusted = answer.get("outcome") in (None, "ok", "overturned")
-    ends = [] if trusted is (said.returncode == 0) else [f"ends with {said.returncode}: {answer['outcome']}"]
+    ends = [] if trusted is (reply.returncode == 0) else [f"ends with {reply.returncode}: {answer['outcome']}"]
     return [*ends, *judge(answer)]
 
 
@@ -107,12 +107,12 @@ def _no_constant(name: str) -> NoReturn:
 
 
 def _files(directory: Path) -> dict[str, tuple[int, int]]:
-    found = {}
+    states = {}
     for path in directory.rglob("*"):
         status = path.lstat()
         size = (status.st_size, status.st_mtime_ns) if stat.S_ISREG(status.st_mode) else (0, 0)
-        found[str(path.relative_to(directory))] = size
-    return found
+        states[str(path.relative_to(directory))] = size
+    return states
 
 
 @contextmanager
@@ -125,7 +125,7 @@ def limited(seconds: float = SECONDS, bytes_: int = BYTES) -> Iterator[None]:
     soft, hard = resource.getrlimit(resource.RLIMIT_AS)
     used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize() if _PROC else 0
     clocks = {signal.SIGPROF: (signal.ITIMER_PROF, seconds), signal.SIGALRM: (signal.ITIMER_REAL, WAITED)}
-    before = {each: signal.signal(each, end) for each in clocks}
+    before = {kind: signal.signal(kind, end) for kind in clocks}
     if used:
         resource.setrlimit(resource.RLIMIT_AS, (used + bytes_, hard))
     # Again and again: what is caught by somebody who takes it for an interruption does not go on for long.
@@ -134,9 +134,9 @@ def limited(seconds: float = SECONDS, bytes_: int = BYTES) -> Iterator[None]:
     try:
         yield
     finally:
-        for each, (clock, _) in clocks.items():
+        for kind, (clock, _) in clocks.items():
             signal.setitimer(clock, 0.0)
-            signal.signal(each, before[each])
+            signal.signal(kind, before[kind])
         resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
 
 

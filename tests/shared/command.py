@@ -17,7 +17,7 @@ from heeltoe.cli.main import main
 
 
 @dataclass(frozen=True)
-class Said:
+class Reply:
     """What a command leaves: how it ended, and its two outputs."""
 
     returncode: int
@@ -25,7 +25,7 @@ class Said:
     stderr: str
 
 
-def command(*arguments: str | Path, cwd: Path | None = None, columns: int = 200) -> Said:
+def command(*arguments: str | Path, cwd: Path | None = None, columns: int = 200) -> Reply:
     """Run a command in this process: all but what belongs to processes (pipes, signals, terminals) is the same."""
     out, err, code = io.StringIO(), io.StringIO(), None
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(err):
@@ -37,12 +37,12 @@ def command(*arguments: str | Path, cwd: Path | None = None, columns: int = 200)
             main()
         except SystemExit as ended:
             code = ended.code
-    return Said(int(code or 0), out.getvalue(), err.getvalue())
+    return Reply(int(code or 0), out.getvalue(), err.getvalue())
 
 
-def process(*arguments: str | Path, cwd: Path | None = None, columns: int = 200) -> Said:
+def process(*arguments: str | Path, cwd: Path | None = None, columns: int = 200) -> Reply:
     """Run a command in a process of its own."""
-    found = subprocess.run(
+    run = subprocess.run(
         [sys.executable, "-m", "heeltoe", *map(str, arguments)],
         capture_output=True,
         text=True,
@@ -51,7 +51,7 @@ def process(*arguments: str | Path, cwd: Path | None = None, columns: int = 200)
         timeout=120,
         check=False,
     )
-    return Said(found.returncode, found.stdout, found.stderr)
+    return Reply(run.returncode, run.stdout, run.stderr)
 
 
 def options(changes: Iterable[str]) -> list[str]:

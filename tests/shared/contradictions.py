@@ -13,16 +13,19 @@ LOST = {"rigid": 1e-6, "decoupled": 1e-3, "flexible": 1e-3}
 
 def contradictions(answer: Answer) -> list[str]:
     """Return what contradicts itself in the JSON of a run or of static checks."""
-    found = list(_numbers(answer))
+    sentences = list(_numbers(answer))
     if "sections" in answer:
-        return [*found, *(f"{each}" for section in answer["sections"] for each in _statics(section["statics"]))]
+        return [
+            *sentences,
+            *(f"{sentence}" for section in answer["sections"] for sentence in _statics(section["statics"])),
+        ]
     if answer["model"] == "statics":
-        return [*found, *_statics(answer)]
-    found += _run(answer)
+        return [*sentences, *_statics(answer)]
+    sentences += _run(answer)
     for beside in ("beside", "sequence"):
         if isinstance(answer.get(beside), dict) and "outcome" in answer[beside]:
-            found += [f"beside: {each}" for each in _run(answer[beside])]
-    return found
+            sentences += [f"beside: {sentence}" for sentence in _run(answer[beside])]
+    return sentences
 
 
 def _numbers(value: Any, path: str = "") -> Iterator[str]:
@@ -84,8 +87,8 @@ def _limits(answer: Answer, verdict: str, outcome: str) -> Iterator[str]:
         sure = used is not None and outcome == "ok" and not math.isclose(used, 1.0, rel_tol=1e-12)
         if sure and (used <= 1.0) is not met:
             yield f"limit {check}"
-    said = "not keep within its limits" in verdict or "keeps none of its limits" in verdict
-    if said is not any(not check["met"] for check in limits):
+    reported = "not keep within its limits" in verdict or "keeps none of its limits" in verdict
+    if reported is not any(not check["met"] for check in limits):
         yield f"limits {limits}, verdict {verdict!r}"
     if len(answer.get("cracks") or ()) > 1:
         return

@@ -11,10 +11,10 @@ from matplotlib.transforms import Bbox
 
 def texts(figure):
     """Return all texts of a figure that are seen."""
-    found = [text for axes in figure.axes for text in axes.findobj(Text)]
-    found += list(figure.texts) + ([figure._suptitle] if figure._suptitle else [])
-    found += [text for legend in figure.legends for text in legend.get_texts()]
-    return [text for text in found if text.get_text().strip() and text.get_visible()]
+    drawn = [text for axes in figure.axes for text in axes.findobj(Text)]
+    drawn += list(figure.texts) + ([figure._suptitle] if figure._suptitle else [])
+    drawn += [text for legend in figure.legends for text in legend.get_texts()]
+    return [text for text in drawn if text.get_text().strip() and text.get_visible()]
 
 
 def check(figure, name):
@@ -60,17 +60,17 @@ def check(figure, name):
 def check_labels(figure, name, renderer):
     """No label lies on a curve, and no two labels on each other."""
     for axes in figure.axes:
-        labels = [each for each in (*axes.texts, axes.title, axes._left_title, axes._right_title) if each.get_text()]
+        labels = [label for label in (*axes.texts, axes.title, axes._left_title, axes._right_title) if label.get_text()]
         labels += [axes.get_legend()] if axes.get_legend() else []
-        boxes = [(each, each.get_window_extent(renderer)) for each in labels]
+        boxes = [(label, label.get_window_extent(renderer)) for label in labels]
         for (one, first), (other, second) in combinations(boxes, 2):
             assert not first.padded(-0.5).overlaps(second), (name, str(one), str(other))
         inside = axes.get_window_extent(renderer)
-        for each, box in boxes:
+        for label, box in boxes:
             # What lies outside is cut off, and so no curve that could be covered.
             seen = Bbox.intersection(box.padded(-0.5), inside)
             if seen is None or 0.0 in (seen.width, seen.height):
                 continue
             for curve in axes.lines:
                 path = curve.get_transform().transform_path(curve.get_path())
-                assert not path.intersects_bbox(seen, filled=False), (name, str(each), curve.get_label())
+                assert not path.intersects_bbox(seen, filled=False), (name, str(label), curve.get_label())

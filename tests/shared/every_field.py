@@ -274,7 +274,7 @@ def leaves(model: type[BaseModel] = Case, above: str = "") -> Iterator[tuple[str
         if name == "processing":
             for kind in _blocks(field.annotation):
                 step = typing.get_args(kind.model_fields["step"].annotation)[0]
-                yield from ((f"{path}[{step}].{inner}", each) for inner, each in _own(kind))
+                yield from ((f"{path}[{step}].{inner}", leaf) for inner, leaf in _own(kind))
             continue
         blocks = _blocks(field.annotation)
         many = typing.get_origin(field.annotation) is tuple
@@ -298,11 +298,11 @@ def pair(path: str, field: FieldInfo, records: dict[str, tuple[Fields, Any]]) ->
     """Return the fields of two cases that differ in one field alone, and how its path is written in messages."""
     changes, value = (HELPED | records).get(path, ({}, None))
     before = copy.deepcopy(BASE)
-    for place, each in changes.items():
-        put(before, place, each)
-    if found := re.fullmatch(r"(.*processing)\[(.*?)\]\.(.*)", path):
-        put(before, found[1], [{"step": found[2], **STEPS[found[2]]}])
-        path = f"{found[1]}[0].{found[3]}"
+    for place, needed in changes.items():
+        put(before, place, needed)
+    if step := re.fullmatch(r"(.*processing)\[(.*?)\]\.(.*)", path):
+        put(before, step[1], [{"step": step[2], **STEPS[step[2]]}])
+        path = f"{step[1]}[0].{step[3]}"
     after = copy.deepcopy(before)
     put(after, path, other(path, field, read_case(before)) if value is None else value)
     return before, after, path
@@ -327,7 +327,7 @@ def other(path: str, field: FieldInfo, case: Case) -> Any:
         written = written[int(name)] if name.isdigit() else written[name]
     choices = _choices(field.annotation)
     if choices:
-        return next(each for each in choices if each != written)
+        return next(choice for choice in choices if choice != written)
     if isinstance(written, bool):
         return not written
     if isinstance(written, int):
@@ -344,5 +344,5 @@ def _choices(annotation: Any) -> tuple[Any, ...]:
     if typing.get_origin(annotation) is Literal:
         return typing.get_args(annotation)
     if isinstance(annotation, types.UnionType) or typing.get_origin(annotation) is typing.Annotated:
-        return next((found for each in typing.get_args(annotation) if (found := _choices(each))), ())
+        return next((choices for kind in typing.get_args(annotation) if (choices := _choices(kind))), ())
     return ()

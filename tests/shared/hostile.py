@@ -6,10 +6,10 @@ from typing import Any
 
 
 def _nested(depth: int) -> list[Any]:
-    found: list[Any] = []
+    nest: list[Any] = []
     for _ in range(depth):
-        found = [found]
-    return found
+        nest = [nest]
+    return nest
 
 
 NUMBERS: tuple[Any, ...] = (

@@ -155,12 +155,12 @@ def run(
         return np.ascontiguousarray(values, dtype=float)
 
     shaking = Shaking(array(time), array(horizontal), None if vertical is None else array(vertical))
-    found = run_block(block, shaking, array(at), Limits(event_limit, jam, settle), start=start)
+    result = run_block(block, shaking, array(at), Limits(event_limit, jam, settle), start=start)
     return Run(
-        summary=found.summary,
-        outcome=found.outcome,
-        histories=found.histories,
-        modes=[MODES[m] for m in found.mode],
-        events=found.events,
-        kinds=[EVENT_KINDS[int(k)] for k in found.events.kind],
+        summary=result.summary,
+        outcome=result.outcome,
+        histories=result.histories,
+        modes=[MODES[m] for m in result.mode],
+        events=result.events,
+        kinds=[EVENT_KINDS[int(k)] for k in result.events.kind],
     )

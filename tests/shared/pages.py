@@ -19,22 +19,22 @@ PAGES = {
 
 def blocks(language: str) -> list[tuple[str, str, str]]:
     """Return the fenced blocks in a language: page with line, the block, and the comment on the line before it."""
-    found = []
+    pieces = []
     for page, text in PAGES.items():
         for block in re.finditer(rf"(?:^<!-- (.*?) -->\n)?^```{language}\n(.*?)^```$", text, re.M | re.S):
             line = text.count("\n", 0, block.start(2))
-            found.append((f"{page}:{line}", block[2], block[1] or ""))
-    return found
+            pieces.append((f"{page}:{line}", block[2], block[1] or ""))
+    return pieces
 
 
 def command_lines() -> list[tuple[str, str]]:
     """Return the commands of heeltoe that stand on lines of their own: page with line, and the line."""
-    found = []
+    lines = []
     for page, text in PAGES.items():
         for line in re.finditer(r"^ {4}(heeltoe (?:.*\\\n)*.*)$", text, re.M):
             number = text.count("\n", 0, line.start()) + 1
-            found.append((f"{page}:{number}", line[1].replace("\\\n", " ")))
-    return found
+            lines.append((f"{page}:{number}", line[1].replace("\\\n", " ")))
+    return lines
 
 
 def spans(page: str) -> list[str]:
@@ -57,14 +57,14 @@ def headings(page: str) -> set[str]:
 @cache
 def files() -> tuple[str, ...]:
     """Return the paths of all files of the project."""
-    found = subprocess.run(
+    names = subprocess.run(
         ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
         cwd=ROOT,
         capture_output=True,
         text=True,
         check=False,
     ).stdout.split()
-    return tuple(found or (str(path.relative_to(ROOT)) for path in ROOT.rglob("*") if _ours(path)))
+    return tuple(names or (str(path.relative_to(ROOT)) for path in ROOT.rglob("*") if _ours(path)))
 
 
 def _ours(path: Path) -> bool:

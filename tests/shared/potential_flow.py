@@ -22,7 +22,7 @@ def push(face: Callable[[np.ndarray], np.ndarray], columns: int = 80, rows: int 
     x = face(z) + (far - face(z)) * s
     number = np.arange(s.size).reshape(s.shape)
     corners = [number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]]
-    quads = MeshQuad(np.vstack([x.ravel(), z.ravel()]), np.vstack([each.ravel() for each in corners]))
+    quads = MeshQuad(np.vstack([x.ravel(), z.ravel()]), np.vstack([corner.ravel() for corner in corners]))
     mesh = quads.to_meshtri()
     basis = Basis(mesh, ElementTriP2())
     on_face = mesh.facets_satisfying(lambda at: np.abs(at[0] - face(at[1])) < 1e-6, boundaries_only=True)

@@ -190,10 +190,10 @@ def _uplift(draw: random.Random, height: float, width: float) -> Fields:
     uplift: Fields = draw.choice((drained, profile, plain, {"pattern": "cut-off", "extent": draw.uniform(0.1, 0.9)}))
     if draw.random() < 0.4:
         uplift |= {"during_shaking": draw.choice(("zero while open", "full while open"))}
-    found: Fields = {"uplift": uplift}
+    fields: Fields = {"uplift": uplift}
     if uplift["pattern"] == "drained" and draw.random() < 0.4:
-        found["statics.drain_diameter"] = "75 mm"
-    return found
+        fields["statics.drain_diameter"] = "75 mm"
+    return fields
 
 
 def _statics(draw: random.Random, height: float, width: float) -> Fields:
@@ -307,7 +307,7 @@ def _change_a_field(draw: random.Random, fields: Fields) -> None:
 
 
 def _walk(fields: Fields, path: str) -> list[Any]:
-    found: list[Any] = [fields]
+    values: list[Any] = [fields]
     for name in re.sub(r"\[(\d+)\]", r".\1", path).split(".") if path else ():
-        found.append(found[-1][int(name)] if name.isdigit() else found[-1][name])
-    return found
+        values.append(values[-1][int(name)] if name.isdigit() else values[-1][name])
+    return values

@@ -14,9 +14,9 @@ WAVE -= WAVE.mean()
 GAL = 100.0 * G * WAVE
 
 
-def rows(values, each: int, form: str) -> str:
+def rows(values, count: int, form: str) -> str:
     """Numbers in columns that may touch, as Fortran writes them."""
-    return "\n".join("".join(format(v, form) for v in values[k : k + each]) for k in range(0, len(values), each))
+    return "\n".join("".join(format(v, form) for v in values[k : k + count]) for k in range(0, len(values), count))
 
 
 def csmip(channels: dict[str, np.ndarray], unit: str = "CM/SEC/SEC", form: str = "10.3f") -> str:
@@ -49,7 +49,7 @@ PEAK ACCELERATION = {peak:9.3f}    CM/SEC/SEC  AT     .780   SEC.
     return f"{text}{numbers}{series}/&  ----------  END OF DATA FOR CHANNEL {number:2}  ----------\n"
 
 
-def cosmos(quantity: str = "acceleration", values: np.ndarray = GAL, **said: object) -> str:
+def cosmos(quantity: str = "acceleration", values: np.ndarray = GAL, **header: object) -> str:
     """One section of a file."""
     say = {
         "number": 1,
@@ -61,7 +61,7 @@ def cosmos(quantity: str = "acceleration", values: np.ndarray = GAL, **said: obj
         "comment": "|<SCNL>ABC.HNE.XY.--",
         "form": "(8f10.5)",
         "event": "Nowhere Earthquake of Tue Jan 1, 1980 20:00 UTC",
-    } | said
+    } | header
     first = {"acceleration": "Corrected acceleration"}.get(quantity, f"{quantity.capitalize()} data")
     peak = float(values[np.abs(values).argmax()])
     reals = np.full(100, -999.0)
@@ -94,10 +94,10 @@ End-of-data for Chan  {say["number"]} {quantity}
 
 
 def smc(
-    values: np.ndarray = GAL, *, first: str = "2 CORRECTED ACCELEROGRAM", rate: float = 100.0, **said: object
+    values: np.ndarray = GAL, *, first: str = "2 CORRECTED ACCELEROGRAM", rate: float = 100.0, **header: object
 ) -> str:
     """A file with its header as it was in the nineties."""
-    say = {"component": "   up", "direction": (0, -32768), "flag": 0} | said
+    say = {"component": "   up", "direction": (0, -32768), "flag": 0} | header
     integers = np.full(48, -32768)
     integers[[12, 13]] = say["direction"]
     integers[[15, 16, 17]] = 2, len(values), say["flag"]

@@ -12,7 +12,7 @@ def _peak(values: np.ndarray) -> float:
     return float(values[np.abs(values).argmax()])
 
 
-def esm(values: np.ndarray = GAL, **said: str) -> str:
+def esm(values: np.ndarray = GAL, **header: str) -> str:
     """One component, a value to a line."""
     say = {
         "EVENT_NAME": "NOWHERE",
@@ -33,7 +33,7 @@ def esm(values: np.ndarray = GAL, **said: str) -> str:
         "DATA_TYPE": "ACCELERATION",
         "PROCESSING": "manual",
         "USER1": "",
-    } | said
+    } | header
     return "".join(f"{label}: {value}\n" for label, value in say.items()) + rows(values, 1, ".6f") + "\n"
 
 

@@ -32,10 +32,10 @@ class Reader(HTMLParser):
 
     def handle_starttag(self, tag, attrs):
         self.tags.add(tag)
-        found = dict(attrs)
-        self.links += [found[name] for name in ("src", "href") if name in found]
-        if "data-key" in found:
-            self._key, self._value = found["data-key"], float(found["value"])
+        attributes = dict(attrs)
+        self.links += [attributes[name] for name in ("src", "href") if name in attributes]
+        if "data-key" in attributes:
+            self._key, self._value = attributes["data-key"], float(attributes["value"])
 
     def handle_data(self, data):
         self.text += data
@@ -64,12 +64,12 @@ def lookup(data, key):
 
 def values(blocks):
     """All numbers of a tree of blocks."""
-    for each in blocks:
-        if isinstance(each, Section):
-            yield from values(each.blocks)
+    for block in blocks:
+        if isinstance(block, Section):
+            yield from values(block.blocks)
         else:
-            parts = getattr(each, "parts", ())
-            for row in getattr(each, "rows", ()):
+            parts = getattr(block, "parts", ())
+            for row in getattr(block, "rows", ()):
                 parts = (*parts, *row)
             yield from (part for part in parts if isinstance(part, Value))
 

@@ -28,11 +28,11 @@ class Rectangles:
     @property
     def bodies(self):
         """(mass, inertia) of each, and its centre (x, z)."""
-        found, feet = [], ((0.0, 0.0), (self.offset, self.lower[1]))
+        bodies, feet = [], ((0.0, 0.0), (self.offset, self.lower[1]))
         for (width, height), (x, foot) in zip((self.lower, self.upper), feet, strict=True):
             mass = DENSITY * width * height
-            found.append((mass, mass * (width**2 + height**2) / 12.0, x, foot + height / 2.0))
-        return found
+            bodies.append((mass, mass * (width**2 + height**2) / 12.0, x, foot + height / 2.0))
+        return bodies
 
     def numbers(self):
         """Return the numbers of the kernel: all above the lower crack, what is above the upper one, and their place."""
@@ -40,9 +40,9 @@ class Rectangles:
         feet = ((self.lower[0], 0.0, 0.0), (self.upper[0], self.offset, self.lower[1]))
         for first, (width, middle, foot) in enumerate(feet):
             own = bodies[first:]
-            mass = sum(each[0] for each in own)
-            x, z = (sum(each[0] * each[place] for each in own) / mass for place in (2, 3))
-            inertia = sum(each[1] + each[0] * ((each[2] - x) ** 2 + (each[3] - z) ** 2) for each in own)
+            mass = sum(body[0] for body in own)
+            x, z = (sum(body[0] * body[place] for body in own) / mass for place in (2, 3))
+            inertia = sum(body[1] + body[0] * ((body[2] - x) ** 2 + (body[3] - z) ** 2) for body in own)
             values = {
                 "mass_horizontal": mass,
                 "mass_vertical": mass,
@@ -70,11 +70,11 @@ class Rectangles:
 
     def exact(self, time, ground):
         """Return slip, heel gap and toe gap of the lower and of the upper crack at the samples of the motion."""
-        found = self.run(Shaking(time, ground), time)
-        assert all(crack.outcome == "ok" and crack.summary.impacts for crack in found.cracks)
-        assert all(crack.summary.energy_residual < 1e-14 for crack in found.cracks)
+        result = self.run(Shaking(time, ground), time)
+        assert all(crack.outcome == "ok" and crack.summary.impacts for crack in result.cracks)
+        assert all(crack.summary.energy_residual < 1e-14 for crack in result.cracks)
         names = ("slip", "gap_heel", "gap_toe")
-        return np.column_stack([getattr(crack.histories, name) for crack in found.cracks for name in names])
+        return np.column_stack([getattr(crack.histories, name) for crack in result.cracks for name in names])
 
     def contacts(self):
         """Return masses (6,), and rows of gaps (4, 6) and of slips (4, 6) at heel and toe of the lower and of the upper
@@ -173,4 +173,4 @@ def pulse(size=5.0, frequency=1.0, rest=2.0, interval=0.005):
 
 def at_samples(time, moments, seen):
     """Return what was seen at other moments at those of the motion, straight between."""
-    return np.column_stack([np.interp(time, moments, each) for each in seen.T])
+    return np.column_stack([np.interp(time, moments, column) for column in seen.T])

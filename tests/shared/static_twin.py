@@ -187,14 +187,14 @@ def stand(base: float, loads: Force, opened: Opened, bends: list[float]) -> Stan
         mean = normal / length
         return Stand("", from_heel, from_toe, normal, position, mean - bending, mean + bending)
 
-    def said(outcome: str, state: Stand) -> Stand:
+    def ending(outcome: str, state: Stand) -> Stand:
         return Stand(outcome, *(getattr(state, name) for name in list(Stand.__dataclass_fields__)[1:]))
 
     closed = at(0.0, 0.0)
     if min(closed.heel_stress, closed.toe_stress) >= -rounding:
-        return said("stands", closed)
+        return ending("stands", closed)
     if closed.normal <= 0.0:
-        return said("floats", closed)
+        return ending("floats", closed)
     heel = closed.heel_stress < closed.toe_stress
 
     def opening(length: float) -> Stand:
@@ -223,10 +223,10 @@ def stand(base: float, loads: Force, opened: Opened, bends: list[float]) -> Stan
         for _ in range(100):
             middle = (low + high) / 2.0
             low, high = (low, middle) if tip(middle) >= 0.0 else (middle, high)
-        found = opening(high)
-        far = found.toe_stress if heel else found.heel_stress
+        state = opening(high)
+        far = state.toe_stress if heel else state.heel_stress
         if far >= -rounding:
-            return said("stands", found)
+            return ending("stands", state)
         break
     through = opening(base)
-    return said("cracks through" if through.normal > 0.0 else "floats", through)
+    return ending("cracks through" if through.normal > 0.0 else "floats", through)

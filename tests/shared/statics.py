@@ -22,8 +22,8 @@ def dam(depth="90 m", **changes):
 
 
 def only(result, name):
-    return next(each for each in result.cases if each.name == name)
+    return next(load_case for load_case in result.cases if load_case.name == name)
 
 
 def check(result, case, name):
-    return next(each for each in result.checks if (each.load_case, each.name) == (case, name))
+    return next(check for check in result.checks if (check.load_case, check.name) == (case, name))

@@ -75,7 +75,7 @@ measure = "pga"
 """
 
 
-def rows(found: Any) -> list[dict[str, Any]]:
+def rows(study: Any) -> list[dict[str, Any]]:
     """Return the runs of a study, by name."""
-    table: list[dict[str, Any]] = found.to_table().to_pylist()
+    table: list[dict[str, Any]] = study.to_table().to_pylist()
     return table

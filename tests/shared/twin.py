@@ -132,10 +132,10 @@ class Twin:
             else:
                 holds[k] &= sign * after[k, SLIP] >= -speed
         chosen = holds.argmax(axis=0)
-        found = holds.any(axis=0)
+        known = holds.any(axis=0)
         impulse = np.take_along_axis(tried, chosen[None, None], axis=0)[0]
         leaves = (~active | (defect >= -speed))[HEEL:].all(axis=0)
-        return np.where(found, impulse, 0.0), ~found & ~leaves
+        return np.where(known, impulse, 0.0), ~known & ~leaves
 
     def run(self, ground: Pieces, substeps: int, start: Floats | None = None) -> dict[str, Floats]:
         """Step through the ground motion with `substeps` steps per piece; returns (n,) results by name.

@@ -42,8 +42,8 @@ GLUE = -300.0
 
 def shaken(case: Case):
     """Return what each crack of a case does, from the crest down."""
-    found = ShakenDam(case, build_flexible_dam(case), earthquake(case).shaking)
-    return found.run(STEP, 0.01)
+    dam = ShakenDam(case, build_flexible_dam(case), earthquake(case).shaking)
+    return dam.run(STEP, 0.01)
 
 
 def bonded(case: Case, elevation: float) -> Case:
@@ -54,21 +54,22 @@ def bonded(case: Case, elevation: float) -> Case:
     if case.crack.elevation == elevation:
         own = case.uplift.model_copy(update={"pattern": "uniform", "intensity": GLUE})
         others = [
-            each.model_copy(
+            crack.model_copy(
                 update={
-                    "uplift": each.uplift or case.uplift.pattern,
-                    "uplift_intensity": 1.0 if each.uplift_intensity is None else each.uplift_intensity,
-                    "friction": each.friction or case.crack.friction,
+                    "uplift": crack.uplift or case.uplift.pattern,
+                    "uplift_intensity": 1.0 if crack.uplift_intensity is None else crack.uplift_intensity,
+                    "friction": crack.friction or case.crack.friction,
                 }
             )
-            for each in case.further_cracks
+            for crack in case.further_cracks
         ]
         crack = case.crack.model_copy(update=strong)
         return case.model_copy(update={"crack": crack, "uplift": own, "further_cracks": tuple(others)})
-    found = [
-        each.model_copy(update=glue | strong) if each.elevation == elevation else each for each in case.further_cracks
+    cracks = [
+        crack.model_copy(update=glue | strong) if crack.elevation == elevation else crack
+        for crack in case.further_cracks
     ]
-    return case.model_copy(update={"further_cracks": tuple(found)})
+    return case.model_copy(update={"further_cracks": tuple(cracks)})
 
 
 def same(one, other, width: float) -> None:
