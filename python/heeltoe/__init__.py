@@ -46,6 +46,7 @@ _HOME = {
     "stochastic_motion": "motion.stochastic",
     "synthetic": "motion.scenario",
     "verdict": "result.verdict",
+    "with_response_spectrum": "study.small.response_spectrum",
     "with_spread": "study.small.spread",
     "write_report": "views.report.write",
     "write_workbook": "views.files.workbook",
@@ -88,6 +89,7 @@ if TYPE_CHECKING:
     from heeltoe.study.run.run import run_study as run_study
     from heeltoe.study.run.suite import run_suite as run_suite
     from heeltoe.study.small.overturning import overturning_map as overturning_map
+    from heeltoe.study.small.response_spectrum import with_response_spectrum as with_response_spectrum
     from heeltoe.study.small.solve import solve as solve
     from heeltoe.study.small.spread import with_spread as with_spread
     from heeltoe.views.animation.write import animate as animate

@@ -17,6 +17,7 @@ from heeltoe import (
     run_suite,
     solve,
     statics,
+    with_response_spectrum,
     with_spread,
 )
 from heeltoe.case.read import case_schema
@@ -86,6 +87,7 @@ def results(tmp_path_factory, study):
         "decoupled": run(koyna, "decoupled").to_json(),
         "spread": with_spread(block, read_case(HEIGHT, FAST), 2).to_json(),
         "statics": statics(koyna.with_("statics.seismic_coefficient=0.1"), 0.01).to_json(),
+        "spectrum": with_response_spectrum(statics_of_sections(koyna)).joints[0].statics.to_json(),
         "sections": statics_of_sections(koyna.with_({"statics.sections": ["0 m", "30 m"]})).to_json(),
         "periods": dam_periods(koyna, 2, response=True).to_json(),
         "overturning": overturning_map(read_case(SLENDER), count=12).to_json(),

@@ -57,6 +57,14 @@ def statics(
         str | None, typer.Option(metavar="FILE-or-NAME", help="Ground motion to use instead of that of the case.")
     ] = None,
     pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
+    spectrum: Annotated[
+        str | None,
+        typer.Option(
+            metavar="motion|SPECTRUM",
+            help="Check an earthquake by its response spectrum, too, with the first mode of the dam with water and "
+            "rock: that of the case's motion, or a design spectrum, as heeltoe motion --match takes it.",
+        ),
+    ] = None,
     vary: Annotated[
         list[str] | None,
         typer.Option(metavar="PATH=V1,V2,...", help="Check every combination of field values, as in `heeltoe run`."),
@@ -80,7 +88,7 @@ def statics(
     details: Details = False,
 ) -> None:
     """Check the stability before, during (pseudo-static) and after the earthquake."""
-    request = _Asked(slip, model, motion, pga, vary or [], sheet, out, report, every_section, details, xlsx)
+    request = _Asked(slip, model, motion, pga, vary or [], sheet, out, report, every_section, details, xlsx, spectrum)
     request.check()
     check_units(units)
     changes = [*(set_ or []), *([] if criteria is None else [_judged_by(criteria)])]
@@ -111,6 +119,7 @@ class _Asked:
     every_section: bool
     details: bool
     xlsx: bool
+    spectrum: str | None
 
     def check(self) -> None:
         """Refuse what cannot be, or does not go together, before anything is read."""
@@ -174,10 +183,10 @@ def _statics(path: str, changes: list[str], json_: str | None, units: str | None
     written: list[Path] = []
     with status() as say:
         if request.vary:
-            table = statics_table(path, changes, parse_axes(request.vary), after, say)
+            table = statics_table(path, changes, parse_axes(request.vary), after, say, spectrum=request.spectrum)
             written = [] if place is None else _write(table, loaded, request, place, shown, say)
         else:
-            results = judge(loaded, after, say)
+            results = judge(loaded, after, say, spectrum=request.spectrum)
             written = [] if place is None else _write(results, loaded, request, place, shown, say)
     removed = [] if place is None else [place / name for name in earlier if not (place / name).exists()]
     if request.vary:

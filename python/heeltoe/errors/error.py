@@ -46,6 +46,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "study-no-case": ("is a study, not a case", 'run it with "heeltoe study"'),
     "not-a-response": ("a {kind} is not a response", "give what heeltoe.run, rigid, decoupled or flexible returns"),
+    "not-checks": ("a {kind} holds no static checks", "give what heeltoe.statics_of_sections returns"),
     "not-a-motion": ("a {kind} is not a ground motion", "give what heeltoe.read_record returns"),
     "not-a-list": ("a {kind} is not a list", "put it into one"),
     "usage": ("{value}", "`{command} --help` lists the options"),
@@ -252,6 +253,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "blocks-motion": ("{value} is not one of the motions", "give {bounds}"),
     "blocks-limit": ("{value} is out of range", "give {bounds}"),
     "spread-runs": ("{value} is not a valid number of runs", "give {fewest} to {most}, or none for {usual}"),
+    "no-first-mode": (
+        "needs a first mode, and the crest of the dam has no clear peak: concrete, water and rock damp it too much",
+        "look at heeltoe periods --response, or run the earthquake",
+    ),
     "period-count": ("{value} periods are not supported", "give 1 to {most}"),
     "report-package": ("needs the package {value}, which is not installed", "pip install jinja2 typst"),
     "report-package-broken": (

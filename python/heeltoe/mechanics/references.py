@@ -99,6 +99,10 @@ REFERENCES = {
         'analysis of model output", Computer Physics Communications 181 (2010), 259-270; M. J. W. Jansen, "Analysis of '
         'variance designs for model output", Computer Physics Communications 117 (1999), 35-43'
     ),
+    "response spectrum": (
+        'G. Fenves and A. K. Chopra, "Simplified earthquake analysis of concrete gravity dams", Journal of Structural '
+        "Engineering, ASCE 113 (1987), 1688-1708"
+    ),
     "follows opening": (
         'F. Javanmardi, P. Léger and R. Tinawi, "Seismic structural stability of concrete gravity dams considering '
         'transient uplift pressures in cracks", Engineering Structures 27 (2005), 616-628'

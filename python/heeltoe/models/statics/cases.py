@@ -22,7 +22,8 @@ from heeltoe.models.statics.governing import governing
 from heeltoe.models.statics.load_case import Given, Solved, solve_case
 from heeltoe.models.statics.own_criteria import rules_of
 from heeltoe.models.statics.sheet import sources_of, sources_of_inertia
-from heeltoe.models.statics.water import still_water, water_in_earthquake
+from heeltoe.models.statics.spectral import SpectralDemand
+from heeltoe.models.statics.water import StillWater, still_water, water_in_earthquake
 from heeltoe.units.sentences import Sentence
 
 
@@ -71,15 +72,7 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
     coefficient lifts the block or presses it down, a case each, which says what checks it governs. `before` is the
     usual case: the crack that it has opened is open already and no longer bonded.
     """
-    law, source = rules_of(case).uplift
-    still = _contact(case)
-    opened = before.settled.heel_crack, before.settled.toe_crack
-    contact = replace(
-        still,
-        bonded_from=max(still.bonded_from, still.start + opened[0]),
-        bonded_to=still.end - opened[1],
-    )
-    water = water_in_earthquake(before.settled.profile, still_water(case, still.start, still.end), opened, law)
+    contact, water, source = _in_earthquake(case, before)
     solved: list[Solved] = []
     ways = (("downstream", -1.0), ("upstream", 1.0))
     for earthquake, (way, sign) in product(case.statics.pseudo_static, ways):
@@ -101,6 +94,60 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
             tried.append(solve_case(question, case, (*_dry(case), *_inertia(case, *ground)), contact, water))
         solved += governing(tried) if vertical else tried
     return tuple(solved)
+
+
+def response_spectrum(case: Case, before: Solved, demand: SpectralDemand) -> tuple[Solved, ...]:
+    """Return the cases of an earthquake by its response spectrum, pushing the block downstream and upstream.
+
+    `before` is the usual case, as in :func:`pseudo_static`.
+    """
+    contact, water, source = _in_earthquake(case, before)
+    name = "response spectrum"
+    mode = Sentence.of(
+        "first mode with water and rock {period_s:.3g s}, {damping:.3g} of damping: {acceleration:.3g} g by "
+        "{spectrum}, whose zero period has {zero:.3g} g",
+        period_s=demand.period_s,
+        damping=demand.damping_ratio,
+        acceleration=demand.pseudo_acceleration_m_s2 / case.gravity,
+        spectrum=plain(demand.spectrum),
+        zero=demand.peak_ground_acceleration_m_s2 / case.gravity,
+    )
+    taken = (
+        Sentence(f"uplift: {source}"),
+        mode,
+        Sentence(
+            "higher modes follow the ground at once (static correction); both by the root of the sum of squares, with "
+            "the signs of the first mode; no vertical motion"
+        ),
+    )
+    solved = []
+    for way, sign in (("downstream", 1.0), ("upstream", -1.0)):
+        question = Given(
+            f"{name} {way}",
+            "earthquake",
+            case.crack.apparent_friction,
+            case.statics.cohesion,
+            taken,
+            sources_of(case) | {name: Sentence("first mode and static correction, concrete and water together")},
+            peak_of(case.crack),
+        )
+        force = scaled(name, demand.push(), sign)
+        solved.append(solve_case(question, case, (*_dry(case), force), contact, water))
+    return tuple(solved)
+
+
+def _in_earthquake(case: Case, before: Solved) -> tuple[Contact, StillWater, str]:
+    """Return what is bonded of the crack, and the water in it, while an earthquake pushes; and whose rule that is."""
+    law, source = rules_of(case).uplift
+    still = _contact(case)
+    opened = before.settled.heel_crack, before.settled.toe_crack
+    contact = replace(
+        still,
+        bonded_from=max(still.bonded_from, still.start + opened[0]),
+        bonded_to=still.end - opened[1],
+    )
+    water = water_in_earthquake(before.settled.profile, still_water(case, still.start, still.end), opened, law)
+    return contact, water, source
 
 
 def _rarity(case: Case, earthquake: StaticsEarthquake) -> tuple[Loads, tuple[Sentence, ...]]:

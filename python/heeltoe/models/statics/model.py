@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from heeltoe.base.display import Shown
@@ -16,12 +16,13 @@ from heeltoe.errors.error import expect
 from heeltoe.mechanics.block import build_block, static_state, without_bond
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.mechanics.references import REFERENCES
-from heeltoe.models.statics.cases import flood, post_seismic, pseudo_static, usual
+from heeltoe.models.statics.cases import flood, post_seismic, pseudo_static, response_spectrum, usual
 from heeltoe.models.statics.checks import Check, check_case, fallen
 from heeltoe.models.statics.criteria import unread
 from heeltoe.models.statics.levels import critical_water_levels, highest_level
 from heeltoe.models.statics.load_case import LoadCase, along_line
 from heeltoe.models.statics.own_criteria import Rules, rules_of
+from heeltoe.models.statics.spectral import SpectralDemand
 from heeltoe.result.contract import SHEARS_M
 from heeltoe.result.write import build_info, critical_json
 from heeltoe.warnings.notice import Notice, by_gravity
@@ -60,6 +61,8 @@ class Statics(Shown):
         What a reader must know before using the numbers.
     references
         Sources of the criteria and methods used.
+    response_spectrum
+        What an earthquake asks of the section by its response spectrum; None without one.
     """
 
     title: str
@@ -75,6 +78,7 @@ class Statics(Shown):
     slip_source: str | None
     warnings: tuple[Notice, ...]
     references: tuple[str, ...]
+    response_spectrum: SpectralDemand | None = None
 
     def __repr__(self) -> str:
         missed = [check for check in self.checks if not check.met]
@@ -117,6 +121,7 @@ class Statics(Shown):
             "slip_source": self.slip_source,
             "warnings": [warning.to_json() for warning in self.warnings],
             "references": list(self.references),
+            "response_spectrum": None if self.response_spectrum is None else self.response_spectrum.to_json(),
             "build": build_info(),
         }
 
@@ -206,6 +211,26 @@ def statics(
         slip_source=source,
         warnings=by_gravity(warnings),
         references=tuple(references),
+    )
+
+
+def with_demand(judged: Statics, case: Case, demand: SpectralDemand) -> Statics:
+    """Return the checks of a case with those of an earthquake by its response spectrum, before what comes after it."""
+    cases = [solved.load_case for solved in response_spectrum(case, usual(case), demand)]
+    checks = [check for load_case in cases for check in check_case(load_case, case)]
+    during = sum(load_case.loads != "post-earthquake" for load_case in judged.cases)
+    names = {load_case.name for load_case in judged.cases[:during]}
+    judged_during = sum(check.load_case in names for check in judged.checks)
+    # The elastic dam reads more of the case than the block does.
+    spoken = [notice for notice in judged.warnings if notice.code != "fields-unused"]
+    unread = [notice for notice in unused_fields(case, ("statics", "flexible")) if notice.code == "fields-unused"]
+    return replace(
+        judged,
+        warnings=by_gravity([*spoken, *unread]),
+        cases=(*judged.cases[:during], *cases, *judged.cases[during:]),
+        checks=(*judged.checks[:judged_during], *checks, *judged.checks[judged_during:]),
+        references=(*judged.references, REFERENCES["response spectrum"]),
+        response_spectrum=demand,
     )
 
 

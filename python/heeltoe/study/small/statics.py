@@ -14,6 +14,7 @@ from heeltoe.models.statics.joints import Joints, statics_of_sections
 from heeltoe.models.statics.model import statics
 from heeltoe.result.response import Response
 from heeltoe.study.plan.axes import Axis
+from heeltoe.study.small.response_spectrum import with_response_spectrum
 from heeltoe.study.small.run_table import Table, cases_of, check_together
 
 Say = Callable[[str], None]
@@ -44,7 +45,7 @@ class After:
         return self.model is not None or (case.motion is not None and case.statics.residual_slip is None)
 
 
-def judge(case: Case, after: After = After(), say: Say = lambda text: None) -> Joints:
+def judge(case: Case, after: After = After(), say: Say = lambda text: None, *, spectrum: str | None = None) -> Joints:
     """Judge the stability of a dam at each of its sections, after the earthquake, too.
 
     Parameters
@@ -55,12 +56,23 @@ def judge(case: Case, after: After = After(), say: Say = lambda text: None) -> J
         Where the slip of the post-seismic case comes from.
     say
         Told what goes on.
+    spectrum
+        Of the response spectrum analysis beside them, see
+        :func:`heeltoe.study.small.response_spectrum.with_response_spectrum`; None for none.
 
     Raises
     ------
     InputError
         Where something of the case cannot be used; without a motion where a model is to say the slip.
     """
+    judged = _judge(case, after, say)
+    if spectrum is None:
+        return judged
+    say("looking for the first mode")
+    return with_response_spectrum(judged, spectrum, field="--spectrum")
+
+
+def _judge(case: Case, after: After, say: Say) -> Joints:
     slip_m = after.slip_m
     if slip_m is not None:
         return statics_of_sections(case, lambda alone, place: statics(alone, slip_m, slip_source=after.source))
@@ -150,6 +162,8 @@ def statics_table(
     axes: Sequence[Axis],
     after: After = After(),
     say: Say = lambda text: None,
+    *,
+    spectrum: str | None = None,
 ) -> StaticsTable:
     """Judge every combination of some values.
 
@@ -159,7 +173,7 @@ def statics_table(
         As :func:`heeltoe.read_case` takes them; the varied fields win.
     axes
         From :func:`heeltoe.study.small.run_table.parse_axes`.
-    after, say
+    after, say, spectrum
         As :func:`judge` takes them.
 
     Raises
@@ -172,5 +186,5 @@ def statics_table(
     table = []
     for done, case in enumerate(cases):
         say(f"judging, {done} of {len(cases)} dams done")
-        table.append(judge(case, after, say))
+        table.append(judge(case, after, say, spectrum=spectrum))
     return StaticsTable(tuple(axes), cells, tuple(table))

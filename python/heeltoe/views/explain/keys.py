@@ -14,6 +14,7 @@ from heeltoe.models.statics.checks import Check
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.models.statics.model import Statics
 from heeltoe.models.statics.sheet import ForceLine
+from heeltoe.models.statics.spectral import SpectralDemand
 from heeltoe.result.crest import CrestMotion
 from heeltoe.result.limits import LimitCheck
 from heeltoe.result.numbers import OF_SEVERAL, BlockNumbers, Chain, ElasticCrack, ElasticDam, SignNumbers, Spread
@@ -32,6 +33,7 @@ _CLASSES: tuple[tuple[str, type, str], ...] = (
     ("", Response, _RUN),
     ("warnings[].", Notice, _RUN),
     ("", Statics, _STATICS),
+    ("response_spectrum.", SpectralDemand, _STATICS),
     ("cases[].", LoadCase, _STATICS),
     ("cases[].forces[].", ForceLine, _STATICS),
     ("cases[].pieces[].", Piece, _STATICS),

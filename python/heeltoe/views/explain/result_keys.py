@@ -52,6 +52,24 @@ OF_STATICS: dict[str, str] = {
     "site_information": "How well strengths are known, as the case says.",
     "slip_m": "Residual slip of the post-seismic case; null without that case.",
     "slip_source": "Where that slip comes from: given, the case, or the run of a model.",
+    "response_spectrum": "What an earthquake asks of the section by its response spectrum; null without `--spectrum`.",
+    "response_spectrum.spectrum": "Name of the motion or of the design spectrum.",
+    "response_spectrum.period_s": "Period of the first mode of the dam without a crack, with its water and its rock.",
+    "response_spectrum.damping_ratio": "Effective damping ratio of that mode.",
+    "response_spectrum.pseudo_acceleration_m_s2": "Ordinate of the spectrum at that period and damping.",
+    "response_spectrum.peak_ground_acceleration_m_s2": "Ordinate of the spectrum at period zero.",
+    "response_spectrum.first_mode": "Push of inertia and moving water on what is above the crack, by the first mode.",
+    "response_spectrum.static_correction": "The same of all higher modes, which follow the ground at once.",
+    "response_spectrum.together": "Root of the sum of squares of both, with the signs of the first mode.",
+    **{
+        f"response_spectrum.{part}.{name}": meaning
+        for part in ("first_mode", "static_correction", "together")
+        for name, meaning in (
+            ("horizontal_n", "Push downstream."),
+            ("vertical_n", "Push upward."),
+            ("moment_about_heel_nm", "Moment about the heel of the crack, positive counter-clockwise."),
+        )
+    },
     "cases[].normal_force_n": "Force across the crack, uplift taken off.",
     "cases[].shear_force_n": "Force along the crack, positive downstream.",
     "cases[].heel_stress_pa": "Normal stress at the heel of what is closed: compression positive, water taken off.",

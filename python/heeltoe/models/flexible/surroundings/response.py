@@ -121,25 +121,29 @@ class IntactDam:
     ) -> Complexes:
         """Return the amplification of the crest (k,) at frequencies [Hz], from 0 on, with a damping ratio of the
         concrete."""
-        added = 0.0 if water is None else water.mass
-        standing_load = self.load if water is None else self.load + water.load
-        standing = slice(0, self.mass.shape[0] - (0 if rock is not None else 2 * len(self.base)))
-        found = np.ones(frequencies.size, dtype=complex)
+        amplification = np.ones(frequencies.size, dtype=complex)
         for place, omega in enumerate(2.0 * np.pi * frequencies):
-            if omega == 0.0:
-                continue
-            operator = (1.0 + 2j * ratio) * self.stiffness - omega**2 * (self.mass + added)
-            load = -standing_load + 0j
-            if water is not None and water.omega_squared.size:
-                moved = water.pressed(omega)
-                operator = operator + 1j * omega * moved[:, :-1]
-                load = load - moved[:, -1]
-            if rock is not None:
-                size = 2 * len(self.base)
-                operator[-size:, -size:] += np.linalg.inv(rock.compliance(omega, np.eye(size)))
-            answer = np.linalg.solve(operator[standing, standing], load[standing])
-            found[place] = 1.0 - omega**2 * self.crest[standing] @ answer
-        return found
+            if omega > 0.0:
+                amplification[place] -= omega**2 * self.crest @ self.motion(omega, ratio, water, rock)
+        return amplification
+
+    def motion(self, omega: float, ratio: float, water: WaterOfDam | None, rock: ReducedRock | None) -> Complexes:
+        """Return the unknowns (m,) under a unit horizontal acceleration of the ground like exp(i omega t), omega
+        above zero; those of a rigid base are zero."""
+        added, extra = (0.0, 0.0) if water is None else (water.mass, water.load)
+        operator = (1.0 + 2j * ratio) * self.stiffness - omega**2 * (self.mass + added)
+        load = -(self.load + extra) + 0j
+        if water is not None and water.omega_squared.size:
+            moved = water.pressed(omega)
+            operator = operator + 1j * omega * moved[:, :-1]
+            load = load - moved[:, -1]
+        size = 2 * len(self.base)
+        standing = slice(0, self.mass.shape[0] - (0 if rock is not None else size))
+        if rock is not None:
+            operator[-size:, -size:] += np.linalg.inv(rock.compliance(omega, np.eye(size)))
+        answer = np.zeros(self.mass.shape[0], dtype=complex)
+        answer[standing] = np.linalg.solve(operator[standing, standing], load[standing])
+        return answer
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,10 +204,15 @@ class WaterOfDam:
     def pressed(self, omega: float) -> Complexes:
         """Return the forces on the unknowns, against them, for unit velocities of each and, last, for the ground that
         moves with a unit acceleration, (m, m + 1)."""
-        operator = np.diag(self.omega_squared - omega**2 + 0j) + 1j * omega * self.damping
-        driven = np.column_stack([self.coupling, self.ground / (1j * omega)])
-        forces: Complexes = self.coupling.T @ (1j * omega * np.linalg.solve(operator, driven))
+        forces: Complexes = self.coupling.T @ self.rates(
+            omega, np.column_stack([self.coupling, self.ground / (1j * omega)])
+        )
         return forces
+
+    def rates(self, omega: float, driven: Complexes) -> Complexes:
+        """Return the velocities of the waves (w, ...) for what drives them."""
+        operator = np.diag(self.omega_squared - omega**2 + 0j) + 1j * omega * self.damping
+        return 1j * omega * np.linalg.solve(operator, driven)
 
 
 def crest_response(

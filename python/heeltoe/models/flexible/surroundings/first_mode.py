@@ -1,0 +1,142 @@
+"""The first mode of an intact dam with its water and its rock, as a response spectrum analysis takes it.
+
+The dam answers a ground that moves like exp(i omega t). At its first resonance, of circular frequency omega_1 and
+effective damping xi, one mode answers a quarter of a period late with 1 / (2 xi) times its share. So, with F(omega) the
+forces of inertia and moving water on what is above a section for a unit acceleration of the ground,
+
+    f_1 = 2 xi Im F(omega_1),      f_0 = -F(0)
+
+are the first mode's push for a unit pseudo-acceleration, and that of a dam that moves with the ground."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from heeltoe.base.arrays import Floats
+from heeltoe.base.blas import one_blas_thread
+from heeltoe.case.model import Case
+from heeltoe.errors.error import InputError
+from heeltoe.models.flexible.body.elastic import Body, dam
+from heeltoe.models.flexible.body.modes import intact_periods
+from heeltoe.models.flexible.body.reservoir import WaterBody, water_body
+from heeltoe.models.flexible.body.rock import rock_material
+from heeltoe.models.flexible.mesh.dam import dam_mesh
+from heeltoe.models.flexible.surroundings.reduction import Complexes
+from heeltoe.models.flexible.surroundings.response import IntactDam, WaterOfDam, crest_response
+from heeltoe.models.flexible.surroundings.rock import ReducedRock, reduced_rock
+
+# Frequencies among which the first peak is looked for, up to so many times that of the dry dam on a rigid base.
+_FARTHEST, _COUNT = 1.5, 91
+# A frequency so low that the dam moves with the ground, in parts of the first one.
+_STILL = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class SectionForces:
+    """Forces on what is above the crack of a dam that is bonded, frequency by frequency.
+
+    Attributes
+    ----------
+    dam
+        With its crack bonded.
+    upper
+        The part above the crack.
+    heel
+        Of the crack, x and z [m].
+    ratio
+        Damping ratio of the concrete.
+    water, waves, rock
+        What is around the dam; the second are those of compressible water, if there is any.
+    first
+        First frequency of the dry dam on a rigid base [Hz].
+    """
+
+    dam: IntactDam
+    upper: Body
+    heel: tuple[float, float]
+    ratio: float
+    water: WaterOfDam
+    waves: WaterBody | None
+    rock: ReducedRock | None
+    first: float
+
+    @classmethod
+    def of(cls, case: Case, farthest: float) -> SectionForces:
+        """Return those of a case; water and rock answer well up to so many times the first frequency."""
+        parts = dam(case, dam_mesh(case))
+        intact = IntactDam.of(parts)
+        first = 1.0 / float(intact_periods(parts, 1, water=False)[0])
+        waves = water_body(case, parts.bodies, highest=farthest * first)
+        rock = None
+        if case.rock is not None:
+            rock = reduced_rock(intact.base, rock_material(case.rock), highest=farthest * first)
+        water = WaterOfDam.of(intact, parts, waves)
+        return cls(intact, parts.upper, case.above.heel, case.concrete.damping, water, waves, rock, first)
+
+    def at(self, omega: float) -> Complexes:
+        """Return the forces (4,) of inertia and moving water for a unit acceleration of the ground downstream like
+        exp(i omega t): downstream, upward [kg per m], moment about the heel counter-clockwise, and what the upward
+        ones add to that [kg]."""
+        unknowns = self.dam.motion(omega, self.ratio, self.water, self.rock)
+        moved = -(omega**2) * (self.dam.shapes[: self.upper.load.size] @ unknowns)
+        moved[::2] += 1.0
+        exerted = -(self.upper.mass @ moved)
+        if self.waves is not None:
+            driven = 1j * omega * (self.water.coupling @ unknowns) + self.water.ground / (1j * omega)
+            exerted -= self.waves.coupling[0].T @ self.water.rates(omega, driven)
+        x, z = (self.upper.mesh.nodes - np.array(self.heel)).T
+        across, up = exerted[::2], exerted[1::2]
+        return np.array([across.sum(), up.sum(), x @ up - z @ across, x @ up])
+
+
+@dataclass(frozen=True, eq=False)
+class FirstMode:
+    """The first mode of an intact dam.
+
+    Attributes
+    ----------
+    period, damping
+        [s], and the effective damping ratio.
+    push
+        (4,) for a unit pseudo-acceleration: push of the part above the crack downstream, upward [kg per m], moment
+        about the heel counter-clockwise, and what the upward part adds to that [kg].
+    rigid
+        (4,) the same for a dam that moves with a ground of unit acceleration.
+    """
+
+    period: float
+    damping: float
+    push: Floats
+    rigid: Floats
+
+
+@one_blas_thread()
+def first_mode(case: Case, field: str) -> FirstMode:
+    """Return the first mode of a dam with one crack, all bonded.
+
+    Parameters
+    ----------
+    case
+        Water and rock count as it has them.
+    field
+        What asks for it, for errors.
+
+    Raises
+    ------
+    InputError
+        Where the dam has no modulus, or is damped so much that its crest has no peak.
+    """
+    section = SectionForces.of(case, _FARTHEST)
+    frequencies = np.linspace(0.0, _FARTHEST * section.first, _COUNT)
+    response = crest_response(section.dam, frequencies, section.ratio, water=section.water, rock=section.rock)
+    if response.resonance is None or response.damping is None:
+        raise InputError("no-first-mode", field)
+    omega = 2.0 * np.pi * response.resonance
+    return FirstMode(
+        1.0 / response.resonance,
+        response.damping,
+        2.0 * response.damping * section.at(omega).imag,
+        -section.at(_STILL * omega).real,
+    )

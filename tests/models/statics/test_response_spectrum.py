@@ -1,0 +1,164 @@
+"""An earthquake by its response spectrum: the beam of the textbooks, time histories, and what the checks make of it."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from heeltoe import InputError, en_1998, read_case, statics_of_sections, synthetic, with_response_spectrum
+from heeltoe.case.shaking import resolve
+from heeltoe.models.flexible.surroundings.first_mode import SectionForces, first_mode
+from heeltoe.motion.spectrum import response_spectrum
+from shared.command import command
+from shared.dams import BLOCK, HEIGHT, example
+
+# Slender enough for Euler and Bernoulli: 2 m wide, 60 m high.
+TOWER = {
+    "section": {"polygon": [["0 m", "0 m"], ["2 m", "0 m"], ["2 m", "60 m"], ["0 m", "60 m"]]},
+    "concrete": {"density": "2400 kg/m^3", "modulus": "20 GPa", "poisson": 0.0},
+    "crack": {"friction": 1.0},
+    "flexible": {"elements_across": 2},
+}
+COARSE = "flexible.elements_across=4"
+DESIGN = "en1998:0.02 g,B"
+G = 9.80665
+
+
+def cantilever() -> tuple[float, float]:
+    """Share of its mass in the first mode of a cantilever, and the height of that push over its own."""
+    root = 1.875104068711961
+    at = np.linspace(0.0, 1.0, 20001)
+    ratio = (np.cosh(root) + np.cos(root)) / (np.sinh(root) + np.sin(root))
+    shape = np.cosh(root * at) - np.cos(root * at) - ratio * (np.sinh(root * at) - np.sin(root * at))
+    mean, square, lever = (np.trapezoid(values, at) for values in (shape, shape**2, at * shape))
+    return float(mean**2 / square), float(lever / mean)
+
+
+def test_a_cantilever_by_hand():
+    joints = with_response_spectrum(statics_of_sections(read_case(TOWER)), DESIGN)
+    (joint,) = joints.joints
+    mass, (share, height) = 2.0 * 60.0 * 2400.0, cantilever()
+    period = 2.0 * math.pi * 60.0**2 / 1.875104**2 * math.sqrt(2400.0 / (20e9 * 2.0**2 / 12.0))
+    acceleration = float(en_1998(0.02 * G, "B")([period])[0])
+    ground = 0.02 * G * 1.2
+    shear = mass * math.hypot(share * acceleration, (1.0 - share) * ground)
+    moment = mass * 60.0 * math.hypot(share * height * acceleration, (0.5 - share * height) * ground)
+    found = joint.statics.response_spectrum
+    assert found.period_s == pytest.approx(period, rel=0.005)
+    assert found.damping_ratio == pytest.approx(0.05, rel=0.01)
+    downstream, upstream = (case for case in joint.statics.cases if case.name.startswith("response spectrum"))
+    assert downstream.shear_force_n == pytest.approx(shear, rel=0.005)
+    assert upstream.shear_force_n == pytest.approx(-shear, rel=0.005)
+    assert found.push().moment == pytest.approx(-moment, rel=0.005)
+    weight = mass * G
+    assert downstream.normal_force_n == pytest.approx(weight, rel=1e-9)
+    assert downstream.sliding_factor == pytest.approx(weight / shear, rel=0.005)
+    assert downstream.resultant_from_heel_m == pytest.approx(1.0 + moment / weight, rel=0.005)
+
+
+def test_a_stiff_dam_moves_with_the_ground():
+    mode = first_mode(example("typical-height", COARSE, "concrete.modulus=1e5 GPa"), "spectrum")
+    case = example("typical-height", COARSE)
+    block = with_response_spectrum(statics_of_sections(case.with_("statics.seismic_coefficient=0.1")), DESIGN)
+    forces = next(c for c in block.joints[0].statics.cases if c.name == "pseudo-static downstream").forces
+    pushed = sum(force.horizontal for force in forces if force.name in ("inertia", "hydrodynamic"))
+    # Those of the block, but for the water's mass on elements.
+    assert mode.rigid[0] == pytest.approx(pushed / (0.1 * case.gravity), rel=0.01)
+    assert mode.period < 0.01
+
+
+@pytest.mark.slow
+def test_time_histories_have_the_same_peaks_in_the_mean():
+    """Ten motions on the dam on rock before water with sound, bonded: by the frequency domain, beside the spectrum."""
+    case = example("on-rock", COARSE)
+    section = SectionForces.of(case, 6.0)
+    mode = first_mode(case, "spectrum")
+    step, count = 0.02, 2048
+    frequencies = np.fft.rfftfreq(count, step)
+    sampled = np.linspace(0.05, 15.0, 200)
+    answers = CubicSpline(sampled, [section.at(2.0 * np.pi * frequency) for frequency in sampled])
+    transfer = np.where((frequencies > 0.05) & (frequencies < 15.0), answers(frequencies).T, 0.0)
+    ratios = []
+    for seed in range(10):
+        motion = synthetic(f"synthetic:M6.5,20km,seed={seed + 1}")
+        ground = np.interp(step * np.arange(count), motion.time, motion.acceleration, right=0.0)
+        histories = np.fft.irfft(transfer * np.fft.rfft(ground), count)
+        acceleration = response_spectrum(motion, [mode.period], mode.damping).pseudo_acceleration[0]
+        by_spectrum = np.hypot(acceleration * mode.push, motion.pga * (mode.rigid - mode.push))
+        ratios.append(by_spectrum[[0, 2]] / np.abs(histories[[0, 2]]).max(axis=1))
+    assert np.mean(ratios, axis=0) == pytest.approx(1.0, abs=0.1)
+
+
+def test_checks_stand_before_what_comes_after():
+    case = example("typical-height", COARSE, "statics.residual_slip=0.01m")
+    judged = statics_of_sections(case)
+    joints = with_response_spectrum(judged, "motion")
+    before, after = judged.joints[0].statics, joints.joints[0].statics
+    names = [load_case.name for load_case in after.cases]
+    assert names == ["usual", "response spectrum downstream", "response spectrum upstream", "post-seismic"]
+    order = list(dict.fromkeys(check.load_case for check in after.checks))
+    assert order == names
+    assert [check for check in after.checks if not check.load_case.startswith("response")] == list(before.checks)
+    # The motion is that of the case, whose spectrum stands at the first period for that dam's damping.
+    demand = after.response_spectrum
+    motion, _ = resolve(case.motion, case.gravity, case.base_directory)
+    assert demand.peak_ground_acceleration_m_s2 == pytest.approx(motion.pga)
+    assert demand.spectrum == motion.name
+    # What the block does not read, the elastic dam does.
+    unread = [dict(notice.quantities)["fields"] for notice in before.warnings if notice.code == "fields-unused"]
+    assert "concrete.modulus" in unread[0]
+    assert not any("concrete.modulus" in str(notice) for notice in after.warnings)
+    assert (
+        json.loads(json.dumps(after.to_json(), allow_nan=False))["response_spectrum"]["together"]["horizontal_n"] > 0.0
+    )
+
+
+def test_rock_and_water_change_what_is_asked():
+    dam = example("typical-base", COARSE)
+    rigid, soft = (
+        with_response_spectrum(statics_of_sections(case), "motion").joints[0].statics.response_spectrum
+        for case in (dam, dam.with_("rock.modulus=20 GPa"))
+    )
+    assert soft.period_s > 1.1 * rigid.period_s
+    assert soft.damping_ratio > 1.5 * rigid.damping_ratio
+
+
+@pytest.mark.parametrize(
+    ("changes", "spectrum", "code", "field"),
+    [
+        (["concrete.damping=0.6"], DESIGN, "no-first-mode", "spectrum"),
+        ([], "en1999:0.3 g,B", "target-form", "spectrum"),
+    ],
+)
+def test_what_has_no_spectrum_is_refused(changes, spectrum, code, field):
+    judged = statics_of_sections(example("typical-height", COARSE, *changes))
+    with pytest.raises(InputError) as refused:
+        with_response_spectrum(judged, spectrum)
+    assert (refused.value.code, refused.value.field) == (code, field)
+
+
+def test_a_dam_without_a_modulus_or_a_motion_is_refused():
+    with pytest.raises(InputError) as refused:
+        with_response_spectrum(statics_of_sections(read_case(BLOCK)), DESIGN)
+    assert refused.value.code == "modulus-missing"
+    with pytest.raises(InputError) as refused:
+        with_response_spectrum(statics_of_sections(read_case(TOWER)), "motion")
+    assert refused.value.code == "motion-missing"
+    with pytest.raises(InputError) as refused:
+        with_response_spectrum(read_case(TOWER), "motion")
+    assert refused.value.code == "not-checks"
+
+
+def test_from_the_command_line(tmp_path):
+    options = ("--slip", "0.1m", "--set", COARSE, "--spectrum", DESIGN)
+    said = command("statics", HEIGHT, *options, "--json", "-", "--out", tmp_path)
+    assert said.returncode == 0, said.stderr
+    data = json.loads(said.stdout)
+    assert data["response_spectrum"]["spectrum"].startswith("EN 1998-1")
+    assert (tmp_path / "forces-response-spectrum-downstream.png").exists()
+    table = command("statics", HEIGHT, *options, "--vary", "crack.friction=0.8,1.0", "--json", "-")
+    assert all(run["response_spectrum"] is not None for run in json.loads(table.stdout)["runs"])
