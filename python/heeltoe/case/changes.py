@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from heeltoe.case.dam import UPLIFT_OPTIONS
+from heeltoe.case.joints import JOINTS
 from heeltoe.case.lists import CRACKS, path_in_fields
 from heeltoe.case.motion import NO_MOTION
 from heeltoe.case.options import NO_FLOOD
@@ -82,7 +83,7 @@ def apply(fields: dict[str, Any], changes: Changes, directory: Path | None = Non
     for path, value in _split_all(changes):
         if path == [CRACKS] or (CRACKS in fields and path in (["crack"], ["further_cracks"])):
             # Another form of all cracks takes the place of the one before.
-            for name in {CRACKS, "crack", "further_cracks"} - {path[0]}:
+            for name in {CRACKS, "crack", "further_cracks", JOINTS} - {path[0]}:
                 fields.pop(name, None)
         place = path_in_fields(".".join(path), fields).split(".")
         if place != path:

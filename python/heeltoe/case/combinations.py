@@ -425,7 +425,7 @@ def rules_of(path: str) -> tuple[Rule, ...]:
 
 
 def _is_of(feature: Feature, path: str) -> bool:
-    own = re.sub(r"^cracks\.", "crack.", path)
+    own = re.sub(r"^(cracks|joints)\.", "crack.", path)
     return any(own == field or own.startswith(f"{field}.") for field in feature.fields)
 
 

@@ -49,6 +49,8 @@ READ_BY: dict[str, frozenset[str]] = {
     **dict.fromkeys(
         (f"further_cracks.law.{name}" for name in ("form", "slip", "speed", "surface")), frozenset({"flexible"})
     ),
+    "joints": frozenset({"flexible", "statics"}),
+    "joints.bond": frozenset({"flexible"}),
     "crack.bond": frozenset({"flexible"}),
     # A rigid block bears its bond or not; it opens no crack that would take energy.
     **dict.fromkeys((f"crack.bond.{name}" for name in ("tensile_strength", "cohesion", "dynamic_factor")), _SHAKEN),

@@ -1,4 +1,5 @@
-"""Lists of a case file that the case has as a first block and further ones: `[[motion]]` and `[[cracks]]`."""
+"""Lists of a case file that the case has as a first block and further ones: `[[motion]]` and `[[cracks]]`; `[joints]`
+is such a list of cracks."""
 
 from __future__ import annotations
 
@@ -7,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from heeltoe.case.crack.crack import FRICTION, Crack
+from heeltoe.case.joints import joints_as_cracks
 from heeltoe.errors.error import InputError, shown
 from heeltoe.units.parse import parse
 
@@ -28,8 +30,9 @@ def as_blocks(fields: Mapping[str, Any]) -> dict[str, Any]:
     Raises
     ------
     InputError
-        Where a list stands beside the blocks that it replaces.
+        Where a list stands beside the blocks that it replaces, or joints cannot be used.
     """
+    fields = joints_as_cracks(dict(fields))
     if CRACKS in fields and not _is_list_of_blocks(fields[CRACKS]):
         raise InputError("wrong-type", CRACKS, shown(fields[CRACKS]), expected="a list of cracks, [[cracks]]")
     return _split(motions_as_blocks(fields), CRACKS, "crack", _FURTHER)

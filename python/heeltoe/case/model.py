@@ -22,6 +22,7 @@ from heeltoe.case.crack.crack import Crack, FurtherCrack
 from heeltoe.case.crack.kinks import climbs, kinks_misfit
 from heeltoe.case.dam import Anchor, Concrete, Ice, Reservoir, Rock, Silt, Uplift, Water
 from heeltoe.case.fields import Fields
+from heeltoe.case.joints import JOINTS
 from heeltoe.case.lists import CRACKS, aliases_of, as_blocks, as_listed, crack_path, renamed
 from heeltoe.case.motion import Aftershock, Motion
 from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, StaticsChoice
@@ -381,7 +382,7 @@ def problems(
     written
         How the user called cracks, by their paths in the fields.
     """
-    listed = CRACKS in fields
+    listed = CRACKS in fields or JOINTS in fields
     aliases = aliases_of(fields) if listed else {}
     case, wrong = _problems(fields, directory, listed=listed)
     return case, renamed(renamed(wrong, aliases), written or {})
@@ -392,13 +393,14 @@ def _problems(
 ) -> tuple[Case | None, list[InputError]]:
     wrong: list[InputError] = []
     try:
-        fields = as_blocks(fields)
-    except InputError as error:
-        return None, [error]
-    try:
         read = with_section_read(fields, directory)
     except InputError as error:
         read, wrong = {**fields, "section": _SECTION}, [error, *error.others]
+    try:
+        # Joints go up to the crest of the section.
+        read = as_blocks(read)
+    except InputError as error:
+        return None, [*wrong, error, *error.others]
     try:
         case = Case.model_validate(read)
     except ValidationError as complaint:

@@ -17,6 +17,7 @@ from typing import Any
 
 from heeltoe.base.input_files import read_bounded
 from heeltoe.case.changes import Changes, apply
+from heeltoe.case.joints import JOINTS, JOINTS_MEANING, Joints
 from heeltoe.case.lists import CRACKS, CRACKS_MEANING, motions_as_blocks
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError, shown
@@ -66,14 +67,18 @@ def read_case(source: str | os.PathLike[str] | Mapping[str, Any], changes: Chang
 
 
 def case_schema() -> dict[str, Any]:
-    """Return the JSON schema of a case: its cracks stand in one list, or in the blocks `crack` and `further_cracks`."""
+    """Return the JSON schema of a case: its cracks stand in one list, in the blocks `crack` and `further_cracks`, or as
+    `joints`."""
     schema = Case.model_json_schema()
     cracks = {"type": "array", "minItems": 1, "items": {"$ref": "#/$defs/Crack"}, "description": CRACKS_MEANING}
+    joints = Joints.model_json_schema()
+    schema["$defs"] |= joints.pop("$defs")
+    joints |= {"description": JOINTS_MEANING}
     properties: dict[str, Any] = {}
     for name, field in schema["properties"].items():
-        properties |= {CRACKS: cracks, name: field} if name == "crack" else {name: field}
+        properties |= {CRACKS: cracks, JOINTS: joints, name: field} if name == "crack" else {name: field}
     required = [name for name in schema["required"] if name != "crack"]
-    forms = [{"required": [name]} for name in (CRACKS, "crack")]
+    forms = [{"required": [name]} for name in (CRACKS, "crack", JOINTS)]
     return schema | {"properties": properties, "required": required, "oneOf": forms}
 
 

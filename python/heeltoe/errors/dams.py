@@ -94,6 +94,11 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "{value} is less than friction times tensile_strength, {least}: the joint would slip before it bears that",
         "give a cohesion of at least {least}, or a lower bond.tensile_strength",
     ),
+    "joints-many": (
+        "lifts of {value} make {count} joints, more than {most}",
+        "give higher lifts, or joints.lowest and joints.highest around those that matter",
+    ),
+    "joints-none": ("{value} is above the highest joint, {highest}", "lower it, or raise joints.highest"),
     "rough-locks": (
         "friction and flanks come to {value} together: a crack that steep locks",
         "lower it, or the friction, or give a longer wave_length, so that they stay below 85 degrees",

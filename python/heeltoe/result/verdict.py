@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
@@ -9,7 +10,7 @@ from heeltoe.result.rest import comes_to_rest, last_of, motion_end, rests_from
 from heeltoe.result.sequence import sequence_said
 from heeltoe.result.tension import cracks_said
 from heeltoe.units.sentences import written
-from heeltoe.units.write import angle, length, measured, speed
+from heeltoe.units.write import angle, length, lengths, measured, speed
 
 # Not at run time: a response says its verdict in its JSON.
 if TYPE_CHECKING:
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 _IN_THE_AIR_S = 0.05
 # Less time on one end of the crack in all [s] is a blow, and no rocking.
 _ROCKS_S = 0.02
+# More joints than these are told together.
+_SINGLY = 2
 # What a model takes the dam for.
 _AS = {"rigid": "As a rigid block", "decoupled": "As a rigid block on an elastic part below it"}
 
@@ -156,11 +159,49 @@ def joint_said(response: Response, units: str = "si") -> str:
     """Say whether the joints of an elastic dam crack, from where, and what is left; nothing of a crack."""
     if not response.several:
         return _joint(response, "The joint", units)
-    return " ".join(
-        text
-        for crack in response.cracks
-        if (text := _joint(crack, f"The joint at {_level(crack.elevation, units)}", units))
+    bonds: list[tuple[CrackResponse, BondState]] = [
+        (crack, bond) for crack in response.cracks if (bond := getattr(crack, "joint", None)) is not None
+    ]
+    if len(bonds) > _SINGLY:
+        return _joints_in_order(bonds, units)
+    return " ".join(_joint(crack, f"The joint at {_level(crack.elevation, units)}", units) for crack, _ in bonds)
+
+
+def _joints_in_order(bonds: Sequence[tuple[CrackResponse, BondState]], units: str) -> str:
+    """Say of many joints which cracks first, which are cracked through, and how far the others are."""
+    cracked = sorted(
+        (bond.first_cracking_s, crack.elevation) for crack, bond in bonds if bond.first_cracking_s is not None
     )
+    if not cracked:
+        return f"None of the {len(bonds)} joints cracks."
+    when, level = cracked[0]
+    begins = "before the earthquake" if when == 0.0 else f"at {when:.2f} s"
+    sentences = [f"Of {len(bonds)} joints that at {_level(level, units)} cracks first, {begins}."]
+    through = sorted(
+        (bond.cracked_through_s, crack.elevation) for crack, bond in bonds if bond.cracked_through_s is not None
+    )
+    if through:
+        places = _listed([f"{_level(level, units)} ({when:.2f} s)" for when, level in through])
+        sentences.append(f"Cracked through: {places}.")
+    parts = [
+        f"{_level(crack.elevation, units)} ({_of(bond.cracked_length_m, crack.crack_width_m, units)})"
+        for crack, bond in bonds
+        if bond.first_cracking_s is not None and bond.cracked_through_s is None
+    ]
+    if parts:
+        sentences.append(f"Cracked in part: {_listed(parts)}.")
+    whole = len(bonds) - len(cracked)
+    if whole:
+        sentences.append(f"{'The other does' if whole == 1 else f'The other {whole} do'} not crack.")
+    return " ".join(sentences)
+
+
+def _of(part: float, whole: float, units: str) -> str:
+    return " of ".join(lengths((part, whole), units))
+
+
+def _listed(parts: Sequence[str]) -> str:
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
 
 
 def _bond_of_block(response: Response) -> str:

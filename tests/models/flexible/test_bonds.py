@@ -21,6 +21,7 @@ from heeltoe.result.verdict import verdict
 from heeltoe.study.small.run_table import parse_axes, run_small
 from heeltoe.views.content.question import question
 from heeltoe.views.content.subject import Subject
+from heeltoe.views.figures.all import all_figures
 from heeltoe.views.figures.crack import joint_figure, joint_states
 from heeltoe.views.figures.energy import energy_figure
 from heeltoe.views.files.vtk import write_vtk_series
@@ -296,3 +297,34 @@ def test_a_joint_that_cracks_through_is_as_long_as_it_is():
     assert response.joint.cracked_through_s is not None
     assert response.joint.cracked_length_m <= response.crack_width_m
     assert response.histories["cracked_length_m"].max() <= response.crack_width_m
+
+
+def test_of_many_joints_the_verdict_and_a_picture_say_which_cracks_first():
+    fields = dam()
+    del fields["crack"]
+    fields["flexible"]["elements_across"] = 3
+    fields["motion"]["sign"] = "recorded"
+    fields["joints"] = {"every": "10 m", "friction": 1.0, "bond": BOND | {"tensile_strength": "0.4 MPa"}}
+    response = run(read_case(fields), "flexible")
+    bonds = {crack.elevation: crack.joint for crack in response.cracks}
+    assert list(bonds) == [20.0, 10.0, 0.0]
+    first = min((bond.first_cracking_s, level) for level, bond in bonds.items() if bond.first_cracking_s is not None)
+    text = verdict(response)
+    assert f"Of 3 joints that at {first[1]:g} m cracks first, at {first[0]:.2f} s." in text
+    for level, bond in bonds.items():
+        assert (f"{level:g} m ({bond.cracked_through_s or -1.0:.2f} s)" in text) == (bond.cracked_through_s is not None)
+    figures = all_figures(None, response)
+    assert "joints" in figures
+    (axes, _) = figures["joints"].axes
+    marks = [line.get_xdata()[0] for line in axes.lines if line.get_marker() == "o"]
+    assert sorted(marks) == sorted(
+        bond.first_cracking_s for bond in bonds.values() if bond.first_cracking_s is not None
+    )
+
+
+def test_joints_that_all_hold_are_one_sentence():
+    fields = dam()
+    del fields["crack"]
+    fields["flexible"]["elements_across"] = 3
+    fields["joints"] = {"every": "10 m", "friction": 1.0, "bond": STRONG}
+    assert verdict(run(read_case(fields), "flexible")).startswith("None of the 3 joints cracks.")

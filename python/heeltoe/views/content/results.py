@@ -114,6 +114,7 @@ _FIGURES = (
     "forces",
     "crest",
     "path",
+    "joints",
     "joint",
     "crack",
     "pressure",

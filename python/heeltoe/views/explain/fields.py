@@ -12,6 +12,7 @@ from pydantic.fields import FieldInfo
 from heeltoe.case.combinations import rules_of
 from heeltoe.case.crack.crack import Crack
 from heeltoe.case.field_usage import READERS, readers
+from heeltoe.case.joints import JOINTS, JOINTS_MEANING, Joints
 from heeltoe.case.lists import CRACKS, CRACKS_MEANING
 from heeltoe.case.model import Case
 from heeltoe.case.paths import constraints
@@ -35,6 +36,7 @@ def fields_of_a_case() -> Iterator[Meaning]:
         if meaning.name == "further_cracks":
             # A file may list all cracks in place of both blocks.
             yield from _block(CRACKS, f"{CRACKS}[]", Crack, CRACKS_MEANING, meaning.kind)
+            yield from _block(JOINTS, JOINTS, Joints, JOINTS_MEANING, meaning.kind)
         yield meaning
 
 

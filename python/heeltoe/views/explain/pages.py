@@ -22,6 +22,7 @@ _PAGES = {
     "crack.restitution": "rigid.md#impact",
     "crack.law": "friction.md",
     "crack.bond": "joint-that-cracks.md",
+    "joints": "joint-that-cracks.md",
     "crack.roughness": "rough-crack.md",
     "crack.elevation": "sections.md",
     "reservoir": "flexible.md equation 1",

@@ -50,6 +50,7 @@ NAMES = (
     "spectrum",
     "crack-level",
     "slips",
+    "joints",
     "joint",
     "crack",
     "pressure",
@@ -188,13 +189,15 @@ def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]
 
 
 def _elastic_drawings(response: FlexibleResponse, units: str) -> dict[str, Callable[[], Figure]]:
-    from heeltoe.views.figures.crack import crack_figure, joint_figure, pressure_figure
+    from heeltoe.views.figures.crack import crack_figure, joint_figure, joints_figure, pressure_figure
     from heeltoe.views.figures.dam import mesh_figure, modes_figure
     from heeltoe.views.figures.stress.deformed import deformed_figure
     from heeltoe.views.figures.stress.tension import tension_figure
 
     dam = response.crack.dam
     drawn = {"tension": lambda: tension_figure(response, units)} if response.tension is not None else {}
+    if sum(crack.joint is not None for crack in response.cracks) > 1:
+        drawn["joints"] = lambda: joints_figure(response, units)
     if response.joint is not None:
         drawn["joint"] = lambda: joint_figure(response, units)
     return {

@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
@@ -127,6 +129,47 @@ def joint_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(states_seen)))
     figure.align_ylabels([lengths, joint])
+    return figure
+
+
+@styled
+def joints_figure(response: FlexibleResponse, units: str = "si") -> Figure:
+    """Draw how much of each of several joints is cracked over time, by their heights; marks where each begins to crack
+    and where it is cracked through."""
+    joints = [crack for crack in response.cracks if crack.joint is not None]
+    levels = np.array([crack.elevation for crack in joints])
+    scale = unit_system(units).scale("length", max(float(levels.max()), 1.0))
+    half = 0.35 * float(np.diff(np.sort(levels)).min())
+    figure, (axes,) = panels([2.6], 1.55)
+    describe(figure, response)
+    norm = Normalize(0.0, 100.0)
+    for crack, level in zip(joints, levels, strict=True):
+        h, bond = crack.histories, crack.joint
+        assert bond is not None
+        share = 100.0 * h["cracked_length_m"] / crack.crack_width_m
+        edges = scale(np.array([level - half, level + half]))
+        axes.pcolormesh(borders(h["time_s"]), edges, share[None, :], cmap="Greys", norm=norm, rasterized=True)
+        axes.axhline(scale(level), color="#BBBBBB", linewidth=0.4, zorder=0.5)
+        for moment, mark, colour in (
+            (bond.first_cracking_s, "o", COLOURS["slip"]),
+            (bond.cracked_through_s, "X", COLOURS["rotation"]),
+        ):
+            if moment is not None:
+                axes.plot([moment], [scale(level)], mark, color=colour, markersize=7, markeredgecolor="white")
+    axes.set_ylim(scale(levels.min() - 2.0 * half), scale(levels.max() + 2.0 * half))
+    axes.set_ylabel(f"height of the joint [{scale.unit}]")
+    axes.grid(visible=False)
+    bar = figure.colorbar(ScalarMappable(norm, "Greys"), ax=axes, pad=0.01, aspect=18)
+    bar.set_label("cracked part [%]")
+    time_axis(axes, response)
+    handles = [
+        Line2D([], [], marker=mark, color=colour, markeredgecolor="white", markersize=7, linestyle="", label=label)
+        for mark, colour, label in (
+            ("o", COLOURS["slip"], "begins to crack"),
+            ("X", COLOURS["rotation"], "is cracked through"),
+        )
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=2)
     return figure
 
 
