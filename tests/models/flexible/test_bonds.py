@@ -19,6 +19,8 @@ from heeltoe.models.flexible.body.step import longest_step
 from heeltoe.models.statics.after import ligament_of, statics_after
 from heeltoe.result.verdict import verdict
 from heeltoe.study.small.run_table import parse_axes, run_small
+from heeltoe.views.animation.frames import BONDED, STATUSES, build_scene
+from heeltoe.views.animation.page import page_data
 from heeltoe.views.content.question import question
 from heeltoe.views.content.subject import Subject
 from heeltoe.views.figures.all import all_figures
@@ -328,3 +330,19 @@ def test_joints_that_all_hold_are_one_sentence():
     fields["flexible"]["elements_across"] = 3
     fields["joints"] = {"every": "10 m", "friction": 1.0, "bond": STRONG}
     assert verdict(run(read_case(fields), "flexible")).startswith("None of the 3 joints cracks.")
+
+
+def test_an_animation_shows_how_the_crack_grows():
+    case = read_case(dam())
+    response = run(case, "flexible")
+    times = response.histories["time_s"]
+    scene = build_scene(case, response, times, None)
+    assert scene.statuses == (*STATUSES, *BONDED)
+    names = np.array(scene.statuses)[scene.status]
+    assert set(names[0]) <= set(BONDED)
+    whole = np.isin(names, BONDED) & (scene.status >= 0)
+    # A node that has broken is never whole again.
+    assert np.all(whole[1:] <= whole[:-1])
+    assert np.any(names == "softening")
+    assert np.array_equal(whole, response.crack.damage[:, : whole.shape[1]] < 1.0)
+    assert page_data(scene, 1.0)["statusNames"][-2:] == ["intact", "softens"]

@@ -14,7 +14,7 @@ from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.errors.sanitize import plain
 from heeltoe.geometry.section import CutSection
-from heeltoe.models.flexible.result.history import CrackHistory
+from heeltoe.models.flexible.result.history import LEAST_DAMAGE, CrackHistory
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Units, unit_system
@@ -22,6 +22,8 @@ from heeltoe.views.animation.bodies import Moments, Part, elastic_parts, rigid_p
 
 #: What a point of the crack does, as `Scene.status` counts it; -1 where nothing is known or opposite.
 STATUSES = ("open", "stick", "slip downstream", "slip upstream")
+#: What a node of a bonded joint is before it is broken, counted after them.
+BONDED = ("intact", "softening")
 #: The largest displacement is drawn at most this long, as a part of the dam's height and of the crack's width.
 _OF_HEIGHT, _OF_CRACK = 0.08, 0.35
 #: A part above the crack lower than this part of the dam's height is shown in a picture of its own, too.
@@ -74,7 +76,9 @@ class Scene:
     force_unit, force_scale
         Unit of the forces, and the force whose arrow has the length :data:`ARROW`.
     status
-        (f, k) what the points of the crack do, counting :data:`STATUSES`.
+        (f, k) what the points of the crack do, counting `statuses`.
+    statuses
+        :data:`STATUSES`, and of a bonded joint :data:`BONDED` after them.
     mode, modes
         (f,) the mode of motion, counting `modes`, as the response names them.
     history_times
@@ -99,6 +103,7 @@ class Scene:
     force_unit: str
     force_scale: float
     status: NDArray[np.int8]
+    statuses: tuple[str, ...]
     mode: Integers
     modes: tuple[str, ...]
     history_times: Floats
@@ -120,6 +125,7 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
     section, system = case.cut, unit_system(units)
     histories = response.histories
     moments = Moments.of(histories["time_s"], times)
+    statuses: tuple[str, ...] = STATUSES
     if not isinstance(response, FlexibleResponse):
         cracks = [crack.histories for crack in response.cracks] if response.several else [histories]
         parts = rigid_parts(case, cracks, moments)
@@ -129,6 +135,7 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
         moved = Moments.of(response.crack.time, times)
         parts = elastic_parts(response.crack, moved)
         forces, status = _nodes(section, response.crack, moved)
+        statuses += BONDED if response.crack.damage is not None else ()
         scale = system.scale("pressure")
     forces = scale(forces)
     above = response.asked
@@ -148,6 +155,7 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
         force_unit=scale.unit,
         force_scale=_usual(forces),
         status=status,
+        statuses=statuses,
         mode=mode[moments.nearest],
         modes=modes,
         history_times=histories["time_s"][within],
@@ -220,6 +228,10 @@ def _nodes(section: CutSection, history: CrackHistory, moments: Moments) -> tupl
     known = np.array([STATUSES.index(name) if name in STATUSES else -1 for name in names] + [-1], dtype=np.int8)
     # -1, of nodes that are not watched, finds the last.
     status = known[history.node_status()[0][moments.nearest]]
+    if history.damage is not None:
+        damage = history.node_damage()[0][moments.nearest]
+        bonded = np.where(damage > LEAST_DAMAGE, len(STATUSES) + 1, len(STATUSES))
+        status = np.where(damage < 1.0, bonded, status).astype(np.int8)
     return _turned(section, force[:, 0], force[:, 1]), status
 
 

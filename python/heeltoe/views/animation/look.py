@@ -8,9 +8,9 @@ WATER, SURFACE = "#cfe5f4", "#5b9bc8"
 GROUND = "#d9cbb2"
 BEFORE = "#6a6a66"
 FORCE, FORCE_CUT = "#882255", "#e08bb4"
-#: By `Scene.status`; what is open is a mere rim.
-STATUS = ("#ffffff", "#333333", "#0072B2", "#D55E00")
-STATUS_NAMES = ("open", "sticks", "slips downstream", "slips upstream")
+#: By `Scene.status`, the last two of bonded joints alone; what is open is a mere rim.
+STATUS = ("#ffffff", "#333333", "#0072B2", "#D55E00", "#009E73", "#F0E442")
+STATUS_NAMES = ("open", "sticks", "slips downstream", "slips upstream", "intact", "softens")
 MODES = {"rest": "#DDDDDD", "slide": "#56B4E9", "rock": "#E69F00", "slide-rock": "#D55E00", "drift": "#000000"}
 #: By `Trace.role`; the page has them in its style sheet.
 TRACES = {

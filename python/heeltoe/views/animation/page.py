@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from heeltoe.views.animation import look
 from heeltoe.views.animation.bodies import Part
-from heeltoe.views.animation.frames import ARROW, CUT, STATUSES, Scene
+from heeltoe.views.animation.frames import ARROW, CUT, Scene
 
 # Samples of a trace that a page of any size can show.
 _MOST_SAMPLES = 8000
@@ -56,8 +56,8 @@ def page_data(scene: Scene, speed: float) -> dict[str, Any]:
         "arrow": ARROW,
         "cut": CUT,
         "status": packed(scene.status, "int8"),
-        "statuses": list(STATUSES),
-        "statusNames": list(look.STATUS_NAMES),
+        "statuses": list(scene.statuses),
+        "statusNames": list(look.STATUS_NAMES[: len(scene.statuses)]),
         "mode": packed(scene.mode, "int8"),
         "modes": [{"name": mode, "kind": look.mode_kind(mode)} for mode in scene.modes],
         "historyTimes": packed(scene.history_times[::every], "float32"),

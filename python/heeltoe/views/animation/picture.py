@@ -192,7 +192,7 @@ class _View:
         longest, width = ARROW * (top - bottom), (0.008 if few else 0.005) * (top - bottom)
         whole, cut = self._arrows(look.FORCE), self._arrows(look.FORCE_CUT)
         dots = []
-        for colour in look.STATUS:
+        for colour in look.STATUS[: len(scene.statuses)]:
             line = self.axes.plot([], [], "o", color=colour, markeredgecolor=look.EDGE, markeredgewidth=0.8)[0]
             line.set_markersize(8.0 if few else 4.5)
             dots.append(animated(line))
@@ -221,7 +221,7 @@ class _View:
         self.axes.annotate("", (x + long, y), (x, y), "figure fraction", "figure fraction", arrowprops=style)
         text = look.force_text(scene.force_scale, scene.force_unit, CUT)
         figure.text(x + long + 0.008, y, text, fontsize=9, va="center")
-        for colour, name in zip(look.STATUS, look.STATUS_NAMES, strict=True):
+        for colour, name in list(zip(look.STATUS, look.STATUS_NAMES, strict=True))[: len(scene.statuses)]:
             dot = Line2D([x + 0.005], [0.038], marker="o", color=colour, markeredgecolor=look.EDGE, markersize=6)
             figure.add_artist(dot)
             figure.text(x + 0.013, 0.038, name, fontsize=9, va="center")

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats
 from heeltoe.kernel.dam import CONTACT_STATUSES
-from heeltoe.models.flexible.result.history import CrackHistory
+from heeltoe.models.flexible.result.history import LEAST_DAMAGE, CrackHistory
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.panels import draw_slip, panels
@@ -41,8 +41,6 @@ _JOINT_COLOURS = {
 _JOINT_STATES = tuple(_JOINT_COLOURS)
 # What a broken node does, of the statuses of contact; one with nothing opposite is open.
 _BROKEN = {"absent": 2, "open": 2, "stick": 3, "slip downstream": 4, "slip upstream": 5}
-# Less damage of a bond is rounding.
-_LEAST_DAMAGE = 1e-9
 # The largest pressures are blows of single nodes; the colours end before them, at this share of all [%].
 _SHOWN = 98.0
 _COLUMNS = 1500
@@ -183,7 +181,7 @@ def joint_states(history: CrackHistory) -> tuple[Floats, NDArray[np.int8]]:
     along, status = _whole_face(history)
     damage = history.damage[:, : along.size]
     contact = np.array([_BROKEN[name] for name in CONTACT_STATUSES], dtype=np.int8)[status]
-    states = np.where(damage >= 1.0, contact, np.where(damage > _LEAST_DAMAGE, 1, 0)).astype(np.int8)
+    states = np.where(damage >= 1.0, contact, np.where(damage > LEAST_DAMAGE, 1, 0)).astype(np.int8)
     return along, states
 
 

@@ -17,6 +17,8 @@ from heeltoe.models.flexible.body.reduced import FlexibleDam
 
 #: Status of a node that is not watched.
 UNWATCHED = -1
+#: Less damage of a bond is rounding.
+LEAST_DAMAGE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
