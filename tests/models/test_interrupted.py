@@ -26,14 +26,14 @@ class Enough(Exception):
 
 
 def interrupted(work):
-    """Return what is noted of work that a signal interrupts 0.2 s after its start."""
+    """Return what is noted of work that a signal interrupts 0.1 s after its start."""
 
     def handler(*_):
         raise Enough
 
     before = signal.signal(signal.SIGALRM, handler)
     try:
-        signal.setitimer(signal.ITIMER_REAL, 0.2)
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
         with pytest.raises(Enough) as raised:
             work()
         return getattr(raised.value, "__notes__", [])

@@ -18,7 +18,8 @@ NONE = re.compile(
     r"advice|evidence|vertical_motion|self_excitation(\.twice_damped_slip_m|\.period_s)?|"
     r"before_shaking|rayleigh_\w+|anchors\.\d+\.capacity_n|warnings\.\d+\.(field|time_s)|(beside\.)?ratio\.\w+|"
     r"(cracks\.\d+\.)?(friction_law|roughness|joint|drainage_by_motion|overturned_about)|cracks\.\d+\.evidence|evidence\.cracked_length_m|"
-    r"(cracks\.\d+\.)?joint\.(first_cracking_s|first_cracking_at_m|cracked_through_s)|crack_level\.(bonded\.)?amplification|tension\.(strength|mesh)"
+    r"(cracks\.\d+\.)?joint\.(first_cracking_s|first_cracking_at_m|cracked_through_s)|crack_level\.(bonded\.)?amplification|"
+    r"(cracks\.\d+\.)?bond(\.breaks_s|\.breaks_by)?|tension\.(strength|mesh)"
 )
 # A crack that rises downstream: nothing makes the part above slide that way.
 STEEP = ["crack.elevation=40m", "crack.inclination=30deg", "crack.friction=2"]
