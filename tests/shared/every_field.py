@@ -258,6 +258,21 @@ HELPED |= {f"statics.earthquakes[0].{name}": (QUAKES, None) for name in QUAKE}
 HELPED["statics.earthquakes[0].name"] = (QUAKES, "SEE")
 HELPED["statics.earthquakes[0].rarity"] = (QUAKES, "unusual")
 HELPED |= {f"statics.sections[0].{name}": ({"statics.sections": [JOINT]}, None) for name in JOINT}
+SUITE: Fields = {"motions": [{"file": "a.txt", "vertical": "up.txt"}]}
+HELPED |= {
+    "motions[0].file": (SUITE, "b.txt"),
+    "motions[0].vertical": (SUITE, "down.txt"),
+    "suite.judge": (SUITE, "mean"),
+    "suite.target": (SUITE, "en1998:0.3g,B"),
+    "suite.pga": (SUITE, "0.3 g"),
+    "suite.sa": (SUITE, "0.5 g"),
+    "suite.period": (SUITE | {"suite.sa": "0.5 g"}, "0.3 s"),
+    "suite.match": (SUITE, "en1998:0.3g,B"),
+    "suite.both_signs": (SUITE, False),
+    "suite.vertical": (SUITE, True),
+    "suite.unit": (SUITE, "g"),
+    "suite.time_step": (SUITE, "0.01 s"),
+}
 _NUMBER = re.compile(r"-?\d+(?:\.\d*)?(?:e[+-]?\d+)?")
 
 

@@ -209,6 +209,9 @@ def test_what_is_wrong_with_a_record_names_the_field_that_has_it(tmp_path):
     (line,) = wrongs(tmp_path, changed(GRID, 'folder = "quakes"', 'files = ["bare.txt"]\nunit = "g"'))
     assert line.startswith("bare.txt: ")
     assert "motions.time_step" in line
+    whole = 'files = ["bare.txt"]\nunit = "g"\ntime_step = "0.02 s"'
+    plan = plan_of(read_study(study_file(tmp_path, changed(GRID, 'folder = "quakes"', whole))))
+    assert plan.shakes[0].horizontal.duration == pytest.approx(59 * 0.02)
 
 
 def test_what_does_not_agree_is_told_at_once(tmp_path):

@@ -207,3 +207,81 @@ def test_the_evidence_of_one_record_says_how_certain_a_limit_is(records):
     close, _ = found.suite["models"][0]["limits"]
     assert (close["met"], close["certain"]) == (True, False)
     assert found.to_json()["directory"] is None
+
+
+SCALED = {"suite.pga": "0.7 g", "suite.judge": "mean", "suite.target": "en1998:0.3g,B"}
+
+
+def listed(dam, *motions, **suite):
+    """Return the dam with a suite of records in its case."""
+    return dam.with_({"motions": list(motions), **SCALED}, {f"suite.{name}": value for name, value in suite.items()})
+
+
+def test_the_records_of_the_case_are_those_of_a_folder(dam, records):
+    given = heeltoe.run_suite(dam, records, model="rigid", pga="0.7 g", judge="mean", target="en1998:0.3g,B")
+    folder = heeltoe.run_suite(listed(dam, {"file": str(records)}), model="rigid")
+    assert folder.suite == given.suite
+    named = [{"file": str(records / name)} for name in ("quake-a-000.txt", "quake-c-180.txt")]
+    two = heeltoe.run_suite(listed(dam, *named), model="rigid").suite["models"][0]["records"]
+    kept = [
+        record for record in given.suite["models"][0]["records"] if record["motion"] in ("quake-a-000", "quake-c-180")
+    ]
+    keys = ("motion", "residual_slip_m", "sign", "pga_g")
+    assert [[record[key] for key in keys] for record in two] == [[record[key] for key in keys] for record in kept]
+
+
+@pytest.mark.parametrize(
+    ("motion", "suite"),
+    [
+        ({"vertical": "quake-a-up.txt"}, {}),
+        ({}, {"vertical": True}),
+        ({}, {"pga": "0.6 g"}),
+        ({}, {"pga": None, "sa": "0.5 g"}),
+        ({}, {"pga": None, "sa": "0.5 g", "period": "0.5 s"}),
+        ({}, {"match": "en1998:0.3g,B"}),
+        ({}, {"judge": "largest"}),
+        ({}, {"target": None}),
+        ({}, {"both_signs": False}),
+        ({}, {"unit": "m/s^2"}),
+        ({}, {"time_step": "0.03 s"}),
+    ],
+)
+def test_every_field_of_a_suite_changes_something_or_is_refused(dam, records, motion, suite):
+    def result(motion, suite):
+        entry = {name: str(records / file) for name, file in motion.items()}
+        try:
+            return heeltoe.run_suite(listed(dam, entry, **suite), model="rigid")
+        except InputError as error:
+            return error
+
+    file = {"file": "quake-a-000.txt"}
+    before, after = result(file, {}), result(file | motion, suite)
+    if isinstance(after, InputError):
+        # The file states its unit and its step, and has no vertical component in it.
+        assert after.field in (f"suite.{name}" for name in suite)
+        return
+    assert after.suite != before.suite or after.told["spectra"] != before.told["spectra"]
+
+
+def test_what_is_wrong_with_a_suite_names_the_field_of_the_case(dam, records):
+    with pytest.raises(InputError) as error:
+        heeltoe.run_suite(listed(dam, {"file": str(records / "quake-a-000.txt")}, {"file": "nowhere"}), model="rigid")
+    assert (error.value.code, error.value.field) == ("record-not-found", "motions[1].file")
+    with pytest.raises(InputError) as error:
+        heeltoe.run_suite(dam, model="rigid")
+    assert (error.value.code, error.value.field) == ("study-motions", "motions")
+    with pytest.raises(InputError) as error:
+        listed(dam, {"file": "a"}, pga="-1 g", unit="hm")
+    assert {error.value.field, *(other.field for other in error.value.others)} == {"suite.pga", "suite.unit"}
+
+
+def test_a_case_that_lists_motions_is_run_as_a_suite(dam, records, tmp_path):
+    fields = dam.model_dump(mode="json", exclude_unset=True, exclude={"motion"})
+    fields |= {"motions": [{"file": "quakes/quake-a-000.txt"}], "suite": {"pga": "0.5 g"}}
+    (tmp_path / "dam.toml").write_text(case_text(fields))
+    (tmp_path / "quakes").symlink_to(records)
+    said = command("run", "dam.toml", "--model", "rigid", "--pga", "0.7g", "--json", "-", cwd=tmp_path)
+    (record,) = json.loads(said.stdout)["suite"]["models"][0]["records"]
+    assert record["pga_g"] == pytest.approx(0.7)
+    refused = command("run", "dam.toml", "--spread", "3", cwd=tmp_path)
+    assert "--spread: goes with one motion" in refused.stderr

@@ -41,6 +41,8 @@ _REPLACES = {
             **dict.fromkeys(_FACES, (*_DIMENSIONS, *_FILE, "polygon")),
         }.items()
     },
+    "suite.pga": ("suite.sa", "suite.period"),
+    "suite.sa": ("suite.pga", "suite.period"),
     "uplift.drain_position": ("uplift.drain_x",),
     "uplift.drain_x": ("uplift.drain_position",),
     "statics.criteria": ("statics.criteria_file",),

@@ -75,6 +75,8 @@ READ_BY: dict[str, frozenset[str]] = {
     "uplift.opening": _SHAKEN,
     "motion": _SHAKEN,
     "aftershocks": _SHAKEN,
+    # A suite takes them off the case and runs the models through each of its records.
+    **dict.fromkeys(("motions", "suite"), frozenset[str]()),
     "flexible": frozenset({"flexible"}),
     **dict.fromkeys(
         (

@@ -31,6 +31,7 @@ from heeltoe.case.quantities import Gravity
 from heeltoe.case.section import Section
 from heeltoe.case.section_file import with_section_read
 from heeltoe.case.sentences import all_errors, gathered
+from heeltoe.case.suite import Suite, SuiteMotion
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 from heeltoe.geometry.levels import cut_levels
@@ -81,6 +82,10 @@ class Case(Shown, Fields):
     aftershocks: tuple[Aftershock, ...] = ()
     """Motions after it, each with what the one before has left. A file may also give all of them as one list,
     `[[motion]]`."""
+    motions: tuple[SuiteMotion, ...] = ()
+    """A suite of records, which the dam meets one by one, each from rest; `heeltoe run` runs all of them."""
+    suite: Suite = Suite()
+    """How strong the records of the suite are, and how it is judged."""
     flexible: Flexible = Flexible()
     """Choices of the flexible model."""
     decoupled: Decoupled = Decoupled()

@@ -26,6 +26,8 @@ prestress = "2 MN/m" }}]
 # further_cracks = [{{ elevation = "80 m", friction = 1.0, uplift = "triangular", uplift_intensity = 0.5 }}]
 # Motions after that of [motion], each meeting the dam as the one before has left it; what a motion has, and a pause:
 # aftershocks = [{{ file = "elcentro-1940-270-nga", pga = "0.2 g", pause = "10 s" }}]
+# A suite of records, which the dam meets one by one, each from rest; its block [suite] is below:
+# motions = [{{ file = "elcentro-1940-180-nga" }}, {{ file = "elcentro-1940-270-nga" }}]
 
 # [project]                        # the title block of the report, in your own words
 # name = "Safety review"
@@ -158,6 +160,18 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # allow_zero = true                # accept a motion that is zero throughout
 # Or draw the motion, instead of file; the same time twice is a jump:
 # points = [["0 s", "0 g"], ["0.5 s", "0.4 g"], ["1 s", "0 g"]]
+
+# [suite]                          # of the records of motions
+# pga = "0.3 g"                    # of each; or the spectral acceleration at a period, that of the dam where not given
+# sa = "0.5 g"
+# period = "0.3 s"
+# match = "en1998:0.3g,B"          # match each to this spectrum first
+# target = "en1998:0.3g,B"         # draw this spectrum beside theirs
+# judge = "mean"                   # what is held against the limits: largest (the default), mean, median, 84%
+# both_signs = true                # each record both ways round
+# vertical = true                  # with the vertical components of folders
+# unit = "g"                       # of files that do not state it
+# time_step = "0.01 s"
 
 # [flexible]
 # plane = "stress"                 # or strain

@@ -145,10 +145,14 @@ def run(
     details: Details = False,
 ) -> None:
     """Run a case and print what the dam does."""
+    from heeltoe.case.read import read_case, read_fields
+
     suite = Suite(motions or [], sa, match, target, judge, vertical, resume)
     request = Asked(model, spread, json_, out, units, csv, vtk, vary, report, details, xlsx)
-    changes = list(set_ or [])
-    if motions:
+    request.check()
+    changes: list[str | Mapping[str, Any]] = [*(set_ or [])]
+    changes += [] if evidence is None else [f"flexible.evidence={evidence}"]
+    if motions or "motions" in read_fields(Path(case)):
         others = {
             "--motion": motion,
             "--reverse": reverse,
@@ -160,15 +164,13 @@ def run(
             "--vary": vary,
         }
         refuse(others, "suite-option")
-        changes += [] if evidence is None else [f"flexible.evidence={evidence}"]
-        run_suite_command(case, changes, pga, suite, request)
+        run_suite_command(case, read_case(case, changes), pga, suite, request)
         return
     refuse(suite.options(), "suite-needs")
     options = (
         ("motion.file", motion and json.dumps(as_given(motion))),
         ("motion.pga", pga),
         ("motion.duration", duration),
-        ("flexible.evidence", evidence),
     )
     changes += [f"{name}={value}" for name, value in options if value is not None]
     _run(case, changes, reverse, output_step, request)
@@ -246,7 +248,6 @@ def _run(path: str, changes: Given, reverse: bool, output_step: str | None, requ
     from heeltoe.units.parse import parse
     from heeltoe.views.terminal.show import show
 
-    request.check()
     runs = request.runs()
     case = read_case(path, changes)
     if reverse and case.motion is not None:

@@ -47,6 +47,8 @@ _CELLS = {
     "further_cracks[].kinks": ("Distance from the heel", "Height above the line"),
     "further_cracks[].law.roughness_friction": ("Normal stress", "Coefficient"),
 }
+# Blocks for suites of records, which the page does not run one by one.
+_OF_SUITES = ("motions", "suite")
 # Motions, of which all have the same fields.
 _MOTIONS = re.compile(r"^(motion\.vertical|aftershocks\[\](\.vertical)?)")
 _OF_LISTS = re.compile(r"\[\d+\]")
@@ -173,6 +175,8 @@ def _walk(here: Schema, schema: Schema, path: str, *, optional: bool, meaning: s
     own: list[Field] = []
     others: list[Iterable[Block]] = []
     for name, entry in here["properties"].items():
+        if path == "" and name in _OF_SUITES:
+            continue
         at = f"{path}.{name}" if path else name
         inner = _block_in(entry, schema)
         if inner is None:

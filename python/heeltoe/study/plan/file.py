@@ -24,6 +24,7 @@ from heeltoe.case.fields import Count, Fields, TimeSpan, Truth
 from heeltoe.case.quantities import DimensionlessNumber, Duration, Length
 from heeltoe.case.read import read_fields
 from heeltoe.case.sentences import collected, first_error, gathered
+from heeltoe.case.suite import PeriodField, SuiteRule
 from heeltoe.errors.error import InputError, shown
 from heeltoe.units.parse import acceleration_unit
 
@@ -112,13 +113,6 @@ class Event(Fields):
     """Moment magnitude; nothing depends on it but the comparison of measures of strength."""
     distance: Annotated[Length, Field(gt=0.0)] | None = None
     """From the fault to the place; for the same."""
-
-
-#: A period, or that of the first mode of the dam.
-PeriodField = Annotated[
-    Annotated[Literal["T1"], Tag(" ")] | Annotated[Duration, Field(ge=0.01, le=20.0), Tag("")],
-    Discriminator(lambda value: " " if value == "T1" else ""),
-]
 
 
 class Scale(Fields):
@@ -242,15 +236,6 @@ class Hazard(Fields):
         return self
 
 
-class SuiteRule(Fields):
-    """How a suite of records is judged: one dam in several earthquakes."""
-
-    judge: Literal["largest", "mean", "median", "84%"] = "largest"
-    """Which number over the records is held against the limits of the case."""
-    target: str | None = Field(default=None, strict=True, min_length=1)
-    """Target spectrum to draw with those of the records, written as `motions.match`; that one where it is given."""
-
-
 class Study(Shown, Fields):
     """Many runs of one dam: what varies, and how."""
 
@@ -284,6 +269,22 @@ class Study(Shown, Fields):
     """The table of a suite of records, for one dam at one strength of each motion."""
 
     _directory: Path = PrivateAttr(default_factory=Path)
+
+    @classmethod
+    def of(cls, fields: Mapping[str, Any], directory: Path) -> Self:
+        """Return the study of some fields, as a file has them, with relative paths from a directory.
+
+        Raises
+        ------
+        InputError
+            The first thing that is wrong, with the others.
+        """
+        try:
+            study = cls.model_validate(fields)
+        except ValidationError as error:
+            raise first_error(error, cls) from None
+        study._directory = directory
+        return study
 
     @property
     def directory(self) -> Path:
@@ -338,9 +339,4 @@ def read_study(source: str | PathLike[str]) -> Study:
     fields = read_fields(path, "study-file-missing")
     if "section" in fields and fields.keys().isdisjoint(("case", "cases")):
         raise InputError("case-no-study", str(path), name=path.name)
-    try:
-        study = Study.model_validate(fields)
-    except ValidationError as found:
-        raise first_error(found, Study) from None
-    study._directory = path.parent
-    return study
+    return Study.of(fields, path.parent)

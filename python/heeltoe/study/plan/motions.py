@@ -17,6 +17,7 @@ from heeltoe.case.model import Case
 from heeltoe.case.motion import Source
 from heeltoe.case.sentences import first_error
 from heeltoe.case.shaking import read_source
+from heeltoe.case.suite import SuiteMotion
 from heeltoe.errors.error import InputError, shown
 from heeltoe.errors.sanitize import harmless
 from heeltoe.models.run import runs_both_signs
@@ -160,8 +161,9 @@ def _field_of(motions: Motions, name: str, entry: str) -> str:
 def _read(
     motions: Motions, case: Case, directory: Path, name: str, field: str, *, upward: bool = False
 ) -> GroundMotion:
+    step = None if motions.time_step is None else f"{motions.time_step!r} s"
     try:
-        source = Source(file=name, unit=motions.unit, time_step=motions.time_step)
+        source = Source.model_validate({"file": name, "unit": motions.unit, "time_step": step})
     except ValidationError as found:
         raise first_error(found, Source) from None
     return read_source(source, case.gravity, directory, field, upward=upward, options_field="motions")
@@ -189,32 +191,45 @@ def _events(motions: Motions, directory: Path) -> Iterator[Event]:
         yield Event(name=common, horizontal=tuple(horizontal), vertical=used)
 
 
-def suite_events(names: Sequence[str], *, vertical: bool) -> list[Event]:
-    """Return each horizontal record of files, names and folders as an event by itself.
+def suite_events(motions: Sequence[SuiteMotion], directory: Path, *, vertical: bool) -> tuple[list[Event], list[str]]:
+    """Return each horizontal record of a suite as an event by itself, with the entry of the case that it comes from.
 
-    A vertical component, told by its name, goes with each horizontal one of its name where `vertical` is asked for, and
-    is left out otherwise.
+    A vertical component of a folder, told by its name, goes with each horizontal one of its name where `vertical` is
+    asked for, and is left out otherwise.
 
     Raises
     ------
     InputError
-        Where a folder has no records, or two records have one name.
+        Where there is no record, a folder has none, or two records have one name.
     """
-    files = [file for name in names for file in (_folder(name, Path()) if os.path.isdir(name) else [name])]
+    if not motions:
+        raise InputError("study-motions", "motions")
+    files: dict[str, tuple[str, str | None]] = {}
+    names = list[str]()
+    for place, motion in enumerate(motions):
+        is_folder = os.path.isdir(directory / os.path.expanduser(motion.file))
+        for name in _folder(motion.file, directory, f"motions[{place}].file") if is_folder else [motion.file]:
+            files[name] = f"motions[{place}]", motion.vertical
+            names.append(name)
     upward = {
         _parts(file)[0]: file
         for file in files
         if _VERTICAL.fullmatch(_parts(file)[1]) and any(_goes_with(file, other) for other in files)
     }
-    horizontal = [file for file in files if file not in upward.values()]
-    stems = [Path(file).stem if os.path.isfile(file) else file for file in horizontal]
+    horizontal = [file for file in names if file not in upward.values()]
+    stems = [Path(file).stem if os.path.isfile(directory / file) else file for file in horizontal]
     twice = [stem for stem in stems if stems.count(stem) > 1]
     if twice:
         raise InputError("study-twice", "motions", shown(twice[0]))
-    return [
-        Event(name=stem, horizontal=(file,), vertical=upward.get(_parts(file)[0]) if vertical else None)
+    events = [
+        Event(
+            name=stem,
+            horizontal=(file,),
+            vertical=files[file][1] or (upward.get(_parts(file)[0]) if vertical else None),
+        )
         for stem, file in zip(stems, horizontal, strict=True)
     ]
+    return events, [files[file][0] for file in horizontal]
 
 
 def _goes_with(upward: str, other: str) -> bool:
@@ -231,14 +246,14 @@ def _parts(name: str) -> tuple[str, str]:
     return (match[1], match[2]) if match else (stem, "")
 
 
-def _folder(name: str, directory: Path) -> list[str]:
+def _folder(name: str, directory: Path, field: str = "motions.folder") -> list[str]:
     """Return the records of a folder, in the order of their names."""
     # Unlike that of paths, it leaves the home of nobody as it is.
     root = directory / os.path.expanduser(name)
     # A name that is too long for any file is no folder, either: Path.is_dir raises.
     if not os.path.isdir(root):
-        raise InputError("study-folder", "motions.folder", shown(name))
+        raise InputError("study-folder", field, shown(name))
     files = [str(path.resolve()) for path in sorted(root.iterdir()) if is_record(path)]
     if not files:
-        raise InputError("study-folder-empty", "motions.folder", shown(name))
+        raise InputError("study-folder-empty", field, shown(name))
     return files

@@ -11,11 +11,10 @@ from pathlib import Path
 from tempfile import mkdtemp
 from typing import Any
 
-from pydantic import ValidationError
-
+from heeltoe.case.lists import renamed
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
-from heeltoe.case.sentences import first_error
+from heeltoe.case.suite import Suite
 from heeltoe.errors.error import InputError
 from heeltoe.models.run import AUTO, check_model, models_of
 from heeltoe.study.answers.study_results import Opened
@@ -24,58 +23,45 @@ from heeltoe.study.plan.motions import suite_events
 from heeltoe.study.run.run import Outlook, Progress, run_study
 
 Motions = str | os.PathLike[str] | Sequence[str | os.PathLike[str]]
+# Fields of the study of a suite, and what the case calls them.
+_FIELDS = {
+    f"motions.{name}": f"suite.{field}"
+    for name, field in (
+        *(("scale.period", "period"), ("match", "match")),
+        *((name, name) for name in ("vertical", "unit", "time_step")),
+    )
+}
 
 
 def run_suite(
     source: Case | str | os.PathLike[str] | Mapping[str, Any],
-    motions: Motions,
+    motions: Motions | None = None,
     *,
     model: str = AUTO,
-    pga: str | None = None,
-    sa: str | None = None,
-    period: str = "T1",
-    match: str | None = None,
-    target: str | None = None,
-    judge: str = "largest",
-    both_signs: bool | None = None,
-    vertical: bool = False,
     out: str | os.PathLike[str] | None = None,
     resume: bool = False,
     scheduler: str | None = None,
     progress: Callable[[Progress], None] | None = None,
     before: Callable[[Outlook], None] | None = None,
+    **suite: Any,
 ) -> Opened:
     """Run one dam through several earthquakes, each both ways round.
 
     Parameters
     ----------
     source
-        The dam: a case, or what :func:`heeltoe.read_case` takes. Its own motion, if any, is not used.
+        The dam: a case, or what :func:`heeltoe.read_case` takes. Its single motion, if any, is not used.
     motions
-        A folder of records, or records by file or by name, each of which is one earthquake.
+        A folder of records, or records by file or by name, each of which is one earthquake, in the place of those that
+        the case lists in `[[motions]]`.
     model
         As :func:`heeltoe.run` takes it; ``"auto"`` runs the better model alone.
-    pga
-        Scale each record to this peak, ``"0.3 g"``; as recorded where neither this nor `sa` is given.
-    sa
-        Scale each record to this spectral acceleration at `period`, 5 % damping.
-    period
-        ``"0.3 s"``, or ``"T1"`` for the first period of the dam, intact and with its water.
-    match
-        Match each record to a target spectrum first, ``"en1998:0.3g,B"``; see :func:`heeltoe.match`.
-    target
-        Target spectrum to draw with those of the records; that of `match` where it is given.
-    judge
-        What is held against the limits of the case: the ``"largest"``, ``"mean"``, ``"median"`` or ``"84%"`` over the
-        records, each by its worse sign.
-    both_signs
-        Whether each record runs both ways round; it does unless the case says which way round its motion is.
-    vertical
-        Whether a vertical component, told by its name, shakes the dam with each horizontal one.
     out
         Directory that keeps the runs, for `resume`; without it they are gone with the result.
     resume, scheduler, progress, before
         As of :func:`heeltoe.run_study`.
+    **suite
+        Fields of the block `[suite]` of the case, which win over its own: ``sa="0.5 g", judge="mean"``.
 
     Returns
     -------
@@ -88,42 +74,65 @@ def run_suite(
         Where the dam cannot run through the motions.
     """
     case = source if isinstance(source, Case) else read_case(source)
+    changes = {f"suite.{name}": value for name, value in suite.items() if value is not None}
+    if motions is not None:
+        changes["motions"] = [{"file": name} for name in _listed(motions)]
+    case = case.with_(changes) if changes else case
     check_model(model, "model")
-    names = models_of(case, model)[0]
-    study = _study(
+    study, names = _study_of(case, model)
+    place = mkdtemp(prefix="heeltoe-suite-") if out is None else out
+    still = case.model_copy(update={"motions": (), "suite": Suite()})
+    options = {"scheduler": scheduler, "progress": progress, "before": before}
+    try:
+        results = run_study(study, place, case=still, resume=resume, **options)  # type: ignore[arg-type]
+    except BaseException as error:
+        if out is None:
+            shutil.rmtree(place, ignore_errors=True)
+        if isinstance(error, InputError):
+            renamed((error, *error.others), names)
+        raise
+    if out is not None:
+        return results
+    # Nobody finds it there.
+    results = replace(results, kept=False)
+    weakref.finalize(results, shutil.rmtree, place, ignore_errors=True)
+    return results
+
+
+def _study_of(case: Case, model: str) -> tuple[Study, dict[str, str]]:
+    """Return the study that a suite is, and how the case calls its fields."""
+    rule, models = case.suite, models_of(case, model)[0]
+    events, paths = suite_events(case.motions, case.base_directory, vertical=rule.vertical)
+    scale = None
+    if rule.pga is not None:
+        scale = {"measure": "pga", "values": [str(rule.pga)]}
+    elif rule.sa is not None:
+        scale = {"measure": "sa", "period": _as_written(rule.period), "values": [str(rule.sa)]}
+    study = Study.of(
         {
             "title": case.title,
             "case": case.title or "case",
-            "model": list(names[-1:] if model == AUTO else names),
+            "model": list(models[-1:] if model == AUTO else models),
             "motions": {
-                "events": [event.model_dump() for event in suite_events(_listed(motions), vertical=vertical)],
-                "vertical": vertical,
-                "both_signs": both_signs,
-                "scale": _scale(pga, sa, period),
-                "match": match,
+                "events": [event.model_dump() for event in events],
+                "vertical": rule.vertical,
+                "both_signs": rule.both_signs,
+                "scale": scale,
+                "match": rule.match,
+                "unit": rule.unit,
+                "time_step": None if rule.time_step is None else f"{rule.time_step!r} s",
             },
-            "suite": {"judge": judge, "target": target},
-        }
+            "suite": {"judge": rule.judge, "target": rule.target},
+        },
+        case.base_directory,
     )
-    if out is not None:
-        return run_study(study, out, case=case, resume=resume, scheduler=scheduler, progress=progress, before=before)
-    place = mkdtemp(prefix="heeltoe-suite-")
-    try:
-        found = run_study(study, place, case=case, scheduler=scheduler, progress=progress, before=before)
-    except BaseException:
-        shutil.rmtree(place, ignore_errors=True)
-        raise
-    # Nobody finds it there.
-    found = replace(found, kept=False)
-    weakref.finalize(found, shutil.rmtree, place, ignore_errors=True)
-    return found
+    names = {f"motions.events[{place}].horizontal[0]": f"{path}.file" for place, path in enumerate(paths)}
+    names |= {f"motions.events[{place}].vertical": f"{path}.vertical" for place, path in enumerate(paths)}
+    return study, names | _FIELDS
 
 
-def _study(fields: dict[str, Any]) -> Study:
-    try:
-        return Study.model_validate(fields)
-    except ValidationError as error:
-        raise first_error(error, Study) from None
+def _as_written(period: str | float | None) -> str:
+    return f"{period!r} s" if isinstance(period, float) else "T1"
 
 
 def _listed(motions: Motions) -> list[str]:
@@ -137,15 +146,3 @@ def _absolute(name: str) -> str:
     """Return where a file or a folder is; a name of the catalogue stays as it is."""
     path = os.path.expanduser(name)
     return str(Path(path).resolve()) if os.path.exists(path) else name
-
-
-def _scale(pga: str | None, sa: str | None, period: str) -> dict[str, Any] | None:
-    if pga is not None and sa is not None:
-        raise InputError("fields-conflict", "pga", other="sa")
-    if pga is not None:
-        return {"measure": "pga", "values": [pga]}
-    if sa is not None:
-        return {"measure": "sa", "period": period, "values": [sa]}
-    if period != "T1":
-        raise InputError("needs-other", "period", other="sa")
-    return None

@@ -116,6 +116,8 @@ def _found(path: str, kind: str) -> str:
     if path.partition(".")[0] in _SHOWN:
         return "what is shown alone"
     models = readers(path.replace("[]", "").partition("[")[0] if "[" in path else path)
+    if not models:
+        return "suites of records alone"
     names = [name for model, name in READERS.items() if model in models]
     return (
         "all models" if len(names) == len(READERS) else " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))

@@ -49,6 +49,7 @@ _PAGES = {
     "uplift.opening": "flexible.md#water-in-the-crack-that-opens",
     "motion": "howto/record.md",
     "aftershocks": "sequence.md",
+    "motions": "suites.md",
     "flexible": "flexible.md#bodies",
     "flexible.damping": "flexible.md equation 2a",
     "flexible.damping_on_water": "flexible.md equation 2a",

@@ -1,0 +1,78 @@
+"""A suite of records: the earthquakes that one dam meets one by one, how strong they are, and how they are judged."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from heeltoe.case.fields import Fields, TimeSpan, Truth
+from heeltoe.case.quantities import AccelerationField, Duration
+from heeltoe.case.sentences import gathered
+from heeltoe.errors.error import InputError
+from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
+
+#: A period, or that of the first mode of the dam.
+PeriodField = Annotated[
+    Annotated[Literal["T1"], Tag(" ")] | Annotated[Duration, Field(ge=0.01, le=20.0), Tag("")],
+    Discriminator(lambda value: " " if value == "T1" else ""),
+]
+
+
+class SuiteMotion(Fields):
+    """One earthquake of a suite, or a folder of them."""
+
+    file: str = Field(strict=True, min_length=1)
+    """A record: its file, relative to the case file, its name in the catalogue, or a motion made to order; or a folder,
+    each horizontal record of which is one earthquake."""
+    vertical: str | None = Field(default=None, strict=True, min_length=1)
+    """The vertical component of the same earthquake, scaled by the same factor."""
+
+
+class SuiteRule(Fields):
+    """How a suite of records is judged: one dam in several earthquakes."""
+
+    judge: Literal["largest", "mean", "median", "84%"] = "largest"
+    """Which number over the records is held against the limits of the case."""
+    target: str | None = Field(default=None, strict=True, min_length=1)
+    """Target spectrum to draw with those of the records, written as `motions.match`; that one where it is given."""
+
+
+class Suite(SuiteRule):
+    """How strong the records of `[[motions]]` are, and how the suite is judged."""
+
+    pga: AccelerationField | None = None
+    """Scale each record to this peak acceleration; as recorded where neither this nor `sa` is given."""
+    sa: AccelerationField | None = None
+    """Scale each record to this spectral acceleration at `period`, 5 % damping."""
+    period: PeriodField | None = None
+    """Of `sa`: "0.3 s", or "T1", the default, for the first period of the dam, intact and with its water."""
+    match: str | None = Field(default=None, strict=True, min_length=1)
+    """Target spectrum to which each record is matched before it is scaled: `en1998:0.3g,B`, `asce7:0.9g,0.4g,8s`, or a
+    file, relative to the case file."""
+    both_signs: Truth | None = None
+    """Whether each record runs both ways round: it does unless `motion.sign` says which way round motions are."""
+    vertical: Truth = False
+    """Whether the vertical components of folders, told by their names, shake the dam with each horizontal one."""
+    unit: str | None = Field(default=None, strict=True)
+    """Unit of the numbers in files that do not state it."""
+    time_step: TimeSpan | None = None
+    """Time between the numbers of files that do not state it."""
+
+    @model_validator(mode="after")
+    @gathered
+    def _agree(self) -> Iterator[InputError]:
+        if self.pga is not None and self.sa is not None:
+            yield InputError("fields-conflict", "pga", other="sa")
+        if self.period is not None and self.sa is None:
+            yield InputError("needs-other", "period", other="sa")
+        for name in ("pga", "sa"):
+            value = getattr(self, name)
+            if value is not None and not value.si(STANDARD_GRAVITY) > 0.0:
+                yield InputError("out-of-range", name, str(value), bound="above 0")
+        if self.unit is not None:
+            try:
+                acceleration_unit(self.unit, "unit")
+            except InputError as error:
+                yield error
