@@ -10,6 +10,7 @@ import pty
 import re
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pyarrow.parquet as pq
@@ -381,6 +382,8 @@ def test_a_file_that_cannot_be_written_is_not_called_standard_output(monkeypatch
     def full(path):
         raise OSError(errno.ENOSPC, "No space left on device", "/there/cache")
 
+    # Whoever imports it now keeps what is patched.
+    import_module("heeltoe.study.run.run")
     monkeypatch.setattr("heeltoe.study.plan.file.read_study", full)
     said = command("study", "study.toml")
     assert said.returncode == 2
