@@ -146,6 +146,12 @@ pattern = "triangular"             # or none, uniform, cut-off, drained, profile
 # during_shaking = "constant"      # or "zero while open", "full while open", "follows opening"
 # opening = "0.1 mm"               # over which that changes the pressure
 
+# [joints]                         # in place of [crack]: lift joints that are all bonded alike
+# every = "10 m"                   # the height of a lift
+# lowest = "0 m"
+# highest = "90 m"
+# bond = {{ tensile_strength = "1 MPa", cohesion = "1 MPa", fracture_energy = "100 N/m", shear_energy = "100 N/m" }}
+
 [motion]                           # the ground's acceleration, positive downstream
 file = "elcentro-1940-180-nga"     # a file beside this one, or a name from the catalogue of records
 pga = "0.4 g"                      # leave out to take the record as it is
