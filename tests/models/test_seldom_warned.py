@@ -92,3 +92,12 @@ def test_sampling_of_the_motion_at_the_crack(warned):
     convergence = replace(level.convergence, coarser_residual_slip_m=coarser, change=decoupled._change(0.1, coarser))
     said = decoupled._warnings(replace(level, convergence=convergence))
     assert codes(said) == ({"sampling-matters"} if warned else set())
+
+
+def test_a_dam_without_a_state_of_rest():
+    toppling = example("typical-base", *FAST, "motion.duration=1s", "crack.friction=1.9", "section.base_width=45 m")
+    response = heeltoe.flexible(toppling)
+    assert response.outcome == "unstable"
+    assert "no-rest" in codes(response.warnings)
+    standing = heeltoe.flexible(example("typical-base", *FAST, "motion.duration=1s", "crack.friction=1.9"))
+    assert "no-rest" not in codes(standing.warnings)
