@@ -78,6 +78,7 @@ def results(tmp_path_factory, study):
         "flexible": run(full, "both").to_json(),
         "anchored": run(anchored.with_("concrete.modulus=20GPa"), "flexible").to_json(),
         "cracks": run(example("two-cracks", *FAST, "limits.residual_slip=1mm"), "flexible").to_json(),
+        "sound": run(example("typical-base", *FAST, "reservoir.compressible=true"), "flexible").to_json(),
         "law": run(example("typical-base", *FAST).with_({"crack": LAW}), "both").to_json(),
         "joint": run(
             example("typical-base", *FAST, "flexible.evidence=step").with_({"crack.bond": BOND}), "both"

@@ -439,6 +439,23 @@ class ElasticCrack(CrackNumbers):
     joint: Annotated[BondState | None, Number("What has become of the bond of a joint; null of a crack.")]
 
 
+class FacePressure(Block):
+    """The pressure of compressible water on a face over a run, by its frames."""
+
+    side: Annotated[str, Number("Which water: reservoir or tailwater.")]
+    largest_pa: Annotated[float, Number("Largest pressure beyond that at rest.", "Pa")]
+    largest_time_s: Annotated[float, Number("When that is.", "s")]
+    largest_z_m: Annotated[float, Number("At which height of the section.", "m")]
+    lowest_absolute_pa: Annotated[
+        float, Number("Lowest pressure, that at rest and that of the air at sea level included.", "Pa")
+    ]
+    lowest_time_s: Annotated[float, Number("When that is.", "s")]
+    lowest_z_m: Annotated[float, Number("At which height of the section.", "m")]
+    cavitates: Annotated[
+        bool, Number("Whether that is below the pressure of water vapour: the water would tear off, which no run has.")
+    ]
+
+
 class ElasticDam(Block):
     """What an elastic dam did as a whole."""
 
@@ -471,6 +488,10 @@ class ElasticDam(Block):
             "no bound anywhere."
         ),
     ]
+    water_pressure: Annotated[
+        list[FacePressure] | None,
+        Number("Of compressible water on each face: its extremes; not there without.", optional=True),
+    ] = None
 
 
 class Statistics(Block):

@@ -274,6 +274,12 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "{strength_pa:.3g MPa} that the concrete bears in an earthquake, over {share:.2g %} of the section: the "
         "assumption that nothing cracks further does not hold",
     ),
+    "cavitation": (
+        "caution",
+        "reservoir.compressible",
+        "{field}: {z_m:.3g m} up on the face the pressure falls {tension_pa:.3g kPa} below that of water vapour at "
+        "{time_s:.2f s}: the water would tear off there, and the shock when it closes is not modelled",
+    ),
     "tension-unjudged": (
         "caution",
         "concrete.tensile_strength",

@@ -11,6 +11,8 @@ import pytest
 from heeltoe import read_case, run
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.body.reservoir import water_body
+from heeltoe.models.flexible.result.water import total_pressure
+from heeltoe.views.figures.all import all_figures
 
 PULSES = [["0 s", "0 g"], ["0.1 s", "0.6 g"], ["0.3 s", "-0.9 g"], ["0.5 s", "0.9 g"], ["0.6 s", "0 g"]]
 DAM: dict[str, Any] = {
@@ -109,3 +111,50 @@ def test_stiff_water_is_the_mass_that_does_not_squeeze():
     mass = run(read_case(dam(reservoir={"depth": "26 m"})), "flexible")
     assert response.energy.far_end_j < 1e-3 * response.energy.input_j
     assert response.residual_slip_m == pytest.approx(mass.residual_slip_m, rel=0.1)
+
+
+def test_pressure_on_the_face_of_a_stiff_dam_in_a_slow_motion():
+    """8 G / pi^2 rho a h at the foot, G Catalan's constant: what incompressible water has before a vertical wall."""
+    slow = [[f"{0.05 * k:.2f} s", f"{0.1 * np.sin(np.pi * k / 40.0) ** 2:.9f} g"] for k in range(41)]
+    case = read_case(
+        dam(
+            **water(floor_reflection=1.0),
+            section={"height": "30 m", "crest_width": "5 m", "base_width": "30 m"},
+            concrete={"modulus": "1e6 GPa"},
+            crack={"elevation": "0 m", "friction": 5.0},
+            motion={"points": slow, "sign": "recorded"},
+        )
+    )
+    response = run(case, "flexible")
+    (face,) = response.crack.dam.reservoir.faces
+    total = total_pressure(face, response.crack.water)
+    assert face.still[0] == pytest.approx(1000.0 * case.gravity * 26.0)
+    assert total[0] == pytest.approx(face.still, abs=1.0)
+    frame = response.crack.frame_at(1.0)
+    # The ground moves downstream, and the face away from the water of the reservoir.
+    exact = -8.0 * 0.915966 / np.pi**2 * 1000.0 * 0.1 * case.gravity * 26.0
+    assert total[frame, 0] - face.still[0] == pytest.approx(exact, rel=0.015)
+    assert response.water_pressure[0].lowest_absolute_pa > 101325.0
+
+
+def test_water_that_tears_off_is_warned_of():
+    weak, strong = (
+        run(read_case(dam(motion={"points": PULSES, "pga": peak, "sign": "recorded"})), "flexible")
+        for peak in ("0.05 g", "3 g")
+    )
+    (low,), (high,) = weak.water_pressure, strong.water_pressure
+    assert low.side == high.side == "reservoir"
+    assert not low.cavitates
+    assert low.lowest_absolute_pa > 90e3
+    assert high.cavitates
+    assert high.lowest_absolute_pa < 0.0
+    assert high.largest_pa > low.largest_pa > 0.0
+    codes = [[notice.code for notice in response.warnings] for response in (weak, strong)]
+    assert "cavitation" not in codes[0]
+    assert "cavitation" in codes[1]
+    assert "water-pressure" in all_figures(None, strong)
+    assert all_figures(None, strong)["water-pressure"].axes
+    dry = run(read_case(dam(reservoir={"depth": "26 m"})), "flexible")
+    assert dry.water_pressure is None
+    assert "water_pressure" not in dry.to_json()
+    assert "water-pressure" not in all_figures(None, dry)

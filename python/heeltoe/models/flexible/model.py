@@ -20,6 +20,7 @@ from heeltoe.models.flexible.result.envelope import envelope_of
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.models.flexible.result.tables import crack_responses, crest_of, dam_numbers, energy_of, histories_of_cracks
 from heeltoe.models.flexible.result.tension import tension_of, tension_warnings
+from heeltoe.models.flexible.result.water import water_warnings
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import analysing, frame_step_of
 from heeltoe.models.flexible.run.slip_history import Worn, law_warnings, worn_of
@@ -88,12 +89,14 @@ def run_flexible(
     leads = leading_crack([crack.residual_slip_m for crack in cracks])
     # One that slides by itself needs no vibration to go on.
     growth = None if outcome == "unstable" else self_excitation(shaken, run, leads)
+    numbers = dam_numbers(shaken, run, growth, tension)
     return FlexibleResponse(
         model="flexible",
         title=case.title,
         outcome=outcome,
         advice=advice,
         warnings=(
+            *water_warnings(numbers.water_pressure),
             *warnings_of(shaken, run, histories, found.evidences, growth, block.sliding_safety_factor, outcome, leads),
             *tension_warnings(tension),
             *_about_the_laws(case, worn),
@@ -104,7 +107,7 @@ def run_flexible(
         gravity=case.gravity,
         cracks=cracks,
         asked=leads,
-        dam=dam_numbers(shaken, run, growth, tension),
+        dam=numbers,
         references=_references(case, dam),
         silence_s=earthquake.silence,
         envelope=envelope,

@@ -37,6 +37,7 @@ CAPTIONS = {
     "deformed": "Deformed dam with its principal stresses, tension on the left, compression on the right.",
     "tension": "Largest principal tension over the run at every place, and the largest of all.",
     "pressure": "Contact pressure along the crack over time.",
+    "water-pressure": "Pressure of the water on the face: at rest, its range over the run, and at two moments.",
     "mesh": "The mesh, and the nodes of the crack.",
     "modes": "Lowest vibration modes of the intact dam.",
 }
@@ -64,7 +65,7 @@ _LOWER = {
     "crack-level": 0.75,
     "crest": 0.55,
 }
-_LOWER |= {"crack": 0.7, "joint": 0.7, "pressure": 0.75}
+_LOWER |= {"crack": 0.7, "joint": 0.7, "pressure": 0.75, "water-pressure": 0.9}
 _LEAST_HEIGHT = 4.0
 # What belongs to the words around it does not wait for another page.
 _HELD = ("summary",)
@@ -84,6 +85,7 @@ _OF_BOTH = (
         "joint",
         "crack",
         "pressure",
+        "water-pressure",
         "deformed",
         "tension",
         "mesh",

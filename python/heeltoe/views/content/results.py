@@ -118,6 +118,7 @@ _FIGURES = (
     "joint",
     "crack",
     "pressure",
+    "water-pressure",
     "deformed",
     "tension",
 )

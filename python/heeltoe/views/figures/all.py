@@ -54,6 +54,7 @@ NAMES = (
     "joint",
     "crack",
     "pressure",
+    "water-pressure",
     "deformed",
     "tension",
     "mesh",
@@ -193,16 +194,19 @@ def _elastic_drawings(response: FlexibleResponse, units: str) -> dict[str, Calla
     from heeltoe.views.figures.dam import mesh_figure, modes_figure
     from heeltoe.views.figures.stress.deformed import deformed_figure
     from heeltoe.views.figures.stress.tension import tension_figure
+    from heeltoe.views.figures.water_pressure import water_pressure_figure
 
     dam = response.crack.dam
     drawn = {"tension": lambda: tension_figure(response, units)} if response.tension is not None else {}
     if sum(crack.joint is not None for crack in response.cracks) > 1:
         drawn["joints"] = lambda: joints_figure(response, units)
+    wet = {} if response.crack.water is None else {"water-pressure": lambda: water_pressure_figure(response, units)}
     if response.joint is not None:
         drawn["joint"] = lambda: joint_figure(response, units)
     return {
         "crack": lambda: crack_figure(response, units),
         "pressure": lambda: pressure_figure(response, units),
+        **wet,
         "deformed": lambda: deformed_figure(response, units=units),
         **drawn,
         "mesh": lambda: mesh_figure(dam, units),

@@ -57,11 +57,14 @@ class WetFace:
         (k, 2) nodes x and z from below [m].
     pressure
         (k, w) pressure beyond that at rest by the velocities of the modes.
+    still
+        (k,) that at rest [Pa]; zero above the surface.
     """
 
     side: str
     points: Floats
     pressure: Floats
+    still: Floats
 
 
 def water_body(
@@ -106,6 +109,9 @@ def water_body(
     coupling = [np.zeros((firsts[-1], body.mesh.nodes.size)) for body in bodies]
     faces = []
     for (reduced, side, wet), first, last in zip(waters, firsts, firsts[1:], strict=False):
+        own_water = case.reservoir if side == "reservoir" else case.tailwater
+        assert own_water is not None
+        unit_weight, surface = own_water.density * case.gravity, base + own_water.depth
         column = 0
         for place, path in wet:
             own = reduced.coupling[:, column : column + 2 * path.size]
@@ -113,7 +119,8 @@ def water_body(
             column += 2 * path.size
         pressure = np.zeros((reduced.pressure.shape[0], firsts[-1]))
         pressure[:, first:last] = reduced.pressure
-        faces.append(WetFace(side, np.vstack([bodies[place].mesh.nodes[path] for place, path in wet]), pressure))
+        points = np.vstack([bodies[place].mesh.nodes[path] for place, path in wet])
+        faces.append(WetFace(side, points, pressure, unit_weight * np.maximum(surface - points[:, 1], 0.0)))
     return WaterBody(
         np.concatenate([reduced.omega_squared for reduced, _, _ in waters]),
         block_diag(*(reduced.damping_floor for reduced, _, _ in waters)),

@@ -48,6 +48,8 @@ class CrackHistory:
     damage
         (f, c) of the bond of each watched node: 0 intact, below 1 softening, 1 broken; None of a crack that is no
         bonded joint.
+    water
+        (f, w) velocities of the modes of compressible water; None without.
     """
 
     time: Floats
@@ -60,6 +62,7 @@ class CrackHistory:
     contactors: int = 3
     place: int = 0
     damage: Floats | None = None
+    water: Floats | None = None
 
     def __repr__(self) -> str:
         nodes = self.upper_position.shape[-1]

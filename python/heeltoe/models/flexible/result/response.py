@@ -10,6 +10,7 @@ from heeltoe.result.numbers import (
     BondState,
     ElasticGive,
     EvidenceNumbers,
+    FacePressure,
     Mesh,
     Penetration,
     SelfExcitation,
@@ -70,6 +71,7 @@ class FlexibleResponse(Response):
     before_shaking = Of[BeforeShaking | None]()
     self_excitation = Of[SelfExcitation | None]()
     tension = Of[Tension | None]()
+    water_pressure = Of[list[FacePressure] | None]()
     contact = Of[str]()
     steps = Of[int]()
     time_step_s = Of[float]()

@@ -20,6 +20,7 @@ from heeltoe.models.flexible.evidence.growth import Growth
 from heeltoe.models.flexible.evidence.refinement import Answer
 from heeltoe.models.flexible.result.history import CrackHistory, watched_nodes
 from heeltoe.models.flexible.result.response import ElasticCrackResponse
+from heeltoe.models.flexible.result.water import face_pressures
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.slip_history import law_found, sliding_friction, worn_of
 from heeltoe.result.contract import slip_by_mode, time_by_mode
@@ -79,6 +80,7 @@ def histories_of_cracks(case: Case, dam: FlexibleDam, run: DamRun) -> tuple[Crac
                 dam=dam,
                 contactors=case.flexible.contactors,
                 place=place,
+                water=run.water if dam.reservoir is not None else None,
             )
         )
         watched += contacts
@@ -190,6 +192,7 @@ def dam_numbers(shaken: ShakenDam, run: DamRun, growth: Growth | None, tension: 
         drainage_by_motion=None,
         self_excitation=None if growth is None else growth.numbers(),
         tension=tension,
+        water_pressure=face_pressures(dam, run.frames.time, run.water),
     )
 
 
