@@ -112,3 +112,11 @@ def test_fields_are_explained_with_what_they_do_not_go_with():
     assert "penalty contact" in kinks.not_with
     assert "the rigid model" in kinks.not_with
     assert explain("cracks.roughness")[0].not_with == explain("crack.roughness")[0].not_with
+
+
+def test_what_is_refused_of_a_part_of_a_feature_is_named():
+    """Elastic rock goes with the flexible model; without a crack at the base it does not."""
+    words = [rule.without("rock") for rule in rules_of("rock")]
+    assert "elastic rock without a crack at the base in the flexible model" in words
+    assert "the flexible model" not in words
+    assert "three cracks in the rigid model" in [rule.without("cracks") for rule in rules_of("cracks")]

@@ -70,7 +70,12 @@ class Rule:
 
     def without(self, path: str) -> str:
         """Return in a few words what a field does not go with by this rule."""
-        features = [name for name in (self.feature, self.other) if name and not _is_of(FEATURES[name], path)]
+        # What a field may have beside its first feature is a part of that, and has to be named.
+        own = next((name for name, feature in FEATURES.items() if _is_of(feature, path)), "")
+        narrow = not self.other and self.feature != own
+        features = [
+            name for name in (self.feature, self.other) if name and (narrow or not _is_of(FEATURES[name], path))
+        ]
         users = [USERS[user] for user in self.users]
         what = f"{features[0]} in {', '.join(users)}" if features and users else ", ".join(features or users)
         return f"{what} (a warning says what is left out)" if self.verdict == "warned" else what
