@@ -15,7 +15,7 @@ import pytest
 from pypdf import PdfReader
 
 from heeltoe import Case, Response, read_case, rigid
-from heeltoe.case.project import Project
+from heeltoe.case.project import Project, Revision
 from heeltoe.views.animation.write import animate
 from heeltoe.views.notebook import html as notebook
 from heeltoe.views.report.html import html as page
@@ -120,7 +120,8 @@ def test_no_text_of_an_input_file_controls_the_terminal_or_a_spreadsheet(tmp_pat
     fields = tomllib.loads(Path(BLOCK).read_text(encoding="utf-8"))
     fields |= {
         "title": EVIL,
-        "project": dict.fromkeys(Project.model_fields, EVIL) | {"date": "2026-01-01"},
+        "project": dict.fromkeys(Project.model_fields, EVIL)
+        | {"date": "2026-01-01", "revisions": [dict.fromkeys(Revision.model_fields, EVIL)]},
         "motion": {"file": names["file"]},
         "statics": {
             "criteria_file": names["criteria_file"],

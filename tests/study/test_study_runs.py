@@ -5,11 +5,14 @@ from __future__ import annotations
 import errno
 import json
 import shutil
+from concurrent.futures import Future
 
 import pyarrow.parquet as pq
 import pytest
+from distributed.comm.core import CommClosedError
 
 from heeltoe import InputError, flexible, open_study, read_case, read_study, rigid, run_study
+from heeltoe.errors.error import UnfinishedError
 from heeltoe.models.run import decoupled
 from heeltoe.motion.records import read_record
 from heeltoe.study.plan.plan import plan_of
@@ -257,6 +260,44 @@ def test_no_scheduler_and_no_package_are_said(tmp_path, monkeypatch):
     with pytest.raises(InputError) as refused:
         list(run_on_workers(plan, [(0, 0, 1)], tmp_path))
     assert refused.value.code == "study-package"
+
+
+class LostScheduler:
+    """A client that has sent its work when the scheduler goes."""
+
+    def scatter(self, plan, **_):
+        return plan
+
+    def scheduler_info(self):
+        return {"workers": {}}
+
+    def submit(self, *_, **__):
+        future = Future()
+        future.set_exception(CommClosedError("gone"))
+        return future
+
+    def close(self, **_):
+        pass
+
+
+class Completed(list):
+    """What the work of :class:`LostScheduler` has come to."""
+
+    def __init__(self, **_):
+        super().__init__()
+
+    def add(self, future):
+        self.append((future, future.exception()))
+
+
+def test_a_lost_scheduler_is_no_fault_of_the_input(tmp_path, monkeypatch):
+    monkeypatch.setattr("heeltoe.study.run.schedule._reached", lambda address: LostScheduler())
+    monkeypatch.setattr("distributed.as_completed", Completed)
+    plan = plan_of(read_study(study_file(tmp_path, GRID)))
+    with pytest.raises(UnfinishedError, match="CommClosedError") as lost:
+        list(run_on_workers(plan, [(0, 0, 1)], tmp_path, "tcp://gone:1"))
+    assert lost.value.code == "study-lost"
+    assert "--resume" in str(lost.value)
 
 
 def test_the_store_knows_its_stretches(tmp_path):
