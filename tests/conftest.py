@@ -189,7 +189,7 @@ def koyna(koyna_both) -> heeltoe.Response:
 @pytest.fixture
 def no_figures(monkeypatch):
     """Leave out figures, which take most of the time, where words and numbers alone are looked at."""
-    monkeypatch.setattr("heeltoe.views.content.drawings.drawings", lambda figures: {})
+    monkeypatch.setattr("heeltoe.views.content.drawings.drawings", lambda figures, cracks=None: {})
     monkeypatch.setattr("heeltoe.views.files.write.save_all", lambda figures, directory: [])
 
 

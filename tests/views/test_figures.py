@@ -96,7 +96,7 @@ def test_units_that_nobody_knows(both):
 def test_figures_of_a_rigid_block(tmp_path, changes, panels):
     response = rigid(example("typical-base", *changes))
     assert len(response_figure(response).axes) == panels
-    names = {"response", "accelerations", "crest", "energy", "spectrum"}
+    names = {"response", "accelerations", "bearing", "crest", "energy", "spectrum"}
     # What only slides has its slip in the first picture.
     names |= {"path", "slip-by-mode"} if panels == 5 else set()
     paths = save_all(all_figures(None, response), tmp_path)
@@ -185,7 +185,7 @@ def test_figures_show_what_they_say(both):
     # What is put in goes somewhere, up to what the time stepping itself loses.
     parts = sum(values[-1] for name, values in lines.items() if name != "put in")
     assert parts == pytest.approx(lines["put in"][-1], rel=0.01)
-    colours = crack_figure(both).axes[1].collections[0].get_array()
+    colours = crack_figure(both).axes[0].collections[0].get_array()
     assert (colours == both.crack.status.T).all()
 
 

@@ -17,7 +17,7 @@ from heeltoe.study.small.run_table import parse_axes, run_small
 from heeltoe.views.figures.all import all_figures
 from heeltoe.views.figures.energy import energy_figure
 from heeltoe.views.figures.histories import response_figure
-from heeltoe.views.figures.runs import slips_figure
+from heeltoe.views.figures.runs import residual_slip_figure, slips_figure
 from heeltoe.views.figures.section import section_figure
 from heeltoe.views.figures.spectrum import spectrum_figure
 from heeltoe.views.figures.time_axis import shown_until
@@ -47,7 +47,7 @@ def test_the_vertical_motion_is_on_the_figures(lifted):
     figures = all_figures(None, lifted)
     for name in ("response", "accelerations"):
         panel = figures[name].axes[1]
-        assert panel.get_ylabel() == "vertical, + up\nacceleration [g]"
+        assert panel.get_ylabel() == "vertical\n(+ up) [g]"
         line = panel.lines[0]
         assert np.interp(0.2, line.get_xdata(), line.get_ydata()) == pytest.approx(0.3)
         assert "peak 0.3 g" in figures[name]._suptitle.get_text()
@@ -154,6 +154,14 @@ def test_a_table_of_runs_says_all_its_peaks():
     figure = slips_figure(grid)
     assert "peaks 0.2 to 0.6 g" in figure._suptitle.get_text()
     check(figure, "slips")
+    over = residual_slip_figure(grid)
+    (axes,) = over.axes
+    assert axes.get_xlabel() == "motion.pga [g]"
+    lines = {line.get_label(): line.get_xydata() for line in axes.lines if not line.get_label().startswith("_")}
+    strong = [response.residual_slip_m for cell, response in zip(grid.cells, grid.responses, strict=True)]
+    assert lines["crack.friction 0.8"][:, 0].tolist() == [0.2, 0.6]
+    assert lines["crack.friction 0.8"][-1, 1] in [pytest.approx(1e3 * slip) for slip in strong]
+    check(over, "residual-slip")
     one = run_small(KOYNA, ["motion.duration=6s"], variations[1:], lambda case: run(case, "rigid"))
     assert "peak 0.49 g" in slips_figure(one)._suptitle.get_text()
 

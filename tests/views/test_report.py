@@ -18,7 +18,7 @@ from heeltoe.errors.sanitize import LONGEST, plain
 from heeltoe.result.write import json_text
 from heeltoe.views.content.drawings import caption
 from heeltoe.views.content.input import fields, input_hash
-from heeltoe.views.content.tree import Document, FigureBlock, Section, paragraph
+from heeltoe.views.content.tree import Beside, Document, FigureBlock, Section, paragraph
 from heeltoe.views.report.html import html
 from heeltoe.views.report.typst_pdf import pages, pdf, source
 from heeltoe.views.report.write import build_report, check_packages, write_report
@@ -107,6 +107,8 @@ def test_figures_of_a_report_are_there_and_not_empty(document):
         for each in blocks:
             if isinstance(each, Section):
                 yield from figures(each.blocks)
+            elif isinstance(each, Beside):
+                yield from each.figures
             elif isinstance(each, FigureBlock):
                 yield each
 

@@ -246,7 +246,7 @@ def _block(block: Block) -> dict[str, Any]:
             "name": block.name,
             "caption": block.caption,
             "svg": data,
-            "width": block.share * block.size[0],
+            "width": block.size[0],
         }
     if isinstance(block, Listing):
         return {"kind": "listing", "text": block.text}

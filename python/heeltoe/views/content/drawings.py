@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from heeltoe.views.content.subject import NAMES
-from heeltoe.views.content.tree import FigureBlock
+from heeltoe.views.content.tree import Beside, Block, FigureBlock
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -18,12 +18,15 @@ CAPTIONS = {
     "section": "Section of the dam with its crack, water levels and the pressure in the crack.",
     "law": "The friction law of the crack: its strength over its normal stress.",
     "comparison": "Both models side by side, shaken by the same ground motion.",
-    "response": "Ground acceleration, slip (positive downstream), rotation and openings if there are any, the mode.",
+    "response": "Acceleration of the ground, slip, positive downstream, and what the part above the crack does.",
     "slip-by-mode": "Slip gathered in each mode of motion.",
     "friction": "Friction in the crack, what its law could bear at the moment, slip, and the way slipped to and fro.",
     "asperities": "How far the rough crack dilates as it slips, and the angle that wear leaves its flanks.",
     "accelerations": "Acceleration of the ground, acceleration of the slip, and the forces at heel and toe.",
     "forces": "Forces across the crack.",
+    "bearing": "Normal stress at heel and toe, straight over the crack as in static checks; where it is negative, "
+    "the crack does not bear over all its width.",
+    "anchors": "What the anchors bear, tension and resistance to slip together, and what they are good for.",
     "crest": "How the crest moves: its displacement relative to the ground, and its acceleration with that of the "
     "ground.",
     "energy": "Where the energy put in by the earthquake goes.",
@@ -41,36 +44,77 @@ CAPTIONS = {
     "mesh": "The mesh, and the nodes of the crack.",
     "modes": "Lowest vibration modes of the intact dam.",
 }
-# Simple figures need not be as wide as the page.
+# Simple figures need not be as wide as the page; those of a pair stand side by side.
 _SHARES = {
-    "section": 0.7,
     "law": 0.7,
-    "tension": 0.62,
-    "spectrum": 0.6,
     "slip-by-mode": 0.8,
     "friction": 0.9,
     "asperities": 0.9,
-    "energy": 0.75,
-    "mesh": 0.36,
-    "deformed": 0.78,
+    "energy": 0.8,
+    "bands": 0.8,
+    "slips": 0.8,
+    "fragility": 0.8,
+    "motion": 0.6,
+    "spectrum": 0.4,
+    "deformed": 0.57,
+    "tension": 0.43,
+    "crack": 0.5,
+    "pressure": 0.5,
+    "mesh": 0.32,
+    "modes": 0.68,
 }
-_SHARES |= {"bands": 0.8, "slips": 0.8, "fragility": 0.8}
-# Histories are drawn lower than on a page of their own, so that two of them share one, or one and a table; letters stay
-# as large as they are.
-_LOWER = {
-    "comparison": 0.64,
-    "response": 0.75,
-    "accelerations": 0.75,
-    "forces": 0.9,
-    "crack-level": 0.75,
-    "crest": 0.55,
+# In a report they have at most these heights [in], and tall ones a part of their own: lower than on a page of their
+# own, so that several share one with words and tables; letters stay as large as they are.
+_LOWER, _TALL = 0.8, 4.0
+_HEIGHTS = {
+    "asperities": 3.2,
+    "friction": 3.6,
+    "comparison": 5.0,
+    "response": 4.8,
+    "accelerations": 3.7,
+    "forces": 3.7,
+    "crack-level": 4.2,
+    "crest": 2.9,
+    "crack": 2.1,
+    "bearing": 2.0,
+    "anchors": 2.0,
+    "joint": 3.1,
+    "pressure": 2.1,
+    "slip-by-mode": 2.5,
+    "path": 2.6,
+    "energy": 2.3,
+    "motion": 3.1,
+    "spectrum": 3.1,
+    "deformed": 3.5,
+    "tension": 3.5,
+    "mesh": 2.5,
+    "modes": 2.5,
+    "joints": 3.2,
+    "water-pressure": 3.4,
 }
-_LOWER |= {"crack": 0.7, "joint": 0.7, "pressure": 0.75, "water-pressure": 0.9}
-_LEAST_HEIGHT = 4.0
+_PANELS = 3
+"""Of one component of a motion: acceleration, velocity, displacement."""
+#: Figures that each of several cracks has.
+OF_CRACKS = (
+    "response",
+    "slip-by-mode",
+    "friction",
+    "forces",
+    "bearing",
+    "path",
+    "joint",
+    "crack",
+    "pressure",
+    "asperities",
+)
+# They share a row where there are both.
+_HALVES = ("bearing", "anchors")
+# Shares of a row are one together, but for rounding.
+_ROW = 1.01
+# Of each of further cracks.
+_OF_FURTHER = ("law", "response", "joint", "crack")
 # What belongs to the words around it does not wait for another page.
 _HELD = ("summary",)
-# Flatter ones have panels side by side, with no room to spare.
-_FLAT = 0.47
 # Of two models only so many figures, those of the one beside after its name: those of one alone are in its own report.
 _OF_BOTH = (
     *(
@@ -78,6 +122,8 @@ _OF_BOTH = (
         "section",
         "motion",
         "comparison",
+        "bearing",
+        "anchors",
         "crest",
         "energy",
         "spectrum",
@@ -95,46 +141,74 @@ _OF_BOTH = (
 )
 
 
-def drawings(figures: Mapping[str, Figure]) -> dict[str, FigureBlock]:
+def drawings(figures: Mapping[str, Figure], cracks: Mapping[str, str] | None = None) -> dict[str, FigureBlock]:
     """Return the figures of a result that a report shows, by name: ``decoupled/crack-level`` of the one beside.
 
-    They lose their headings, and some are made lower: what is to be written as a file is to be written before.
+    They lose their headings, and some are made lower: what is to be written as a file is to be written before. `cracks`
+    are names of several cracks by the prefix of their figures, empty for the one that leads.
     """
+    names = cracks or {}
+    halves = dict.fromkeys(_HALVES, 0.5) if set(_HALVES) <= set(figures) else {}
     if "comparison" not in figures:
-        return {name: drawing(name, figures[name], caption(name)) for name in figures}
+        return {
+            name: drawing(name, figures[name], caption(name, names), halves.get(name))
+            for name in figures
+            if _is_shown(name)
+        }
     shared = ("summary", "section", "law", "motion", "comparison")
     captions = {name: caption(name if "/" in name or name in shared else f"flexible/{name}") for name in _OF_BOTH}
-    return {name: drawing(name, figures[name], captions[name]) for name in figures if name in _OF_BOTH}
+    return {
+        name: drawing(name, figures[name], captions[name], halves.get(name)) for name in figures if name in _OF_BOTH
+    }
 
 
-def caption(name: str) -> str:
-    """Return what a figure shows; unknown ones are called by their name."""
-    model, slash, own = name.rpartition("/")
-    if model.startswith("crack-"):
-        model = f"crack {model.removeprefix('crack-')} from the crest down"
+def in_rows(figures: Sequence[FigureBlock]) -> tuple[Block, ...]:
+    """Return figures in rows, as many beside each other as have room, in their order."""
+    lines: list[list[FigureBlock]] = []
+    for figure in figures:
+        if lines and sum(other.share for other in lines[-1]) + figure.share < _ROW:
+            lines[-1].append(figure)
+        else:
+            lines.append([figure])
+    return tuple(line[0] if len(line) == 1 else Beside(tuple(line)) for line in lines)
+
+
+def _is_shown(name: str) -> bool:
+    """Whether a report has a figure: of each further crack a few are enough, the others are files of their own."""
+    return not ("/" in name and name.startswith("crack-")) or name.rpartition("/")[2] in _OF_FURTHER
+
+
+def caption(name: str, cracks: Mapping[str, str] | None = None) -> str:
+    """Return what a figure shows; unknown ones are called by their name, those of one of several cracks with its."""
+    prefix, _, own = name.rpartition("/")
     text = CAPTIONS.get(own, f"{own.replace('-', ' ').replace('_', ' ').capitalize()}.")
-    return (
-        f"{NAMES.get(model, model).capitalize()}. {text}"
-        if slash and own not in ("spectrum", "mesh", "modes")
-        else text
-    )
+    model = NAMES.get(prefix, prefix)
+    if cracks and own in OF_CRACKS:
+        model = cracks.get(prefix, model)
+    return f"{model.capitalize()}. {text}" if model and own not in ("spectrum", "mesh", "modes") else text
 
 
-def drawing(name: str, figure: Figure, text: str) -> FigureBlock:
-    """Return a figure with its caption; it loses its heading."""
+def drawing(name: str, figure: Figure, text: str, share: float | None = None) -> FigureBlock:
+    """Return a figure with its caption, as wide as a share of the page where one is given; it loses its heading."""
     import matplotlib as mpl
 
-    from heeltoe.views.figures.style import laid_out, without_heading
+    from heeltoe.views.figures.style import STYLE, WIDTH, fit_words, laid_out, without_heading
 
     own = name.rpartition("/")[2]
     without_heading(figure)
     width, height = figure.get_size_inches()
-    if own in _LOWER and height > _LEAST_HEIGHT:
-        height = max(_LEAST_HEIGHT, _LOWER[own] * height)
+    if figure.get_layout_engine() is not None:
+        # Made as large as it is printed, it keeps the size of its letters.
+        # Two components of a motion stand side by side in its figure, which has no room beside it.
+        if share is None:
+            share = 1.0 if own == "motion" and len(figure.axes) > _PANELS else _SHARES.get(own, 1.0)
+        lower = _LOWER * height if height > _TALL else height
+        width, height = share * WIDTH, min(lower, _HEIGHTS.get(own, height))
         figure.set_size_inches(width, height)
+        with mpl.rc_context(STYLE):
+            fit_words(figure)
     file = io.BytesIO()
     # Letters as outlines look the same wherever the report is read.
     with laid_out(figure), mpl.rc_context({"svg.fonttype": "path", "svg.hashsalt": "heeltoe"}):
         figure.savefig(file, format="svg", metadata={"Date": None})
-    share = _SHARES.get(own, 1.0) if height > _FLAT * width else 1.0
-    return FigureBlock(name, text, file.getvalue(), (float(width), float(height)), share, own in _HELD)
+    return FigureBlock(name, text, file.getvalue(), (float(width), float(height)), float(width) / WIDTH, own in _HELD)

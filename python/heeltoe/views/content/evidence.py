@@ -106,7 +106,10 @@ def _spread(subject: Subject, run: Run) -> list[Block]:
     if run.response.spread is None and not run.response.ok:
         return []
     if run.response.spread is None:
-        whose = "" if len(subject.runs) == 1 else f" of the {run.name}"
+        unasked = [other.name for other in subject.runs if other.response.ok and other.response.spread is None]
+        if run.name != unasked[0]:
+            return []
+        whose = "" if len(subject.runs) == 1 else f" of the {' and of the '.join(unasked)}"
         return [
             paragraph(
                 f"How much the result{whose} depends on the exact strength of the shaking was not asked; ",

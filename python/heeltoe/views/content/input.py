@@ -35,8 +35,9 @@ def given_input(subject: Subject) -> Section:
         "Input",
         (
             paragraph(text, Code("heeltoe explain FIELD"), " says what a field means."),
-            Table(("field", "value"), tuple(row[:2] for row in rows), "Given by the case.", "ll"),
+            # Figures first: the tables, which are smaller, fill what is left of the page.
             *subject.figure("section"),
+            Table(("field", "value"), tuple(row[:2] for row in rows), "Given by the case.", "ll"),
             *_loads(subject),
         ),
     )

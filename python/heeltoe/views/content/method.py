@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from heeltoe.case.crack.crack import Crack
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.rigid.varying import varies
+from heeltoe.views.content.drawings import in_rows
 from heeltoe.views.content.equations import EQUATIONS
 from heeltoe.views.content.subject import Subject
 from heeltoe.views.content.tree import Block, Equation, Section, Symbol, paragraph
@@ -103,7 +104,7 @@ def method(subject: Subject) -> Section:
     if subject.ran("flexible"):
         _flexible(writer, subject)
         parts.append(writer.section("Flexible dam", 0))
-    return Section("Method", (*parts, *subject.figure("mesh", "modes")))
+    return Section("Method", (*in_rows(subject.figure("mesh", "modes")), *parts))
 
 
 def _loads(writer: _Writer, subject: Subject) -> None:

@@ -6,8 +6,9 @@ from heeltoe.errors.sanitize import plain
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.units.sentences import written
 from heeltoe.units.write import NOTHING
+from heeltoe.views.content.drawings import in_rows
 from heeltoe.views.content.subject import Subject
-from heeltoe.views.content.tree import Block, Code, Inline, Notes, Section, Table, paragraph, without_gaps
+from heeltoe.views.content.tree import Block, Code, FigureBlock, Inline, Notes, Section, Table, paragraph, without_gaps
 
 # Of all steps of processing together.
 _LONGEST = 2000
@@ -57,15 +58,15 @@ def ground_motion(subject: Subject) -> Section:
         tuple(rows),
         "The ground motion, as used.",
         "l" + "l" * len(motions),
-        (3.0, *(6.0 / len(motions) for _ in motions)),
+        # Of one motion it stands in two halves beside each other.
+        () if len(motions) == 1 else (3.0, *(6.0 / len(motions) for _ in motions)),
     )
     gravity = written("One g is taken as {gravity_m_s2:.6g m/s²}.", subject.units, gravity_m_s2=subject.case.gravity)
     blocks = (
-        paragraph(gravity),
+        *in_rows((*subject.figure("motion")[:1], *_spectrum(subject))),
         table,
+        paragraph(gravity),
         _checks([motion for motion, _ in motions.values()], subject.units),
-        *subject.figure("motion")[:1],
-        *_spectrum(subject),
     )
     return Section("Ground motion", without_gaps(*blocks))
 
@@ -80,6 +81,6 @@ def _checks(motions: list[GroundMotion], units: str) -> Block:
     )
 
 
-def _spectrum(subject: Subject) -> tuple[Block, ...]:
+def _spectrum(subject: Subject) -> tuple[FigureBlock, ...]:
     # Both models are shaken by the same motion; one spectrum is enough, and that of the flexible dam shows its periods.
     return subject.figure("spectrum")[-1:]

@@ -7,6 +7,7 @@ from typing import Any
 
 from heeltoe.result.response import Response
 from heeltoe.units.sentences import written
+from heeltoe.views.content.drawings import in_rows
 from heeltoe.views.content.subject import Subject
 from heeltoe.views.content.tree import Block, Inline, Section, Table, paragraph
 from heeltoe.views.words.law import law_line, roughness_line
@@ -103,25 +104,6 @@ _BOND: tuple[tuple[str, str, str | None], ...] = (
     ("Part of the tensile strength used until then", "tensile_strength_used", None),
     ("Part of the shear strength used until then", "shear_strength_used", None),
 )
-_FIGURES = (
-    "comparison",
-    "response",
-    "slip-by-mode",
-    "friction",
-    "asperities",
-    "crack-level",
-    "accelerations",
-    "forces",
-    "crest",
-    "path",
-    "joints",
-    "joint",
-    "crack",
-    "pressure",
-    "water-pressure",
-    "deformed",
-    "tension",
-)
 
 
 def results(subject: Subject) -> Section:
@@ -132,14 +114,16 @@ def results(subject: Subject) -> Section:
         static.append((_STARTS[kind, way], n(f"{prefix}critical_acceleration_g.{kind}_{way}", "g")))
         if start.varied:
             static.append(("with the vertical motion", start.varied))
+    # Large figures first: the tables, which are smaller, fill what is left of the page.
     blocks: list[Block] = [
+        *subject.figure("comparison", "response"),
         Table(
             ("", "value"),
             tuple(static),
             f"Before the earthquake, {subject.per_width}; accelerations at which a rigid part above the crack starts "
             "to move.",
             "lr",
-        )
+        ),
     ]
     if any(run.response.summary for run in subject.runs):
         rows: list[tuple[Inline, ...]] = []
@@ -155,19 +139,28 @@ def results(subject: Subject) -> Section:
                 subject.align(),
             )
         )
+        figure = subject.figure
         blocks += [
             *_signs(subject),
             *_cracks(subject),
+            *figure("slip-by-mode", "friction", "asperities"),
             *_tension(subject),
+            *in_rows(figure("deformed", "tension")),
             *_at_the_crack(subject),
+            *figure("crack-level", "accelerations", "forces"),
             *_anchors(subject),
+            *in_rows(figure("bearing", "anchors")),
+            *figure("crest"),
             *_law(subject),
             *_joint(subject),
+            *figure("joints", "joint"),
+            *in_rows(figure("crack", "pressure")),
+            *figure("path", "water-pressure"),
             *_sequence(subject),
         ]
     else:
         blocks.append(paragraph("The run never started, so that there are no results and no figures of it."))
-    return Section("Results", (*blocks, *subject.figure(*_FIGURES)))
+    return Section("Results", tuple(blocks))
 
 
 def _signs(subject: Subject) -> list[Block]:

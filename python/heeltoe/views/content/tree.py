@@ -104,6 +104,13 @@ class FigureBlock:
 
 
 @dataclass(frozen=True)
+class Beside:
+    """Figures side by side, whose shares of the width are one together."""
+
+    figures: tuple[FigureBlock, ...]
+
+
+@dataclass(frozen=True)
 class References:
     """Numbered sources."""
 
@@ -125,7 +132,7 @@ class Section:
     blocks: tuple[Block, ...]
 
 
-Block = Paragraph | Notes | Table | Equation | FigureBlock | References | Listing | Section
+Block = Paragraph | Notes | Table | Equation | FigureBlock | Beside | References | Listing | Section
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,8 @@ from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
+from heeltoe.views.figures.anchors import anchor_figure, moving_anchors
+from heeltoe.views.figures.bearing import bearing_figure
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.crest import crest_figure
 from heeltoe.views.figures.dense import filled_in
@@ -44,6 +46,8 @@ NAMES = (
     "asperities",
     "accelerations",
     "forces",
+    "bearing",
+    "anchors",
     "crest",
     "energy",
     "path",
@@ -61,7 +65,7 @@ NAMES = (
     "modes",
 )
 #: Those that each of several cracks has.
-_OF_CRACKS = ("response", "slip-by-mode", "friction", "forces", "path", "joint", "crack", "pressure")
+_OF_CRACKS = ("response", "slip-by-mode", "friction", "forces", "bearing", "path", "joint", "crack", "pressure")
 #: Lift-offs below this [m] have no picture of their own.
 _NO_LIFT = 1e-5
 #: Nor has the motion of a crest that goes with the ground up to this [m].
@@ -134,6 +138,8 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
 
         drawings["comparison"] = lambda: comparison_figure(result, beside, units)
     drawings |= _drawings(result, units)
+    if case is not None and "response" in drawings and moving_anchors(case):
+        drawings["anchors"] = lambda: anchor_figure(case, filled_in(result), units)
     for name, other in result.others.items():
         drawn = _drawings(other, units)
         drawings |= {f"{name}/{figure_name}": drawn[figure_name] for figure_name in _OF_CRACKS if figure_name in drawn}
@@ -174,6 +180,7 @@ def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]
         figures["forces"] = lambda: force_figure(response, units)
     else:
         figures["accelerations"] = lambda: acceleration_figure(response, units)
+    figures["bearing"] = lambda: bearing_figure(response, units)
     if response.crest is not None and response.crest.displacement_m > _NO_SHIFT:
         figures["crest"] = lambda: crest_figure(response, units)
     if response.energy is not None and response.energy.input_j:

@@ -17,7 +17,7 @@ from heeltoe.kernel.dam import CONTACT_STATUSES
 from heeltoe.models.flexible.result.history import LEAST_DAMAGE, CrackHistory
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
-from heeltoe.views.figures.panels import draw_slip, panels
+from heeltoe.views.figures.panels import panels
 from heeltoe.views.figures.style import COLOURS, describe, styled
 from heeltoe.views.figures.time_axis import strong_part, time_axis
 
@@ -48,13 +48,11 @@ _COLUMNS = 1500
 
 @styled
 def crack_figure(response: FlexibleResponse, units: str = "si") -> Figure:
-    """Draw which part of an elastic dam's crack sticks, slips and opens over time, with the slip above it."""
+    """Draw which part of an elastic dam's crack sticks, slips and opens over time."""
     history = response.crack
-    system = unit_system(units)
-    figure, (slip, crack) = panels([1.0, 1.8], 1.55)
+    figure, (crack,) = panels([1.6], 1.55)
     describe(figure, response)
-    draw_slip(slip, response, system)
-    seen = _status_map(crack, history, system.scale("length"))
+    seen = _status_map(crack, history, unit_system(units).scale("length"))
     strong_part(crack, response)
     names = {"absent": "nothing opposite"}
     handles = [
@@ -62,7 +60,6 @@ def crack_figure(response: FlexibleResponse, units: str = "si") -> Figure:
         for name in seen
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(seen))
-    figure.align_ylabels([slip, crack])
     return figure
 
 
@@ -221,7 +218,7 @@ def pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     )
     beyond = "max" if pressure.max() > most else "neither"
     bar = figure.colorbar(image, ax=crack, extend=beyond, pad=0.01, aspect=18)
-    bar.set_label(f"contact pressure [{scale.unit}]")
+    bar.set_label(f"pressure [{scale.unit}]")
     _label_crack(crack, length, "crack")
     strong_part(crack, response)
     handle = Patch(facecolor="white", edgecolor="#999999", hatch="////", label="open: no contact pressure")
@@ -252,7 +249,7 @@ def contact_pressure(history: CrackHistory) -> tuple[Floats, Floats]:
 
 
 def _label_crack(axes: Axes, scale: Scale, name: str) -> None:
-    axes.set_ylabel(f"along the {name} [{scale.unit}]\nheel below, toe above")
+    axes.set_ylabel(f"along the {name}\nfrom the heel [{scale.unit}]")
     axes.grid(visible=False)
 
 

@@ -8,15 +8,18 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullFormatter
+from matplotlib.transforms import ScaledTranslation
 
 from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.views.figures.spectrum import mark_periods
-from heeltoe.views.figures.style import COLOURS, heading, styled
+from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
 from heeltoe.views.figures.time_axis import time_axis
 
 # The crack's motion has the colour that it has in all figures.
 _CRACK = COLOURS["slip"]
 _MARKED = 3
+# Height of ticks and label of the axis above the legend [pt].
+_BELOW = 27.0
 
 
 @styled
@@ -24,7 +27,7 @@ def crack_level_figure(response: DecoupledResponse) -> Figure:
     """Draw the acceleration of ground and crack over time, their response spectra and the transfer function."""
     h, level, g = response.histories, response.crack_level, response.gravity
     spectrum = level["spectrum"]
-    figure = Figure(figsize=(7.5, 6.6), layout="constrained")
+    figure = Figure(figsize=(WIDTH, 6.2), layout="constrained")
     parts: Any = figure.subfigures(2, 1, height_ratios=[1.0, 1.1])
     top, bottom = parts
     factor = level["amplification"]
@@ -37,7 +40,7 @@ def crack_level_figure(response: DecoupledResponse) -> Figure:
         (histories[1], "crack_acceleration_m_s2", _CRACK, "crack"),
     ):
         axes.plot(h["time_s"], h[key] / g, color=colour, linewidth=0.6)
-        axes.set_ylabel(f"{label}\nacceleration [g]")
+        axes.set_ylabel(f"{label} [g]")
     time_axis(histories[1], response)
     spectra, transfer = bottom.subplots(1, 2)
     periods = np.array(spectrum["periods_s"])
@@ -52,7 +55,9 @@ def crack_level_figure(response: DecoupledResponse) -> Figure:
         _period_axis(axes)
         mark_periods(axes, level["periods_s"][:_MARKED], "#555555")
         axes.set_ylim(0.0, None)
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.17), fontsize=8, ncols=2, handlelength=1.8)
+        # Below the label of the axis, however high the panel is.
+        below = axes.transAxes + ScaledTranslation(0.0, -_BELOW / 72.0, figure.dpi_scale_trans)
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.0), bbox_transform=below, ncols=2, handlelength=1.8)
     return figure
 
 

@@ -97,8 +97,9 @@ def modes_figure(dam: FlexibleDam, units: str = "si") -> Figure:
             moved = scale(mesh.nodes + part * (_DRAWN * size / largest))
             panel.add_collection(LineCollection(list(edges(mesh, moved)), colors=COLOURS["slip"], linewidths=0.4))
             panel.add_collection(LineCollection(list(moved[outline]), colors="#000000", linewidths=1.0))
-        panel.set_title(f"T{place} = {number(period)} s\n({number(1.0 / period)} Hz)", fontsize=9)
+        panel.set_title(f"T{place} = {number(period)} s\n({number(1.0 / period)} Hz)")
         dam_axes(panel, scale)
+        panel.set_xlabel(f"x [{scale.unit}]")
         panel.label_outer()
     _frame(axes[0], scale, low, high, room=0.13)
     handles = [

@@ -89,7 +89,7 @@ def acceleration_figure(response: Response, units: str = "si") -> Figure:
         forces.plot(time, scale(h[key]), color=COLOURS[name], linewidth=0.9, linestyle=dash, label=label)
     friction = scale(h["friction_force_n"])
     forces.plot(time, friction, color="#000000", linewidth=0.7, linestyle=":", label="friction, + downstream")
-    forces.set_ylabel(f"force on the part\nabove [{scale.unit}]")
+    forces.set_ylabel(f"force [{scale.unit}]\non part above")
     time_axis(forces, response)
     figure.legend(*forces.get_legend_handles_labels(), loc="outside lower center", ncols=3)
     figure.align_ylabels([*shaking, base, forces])
@@ -109,7 +109,7 @@ def force_figure(response: Response, units: str = "si") -> Figure:
     velocity.plot(time, scale(h["slip_velocity_m_s"]), color=COLOURS["slip"], linewidth=0.7)
     velocity.set_ylabel(f"slip velocity\n[{scale.unit}]")
     touching.fill_between(time, 100.0 * h["touching"], color=COLOURS["toe"], alpha=0.6, linewidth=0, step="mid")
-    touching.set_ylabel("touching\n[% of nodes]")
+    touching.set_ylabel("touching\n[%]")
     touching.set_ylim(0.0, 100.0)
     # The first frame has no time before it over which a mean could be taken.
     normal, friction = h["normal_force_n"][1:], h["friction_force_n"][1:]
@@ -118,7 +118,7 @@ def force_figure(response: Response, units: str = "si") -> Figure:
     forces.plot(
         time[1:], scale(friction), color="#000000", linewidth=0.7, linestyle="--", label="friction, + downstream"
     )
-    forces.set_ylabel(f"force on the part\nabove [{scale.unit}]")
+    forces.set_ylabel(f"force [{scale.unit}]\non part above")
     time_axis(forces, response)
     figure.legend(loc="outside lower center", ncols=2)
     figure.align_ylabels([*shaking, velocity, touching, forces])

@@ -17,6 +17,7 @@ from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.motion.targets import Target
 from heeltoe.units.systems import Units, unit_system
 from heeltoe.units.write import number
+from heeltoe.views.figures.panels import beside
 from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
 from heeltoe.views.figures.write import save
 
@@ -73,7 +74,8 @@ def draw_history(panels: Sequence[Axes], motion: GroundMotion, gravity: float, u
     )
     for axes, (name, peak, values, most, unit) in zip(panels, rows, strict=True):
         axes.plot(motion.time, values, color=COLOURS["ground"], linewidth=0.7)
-        axes.set_ylabel(f"{name} [{unit}]\n{peak} {number(most)} {unit}", fontsize=8)
+        axes.set_ylabel(f"{name}\n[{unit}]")
+        beside(axes, f"{peak} {number(most)} {unit}")
         axes.set_xlim(0.0, motion.duration)
     panels[-1].set_xlabel("time [s]")
 

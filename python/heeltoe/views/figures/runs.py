@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -13,7 +14,7 @@ from heeltoe.units.systems import unit_system
 from heeltoe.units.write import length
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.panels import largest
-from heeltoe.views.figures.style import heading, styled
+from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
 from heeltoe.views.figures.time_axis import time_axis
 
 # Okabe and Ito's colours with dashes beside them, so that lines differ in print as well.
@@ -27,15 +28,20 @@ _LINES = (
     ("#000000", "-."),
     ("#999999", ":"),
 )
+# A value of a field: a number, and its unit.
+_NUMBER = re.compile(r"([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)\s*([^\d\s].*)?")
 # So many panels stand below each other, more in two columns.
 _ONE_COLUMN = 3
 
 
 def small_figures(grid: SmallStudy, units: str = "si") -> dict[str, Figure]:
-    """Return the figure ``slips`` of a table of runs, and ``crack-level`` of its first run that has one."""
+    """Return the figures ``slips`` and ``residual-slip`` of a table of runs, and ``crack-level`` of its first run that
+    has one."""
     figures = {}
     if any(response.histories for response in grid.responses):
         figures["slips"] = slips_figure(grid, units)
+    if _numbers(grid) is not None and any(response.ok for response in grid.responses):
+        figures["residual-slip"] = residual_slip_figure(grid, units)
     for response in grid.responses:
         if isinstance(response, DecoupledResponse) and response.summary:
             figures["crack-level"] = crack_level_figure(response)
@@ -53,7 +59,7 @@ def slips_figure(grid: SmallStudy, units: str = "si") -> Figure:
     panels = list(dict.fromkeys(cell[1:] for cell in grid.cells))
     columns = 1 if len(panels) <= _ONE_COLUMN else 2
     rows = math.ceil(len(panels) / columns)
-    figure = Figure(figsize=(7.5, 0.9 + 2.4 * rows), layout="constrained")
+    figure = Figure(figsize=(WIDTH, 0.9 + 2.4 * rows), layout="constrained")
     axes = np.atleast_1d(figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)).reshape(-1)
     heading(figure, grid.title or "Untitled case", f"{_shaken_by(grid)}; {grid.model} model")
     for place, (panel, values) in enumerate(zip(axes, panels, strict=False)):
@@ -83,6 +89,56 @@ def slips_figure(grid: SmallStudy, units: str = "si") -> Figure:
             time_axis(panel, *(response for response in grid.responses if response.histories))
     for unused in axes[len(panels) :]:
         unused.set_visible(False)
+    return figure
+
+
+def _numbers(grid: SmallStudy) -> tuple[list[float], str] | None:
+    """Return the values of the first varied field as numbers, and their unit; None where they are no numbers of one
+    unit, or where there is a single one."""
+    values = grid.axes[0].values
+    parts = [_NUMBER.fullmatch(str(value).strip()) for value in values]
+    if len(values) == 1 or not all(parts) or len({part[2] for part in parts if part}) > 1:
+        return None
+    return [float(part[1]) for part in parts if part], next(part[2] for part in parts if part)
+
+
+@styled
+def residual_slip_figure(grid: SmallStudy, units: str = "si") -> Figure:
+    """Draw the residual slip over the first varied field: a line for each combination of the others, and the limit of
+    the case."""
+    first, *others = grid.axes
+    varied = _numbers(grid)
+    assert varied is not None
+    numbers, unit = varied
+    limits = {
+        check.allowed for response in grid.responses for check in response.limits if check.name == "residual_slip"
+    }
+    slips = [response.residual_slip_m for response in grid.responses if response.ok]
+    scale = unit_system(units).scale("displacement", largest(slips, list(limits)))
+    figure = Figure(figsize=(WIDTH, 3.6), layout="constrained")
+    axes = figure.subplots()
+    heading(figure, grid.title or "Untitled case", f"{_shaken_by(grid)}; {grid.model} model")
+    for place, combination in enumerate(dict.fromkeys(cell[1:] for cell in grid.cells)):
+        points = sorted(
+            (numbers[first.values.index(cell[0])], float(scale(response.residual_slip_m)))
+            for cell, response in zip(grid.cells, grid.responses, strict=True)
+            if cell[1:] == combination and response.ok
+        )
+        colour, dash = _line(place)
+        names = (f"{other.path} {value}" for other, value in zip(others, combination, strict=True))
+        if points:
+            axes.plot(*zip(*points, strict=True), color=colour, linestyle=dash, marker="o", label=", ".join(names))
+    for limit in limits:
+        axes.axhline(
+            scale(limit), color=COLOURS["crack"], linewidth=0.9, linestyle=(0, (6, 2)), label="residual slip allowed"
+        )
+    axes.axhline(0.0, color="#000000", linewidth=0.6)
+    axes.set_xlabel(f"{first.path} [{unit}]" if unit else first.path)
+    axes.set_ylabel(f"residual slip [{scale.unit}]\n(+ downstream)")
+    handles, labels = axes.get_legend_handles_labels()
+    if any(labels):
+        named = [(handle, label) for handle, label in zip(handles, labels, strict=True) if label]
+        figure.legend(*zip(*named, strict=True), loc="outside lower center", ncols=2)
     return figure
 
 

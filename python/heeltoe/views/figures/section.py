@@ -20,7 +20,7 @@ from heeltoe.views.figures.style import COLOURS, WIDTH, styled
 _LOW = 0.55
 # Margins of the picture [in].
 _LEFT, _BOTTOM, _EDGE = 0.62, 0.5, 0.18
-_TALLEST = 5.8
+_TALLEST = 4.1
 
 
 @styled
@@ -48,7 +48,7 @@ def section_figure(case: Case, units: str = "si") -> Figure:
         near = max(section.crack_width, section.height)
         bottom, top = section.polygon.min(axis=0), section.polygon.max(axis=0)
         views.append((bottom - np.array([1.2, 0.55]) * near, top + np.array([0.5, 0.12]) * near))
-        widths = [3.1, WIDTH - 3.1 - 2.0 * _LEFT - _EDGE]
+        widths = [2.6, WIDTH - 2.6 - 2.0 * _LEFT - _EDGE]
     asked = max(w * (top[1] - low[1]) / (top[0] - low[0]) for w, (low, top) in zip(widths, views, strict=True))
     tall = float(np.clip(asked, 2.5, _TALLEST))
     figure = Figure(figsize=(WIDTH, tall + _BOTTOM + _EDGE))
@@ -105,7 +105,7 @@ def draw_bodies(canvas: Canvas, case: Case) -> None:
         silt = beside(whole, base + case.silt.depth, far, "left")
         canvas.fill(silt, facecolor=COLOURS["silt"], edgecolor="#8A6D1B", hatch="...", linewidth=0.5, zorder=1.2)
         if canvas.length(base + 0.5 * case.silt.depth) > canvas.axes.get_ylim()[0]:
-            place = [left - 0.25 * canvas.size, base + 0.5 * case.silt.depth]
+            place = [left - 0.3 * canvas.size, base + 0.2 * case.silt.depth]
             canvas.label("silt", place, "#6B5310", first=(0, 0))
     if case.ice is not None and case.reservoir is not None:
         ice = beside(whole, base + case.reservoir.depth, far, "left") - shapely.box(
@@ -190,8 +190,9 @@ def _draw_anchors(canvas: Canvas, case: Case) -> Floats | None:
     return ends[0] if ends else None
 
 
-def draw_dimensions(canvas: Canvas, case: Case, units: Units, below: float) -> None:
-    """Draw heights, widths and depths of water; `below` is how deep the uplift diagram is [m]."""
+def draw_dimensions(canvas: Canvas, case: Case, units: Units, below: float, *, small: bool = False) -> None:
+    """Draw heights, widths and depths of water; `below` is how deep the uplift diagram is [m]. A small drawing has no
+    room for those of crack and tailwater."""
     section, whole = case.cut, case.outline
     left, base, right, crest = whole.bounds
     size, length = canvas.size, units.scale("length")
@@ -219,7 +220,7 @@ def draw_dimensions(canvas: Canvas, case: Case, units: Units, below: float) -> N
         canvas.dimension(
             [foot[:, 0].min(), base], [foot[:, 0].max(), base], said(float(np.ptp(foot[:, 0]))), shift=[0.0, drop]
         )
-    if section.crack_elevation > base:
+    if section.crack_elevation > base and not small:
         canvas.dimension(
             [section.toe[0], base],
             section.toe,
@@ -229,6 +230,6 @@ def draw_dimensions(canvas: Canvas, case: Case, units: Units, below: float) -> N
     if case.reservoir is not None and case.reservoir.depth:
         at = left - 0.45 * size
         canvas.dimension([at, base], [at, base + case.reservoir.depth], said(case.reservoir.depth))
-    if case.tailwater is not None and case.tailwater.depth:
+    if case.tailwater is not None and case.tailwater.depth and not small:
         at = right + 0.28 * size
         canvas.dimension([at, base], [at, base + case.tailwater.depth], said(case.tailwater.depth))

@@ -33,13 +33,13 @@ def draw_shaking(axes: Sequence[Axes], response: Response) -> None:
     """
     draw_horizontal(axes[0], response)
     if response.vertical is not None:
-        _draw(axes[1], response, response.vertical, "vertical_crack_acceleration_m_s2", "vertical, + up\n")
+        _draw(axes[1], response, response.vertical, "vertical_crack_acceleration_m_s2", "vertical\n(+ up) [g]")
 
 
 def draw_horizontal(axes: Axes, response: Response) -> None:
     """Draw the panel of the horizontal motion alone."""
     chained = "crack_acceleration_m_s2" in response.histories
-    name = "horizontal\n" if response.vertical is not None else "" if chained else "ground\n"
+    name = "horizontal\n[g]" if response.vertical is not None else "shaking [g]" if chained else "ground [g]"
     _draw(axes, response, response.motion, "crack_acceleration_m_s2", name)
     low, high = axes.get_ylim()
     for start in first_starts(response):
@@ -56,11 +56,11 @@ def draw_horizontal(axes: Axes, response: Response) -> None:
     beside(axes, first_starts_in_words(response), colour="#444444")
 
 
-def _draw(axes: Axes, response: Response, motion: GroundMotion, at_crack: str, which: str) -> None:
+def _draw(axes: Axes, response: Response, motion: GroundMotion, at_crack: str, label: str) -> None:
     h, g = response.histories, response.gravity
     # The motion itself, which may jump between two moments of the histories.
     time, ground = until(motion, float(h["time_s"][-1]))
-    axes.set_ylabel(f"{which}acceleration [g]")
+    axes.set_ylabel(label)
     crack = h.get(at_crack)
     if crack is None:
         axes.plot(time, ground / g, color=COLOURS["ground"], linewidth=0.7)

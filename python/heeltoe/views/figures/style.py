@@ -6,6 +6,7 @@ mean is also told by line style, hatch, place or lightness.
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
@@ -42,13 +43,16 @@ MODE_COLOURS = {
 MODE_DASHES = {"slide": "-", "rock": ":", "slide-rock": "--", "drift": "-."}
 MODE_HATCHES = {"rest": "", "slide": "", "rock": "...", "slide-rock": "///", "drift": "xxx"}
 
-WIDTH = 7.5
-"""Of every figure [in]: the text of a page of A4 or Letter."""
+WIDTH = 6.69
+"""Of every figure [in]: the text of a page of A4, so that letters are printed as large as they are drawn."""
+# Width of a letter in sizes of it, of the handle of a legend with the gaps around it [pt], and the least size [pt].
+_LETTER, _HANDLE, _SMALL = 0.56, 34.0, 7.0
 # A line of a heading, in sizes of its letters: 10 points.
-_LINE = 51.0
+_LINE = 45.5
 
 STYLE: dict[Any, Any] = {
-    "font.size": 9,
+    "font.size": 8,
+    "axes.titlesize": 8,
     "font.family": [PLAIN],
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -87,11 +91,11 @@ def heading(figure: Figure, *lines: str) -> None:
     figure.suptitle(text, fontsize=10, x=0.01, ha="left", fontfamily=families, parse_math=False)
 
 
-def describe(figure: Figure, response: Response) -> None:
-    """Write above a figure which case, motion and model it shows."""
+def describe(figure: Figure, response: Response, *lines: str) -> None:
+    """Write above a figure which case, motion and model it shows, and further lines."""
     damping = response.summary.get("damping")
     model = f"{response.model} model" + (f", {damping} damping" if damping else "")
-    heading(figure, response.title or "Untitled case", f"{shaken_by(response)}; {model}")
+    heading(figure, response.title or "Untitled case", f"{shaken_by(response)}; {model}", *lines)
 
 
 def shaken_by(response: Response) -> str:
@@ -105,6 +109,27 @@ def without_heading(figure: Figure) -> Figure:
     """Take the heading off a figure, for a page that has a caption below it."""
     figure.suptitle("")
     return figure
+
+
+def fit_words(figure: Figure) -> None:
+    """Let what stands below a figure fit into its width: legends in as many columns as have room, longer lines broken.
+
+    A report makes figures narrower than those that are files of their own.
+    """
+    room = 72.0 * float(figure.get_figwidth())
+    for legend in list(figure.legends):
+        texts, handles = legend.get_texts(), [handle for handle in legend.legend_handles if handle is not None]
+        letter = _LETTER * float(texts[0].get_fontsize())
+        lines = [textwrap.fill(text.get_text(), int((room - _HANDLE) / letter)) for text in texts]
+        widest = max(len(part) for line in lines for part in line.split("\n")) * letter + _HANDLE
+        columns = max(1, min(len(lines), int(room / widest)))
+        legend.remove()
+        figure.legend(handles, lines, loc="outside lower center", ncols=columns, columnspacing=1.2, handlelength=1.8)
+    if figure.get_supxlabel():
+        words = "\n".join(
+            textwrap.fill(line, int(room / (_LETTER * _SMALL))) for line in figure.get_supxlabel().split("\n")
+        )
+        figure.supxlabel(words, fontsize=_SMALL)
 
 
 @contextmanager

@@ -15,7 +15,7 @@ from heeltoe.views.figures.shaking import draw_horizontal
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
 from heeltoe.views.figures.time_axis import time_axis
 
-_HEIGHT = 3.0
+_HEIGHT = 2.8
 # Shares of the width: the section, and from where on the histories are.
 _SECTION, _HISTORIES = 0.41, 0.55
 _LOOKS = (("slip", "-"), ("rotation", "--"), ("toe", "-."), ("heel", ":"))
@@ -63,7 +63,7 @@ def _draw_section(axes: Axes, case: Case, units: Units) -> None:
     canvas = Canvas(axes, units.scale("length"), max(right - left, crest - base))
     canvas.look_at(*corners(case, canvas.size, below=0.18))
     draw_bodies(canvas, case)
-    draw_dimensions(canvas, case, units, 0.0)
+    draw_dimensions(canvas, case, units, 0.0, small=True)
     draw_crack(canvas, case, small=True)
     draw_further(canvas, case)
     axes.set_axis_off()

@@ -12,6 +12,7 @@ from typing import Any, Literal
 from heeltoe.base.atomic_files import temporary
 from heeltoe.errors.error import InputError
 from heeltoe.views.content.tree import (
+    Beside,
     Block,
     Code,
     Document,
@@ -48,14 +49,16 @@ _NO_FONT = Notes(
     "Letters without a font",
     (("For some letters no font was found here; they may show as boxes. In the HTML report a browser shows them.",),),
 )
-_SHORT = 12
+_SHORT = 18
 """Rows of a table that is kept on one page; longer ones are broken, so that no page stays half empty."""
 _LONG = 8
 """Rows from which on a table of two columns has its second half beside the first."""
-# Columns of one with both halves side by side.
-_HALVES = 5
+_TABLE_PT = 8.5
+"""Size of the letters of all tables, and of the references."""
 _HELD = 3
 """Rows at the head and the foot of a longer table that stay together."""
+_GAP_MM = 2
+"""Between figures side by side."""
 _WIDTH_MM, _HEIGHT_MM = 170.0, 225.0
 """Room for a figure on a page, its caption left out."""
 
@@ -157,6 +160,8 @@ def _figures(blocks: tuple[Block, ...]) -> Iterator[FigureBlock]:
     for block in blocks:
         if isinstance(block, FigureBlock):
             yield block
+        elif isinstance(block, Beside):
+            yield from block.figures
         elif isinstance(block, Section):
             yield from _figures(block.blocks)
 
@@ -168,29 +173,36 @@ class _Writer:
         self.figures = 0
 
     def write(self, blocks: tuple[Block, ...], level: int = 1) -> Iterator[str]:
-        last = max((place for place, block in enumerate(blocks) if any(_figures((block,)))), default=-1)
-        for place, block in enumerate(blocks):
+        waiting = False
+        for block in blocks:
             if isinstance(block, Section):
-                # Figures that wait for a page with room for them come before what follows the last of their sections.
-                if level == 1 and place == last + 1:
+                # Figures that wait for a page with room for them come before the next section.
+                if level == 1 and waiting:
                     yield "#place.flush()"
+                waiting = any(_figures((block,)))
                 yield f"#heading(level: {level}, {_words(block.title)})"
                 yield from self.write(block.blocks, level + 1)
             elif isinstance(block, FigureBlock):
-                yield self._figure(block)
+                # Text flows on until there is a page with room for it.
+                yield "#" + self._figure(block, "none" if block.held else "auto")
+            elif isinstance(block, Beside):
+                columns = ", ".join(f"{figure.share:g}fr" for figure in block.figures)
+                figures = ", ".join(self._figure(figure, "none") for figure in block.figures)
+                yield (
+                    f"#place(auto, float: true, grid(columns: ({columns}), column-gutter: {_GAP_MM}mm, "
+                    f"align: bottom, {figures}))"
+                )
             else:
                 yield _plain(block)
 
-    def _figure(self, block: FigureBlock) -> str:
+    def _figure(self, block: FigureBlock, placement: str) -> str:
         width, height = block.size
         shown = min(block.share * _WIDTH_MM, width / height * _HEIGHT_MM)
         name = f'"{self.figures}.svg"'
         self.figures += 1
         caption = _words(block.caption)
         picture = f"image({name}, width: {shown:.1f}mm, alt: {_string(block.caption)})"
-        # Text flows on until there is a page with room for it.
-        placement = "none" if block.held else "auto"
-        return f"#figure(placement: {placement}, {picture}, caption: {caption})"
+        return f"figure(placement: {placement}, {picture}, caption: {caption})"
 
 
 def _plain(block: Block) -> str:
@@ -207,7 +219,7 @@ def _plain(block: Block) -> str:
         return f"#numbered({block.number}, $ {block.typst} $)"
     if isinstance(block, References):
         items = "".join(f"{_words(item)}, " for item in block.items)
-        return f'#enum(numbering: "[1]", {items})' if items else ""
+        return f'#text({_TABLE_PT}pt, enum(numbering: "[1]", {items}))' if items else ""
     assert isinstance(block, Listing)
     return f"#listing({_string(_breakable(block.text, _WIDE))})"
 
@@ -247,8 +259,7 @@ def _table(table: Table) -> str:
             cells.append("[]")
         cells += [_inline((cell,), _NARROW if table.widths else _WIDE) for cell in row]
     cells.append("table.hline(stroke: 0.8pt)")
-    size = "8.5pt" if table.widths or count == _HALVES else "9.5pt"
-    body = f"text({size}, table(columns: ({columns}), align: ({align},), {', '.join(cells)}))"
+    body = f"text({_TABLE_PT}pt, table(columns: ({columns}), align: ({align},), {', '.join(cells)}))"
     figure = f"figure(kind: table, supplement: [Table], caption: {_words(table.caption)}, {body})"
     return f"#{{ show figure: set block(breakable: {str(broken).lower()}); {figure} }}"
 

@@ -83,8 +83,21 @@ def build_report(
     first = {"summary": lambda: summary_figure(case, runs, units)}
     if runs:
         first["motion"] = lambda: history_figure(result.motion, result.vertical, result.gravity, units)
-    shown = drawings(Figures(first | {name: partial(drawn.__getitem__, name) for name in drawn}))
+    shown = drawings(
+        Figures(first | {name: partial(drawn.__getitem__, name) for name in drawn}), _crack_names(result, units)
+    )
     return document(Subject(case, result, numbers, shown, judged, command))
+
+
+def _crack_names(result: Response, units: str) -> dict[str, str]:
+    """Return what each of several cracks is called in captions, by the prefix of its figures."""
+    from heeltoe.units.sentences import quantity
+
+    if not result.several:
+        return {}
+    own = result.cracks[result.asked].elevation
+    levels = {"": own} | {name: other.cracks[0].elevation for name, other in result.others.items()}
+    return {name: f"crack at {quantity(level, '.5g m', units)}" for name, level in levels.items()}
 
 
 def write_report(

@@ -13,6 +13,7 @@ from rich.text import Text
 
 from heeltoe.errors.sanitize import harmless, plain
 from heeltoe.views.content.tree import (
+    Beside,
     Block,
     Code,
     Equation,
@@ -37,7 +38,7 @@ _NOTICE = {"failure": "red", "warning": "yellow", "note": "dim"}
 def render(blocks: Iterable[Block], console: Console) -> None:
     """Print blocks of a content tree; figures and equations are for files alone."""
     for block in blocks:
-        if isinstance(block, (FigureBlock, Equation)):
+        if isinstance(block, (FigureBlock, Beside, Equation)):
             continue
         console.print()
         if isinstance(block, Section):

@@ -84,12 +84,14 @@ def deformed_figure(response: FlexibleResponse, time: float | None = None, units
         _crosses(axes, history, places, values, direction, 0.1 * most)
         _outlines(axes, history, places, length)
         bar = figure.colorbar(image, ax=axes, location="bottom", aspect=30, pad=0.02)
-        bar.set_label(f"{name} [{stress.unit}]; largest {scaled(max(float(value.max()) for value in values), stress)}")
+        bar.set_label(f"{name} [{stress.unit}]\nlargest {scaled(max(float(value.max()) for value in values), stress)}")
+        bar.ax.xaxis.set_major_formatter("{x:g}")
+        bar.ax.tick_params(labelsize=7)
         dam_axes(axes, length)
     panels[1].set_ylabel("")
     moment = f"t = {history.time[frame]:.2f} s{why}; displacements exaggerated {exaggeration:g} times"
     key = "short lines: direction of the stress; dashed line: where it is zero; dotted outline: undeformed"
-    figure.supxlabel(f"{moment}\n{key}", fontsize=9)
+    figure.supxlabel(f"{moment}\n{key}", fontsize=8)
     return figure
 
 

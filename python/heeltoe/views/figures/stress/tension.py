@@ -17,7 +17,7 @@ from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.dam import dam_axes, extent
 from heeltoe.views.figures.style import COLOURS, WIDTH, describe, styled
-from heeltoe.views.words.tension import tension_line, tension_worth
+from heeltoe.views.words.tension import tension_line
 
 _LEVELS = 8
 _UNREAD = "#E4E4E4"
@@ -41,12 +41,15 @@ def tension_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     low, high = extent(dam)
     wide, tall = high - low
     figure = Figure(figsize=(WIDTH, float(np.clip(5.0 * tall / wide + 1.6, 3.4, 7.5))), layout="constrained")
-    describe(figure, response)
+    describe(figure, response, f"Largest: {tension_line(tension, units)}")
     axes = figure.subplots()
     length, stress = system.scale("length"), system.scale("pressure", max(tension["stress_pa"], 1.0))
     image = _tensions(axes, response, length, stress)
     bar = figure.colorbar(image, ax=axes, location="right", aspect=30, pad=0.02)
-    bar.set_label(f"largest tension over the run [{stress.unit}]")
+    if tension["strength"] is not None:
+        # Beside the colours, so that one sees what there is over what the concrete bears.
+        bar.ax.axhline(stress(tension["strength"]["dynamic_pa"]), color=COLOURS["slip"], linewidth=1.8)
+    bar.set_label(f"largest tension [{stress.unit}]")
     for body in dam.bodies:
         outline = boundary_edges(body.mesh.elements)
         axes.add_collection(LineCollection(list(length(body.mesh.nodes)[outline]), colors="#000000", linewidths=1.0))
@@ -61,9 +64,7 @@ def tension_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     axes.set_xlim(length(low[0]) - room, length(high[0]) + room)
     axes.set_ylim(length(low[1]) - room, length(high[1]) + room)
     dam_axes(axes, length)
-    figure.legend(handles=_key(response), loc="outside lower center", ncols=2, fontsize=8)
-    text = f"Largest: {tension_line(tension, units)}\n{tension_worth(tension, units)}"
-    axes.set_title(text, fontsize=8, loc="left", wrap=True)
+    figure.legend(handles=_key(response), loc="outside lower center", ncols=2)
     return figure
 
 
@@ -107,6 +108,6 @@ def _key(response: FlexibleResponse) -> list[Line2D | Patch]:
         Patch(facecolor=_UNREAD, label="not read: no bound"),
         Line2D([], [], color=COLOURS["crack"], linewidth=1.6, label="the crack"),
     ]
-    if tension["strength"] is not None and tension["strength"]["exceeds"]:
+    if tension["strength"] is not None:
         handles.append(Line2D([], [], color=COLOURS["slip"], linewidth=1.6, label="what the concrete bears"))
     return handles
