@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
+import sys
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from heeltoe import InputError
 from heeltoe.models.flexible.body import bonded
-from heeltoe.models.flexible.body.cost import building, part_of, parts_of, wave_bodies
+from heeltoe.models.flexible.body.cost import building, part_of, parts_of, surroundings_of
 from heeltoe.models.flexible.body.reduced import _build
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import analysing, running
 from heeltoe.models.run import cost_of, earthquake
 from heeltoe.study.small.analysis import analyse
-from shared.dams import example
+from shared.dams import ROOT, example
 
 
 def factor(measured, estimated):
@@ -56,6 +60,63 @@ def test_time(name, across):
         assert factor(measured, estimated) < 6.0
 
 
+PEAK = """
+import gc, json, sys
+from pathlib import Path
+from heeltoe import flexible, read_case
+from heeltoe.models.run import cost_of
+
+def resident(name):
+    return next(int(line.split()[1]) * 1024 for line in Path("/proc/self/status").open() if line.startswith(name))
+
+case, step = read_case(json.loads(sys.argv[1])), json.loads(sys.argv[2])
+flexible(case.with_({"flexible.elements_across": 2, "flexible.modes": 20, "motion.duration": "0.1s"}))
+gc.collect()
+Path("/proc/self/clear_refs").write_text("5")
+before = resident("VmRSS")
+flexible(case, output_step=step)
+print(resident("VmHWM") - before, cost_of(case, "flexible", step).memory)
+"""
+BRIEF = {"motion.duration": "0.2s", "flexible.evidence": "none", "analysis.memory_limit": "20GB"}
+SECOND, THIRD = ({"further_cracks": [{"elevation": f"{level} m"} for level in levels]} for levels in ((35,), (80, 40)))
+LONG = {"motion.duration": "20s", "flexible.time_step": "2e-5s"}
+
+
+def slow(*values):
+    return pytest.param(*values, marks=pytest.mark.slow)
+
+
+@pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="the system does not say what was in use")
+@pytest.mark.parametrize(
+    ("name", "across", "changes"),
+    [
+        ("typical-base", 16, {}),
+        ("typical-base", 4, LONG),
+        ("typical-height", 12, SECOND),
+        ("typical-base", 6, {"rock.modulus": "20 GPa"}),
+        *[slow(name, across, {}) for name in ("typical-base", "typical-height") for across in (8, 32, 64)],
+        slow("typical-base", 32, THIRD),
+        slow("typical-height", 32, SECOND),
+        slow("typical-base", 24, {"rock.modulus": "20 GPa"}),
+        slow("typical-base", 16, {"flexible.elements_away": 4}),
+        slow("typical-base", 12, {"flexible.modes": 2000}),
+        slow("typical-base", 8, {"reservoir.compressible": True}),
+    ],
+)
+def test_memory(name, across, changes):
+    """The peak of a process of its own, beyond what it takes without the dam."""
+    case = example(name).with_({"analysis.silence": "0s", "flexible.elements_across": across} | BRIEF | changes)
+    fields = json.dumps(case.model_dump(mode="json", exclude_unset=True))
+    step = 0.001 if changes is LONG else None
+    child = subprocess.run(
+        [sys.executable, "-c", PEAK, fields, json.dumps(step)], capture_output=True, text=True, cwd=ROOT / "examples"
+    )
+    assert child.returncode == 0, child.stderr
+    measured, estimated = map(float, child.stdout.split())
+    print(f"{name}, {across} across, {changes.keys()}: {measured / 1e6:.0f} MB, estimated {estimated / 1e6:.0f} MB")
+    assert factor(measured, estimated) < 2.0
+
+
 def test_silence_and_spread_are_counted():
     case = example("typical-base", "flexible.evidence=none", "motion.duration=20s")
     alone = analysing(case, 20.0, 0.01).seconds - building(parts_of(case)).seconds
@@ -91,7 +152,7 @@ def test_water_with_sound_rock_and_bonds_are_counted(changes, across):
     shaken = ShakenDam(case, _build(case), earthquake(case).shaking)
     shaken.run(shaken.first_step(), 0.01)
     measured = time.process_time() - begun
-    estimated = building(parts_of(case), wave_bodies(case)) + running(case, 3.0, 0.01)
+    estimated = building(parts_of(case), surroundings_of(case)) + running(case, 3.0, 0.01)
     print(f"{across} across, {changes.keys()}: {measured:.2f} s, estimated {estimated.seconds:.2f} s")
     assert factor(measured, estimated.seconds) < 6.0
     assert estimated.seconds > 1.5 * (building(parts_of(bare)) + running(bare, 3.0, 0.01)).seconds

@@ -10,8 +10,9 @@ from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.evidence import refinement
 from heeltoe.models.flexible.evidence.evidence import Evidence, Worth
 from heeltoe.models.flexible.evidence.refinement import _finer, _moved_by_mesh
-from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials, with_mesh
+from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
+from heeltoe.models.flexible.run.expected import with_mesh
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
 

@@ -2,13 +2,17 @@
 
 A part of the dam has d degrees of freedom in its mesh, m modes and k nodes on the crack. Its modes cost d m, the search
 for the equilibrium of the dam k^3. The factors were measured on one core at some 3 GHz with meshes of 2 to 64
-elements across; tests/models/flexible/test_cost.py measures again. Both numbers are good within a factor of three."""
+elements across; tests/models/flexible/test_cost.py measures again. Times are good within a factor of three, memory
+within two; it is what comes on top of what the program and its libraries take themselves."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+
+import shapely
 
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
@@ -17,12 +21,19 @@ from heeltoe.models.flexible.mesh.rows import ROWS
 
 # Seconds of the equations of a dam, of each d m and of each k^3 of them.
 _SET_UP, _SOLVED, _RESTED = 0.15, 8e-7, 2e-6
-# Of the modes of a body with waves: water with sound on one side; rock takes as long as so many of them.
-_WAVES, _ROCK = 0.45, 4
-# Seconds of each d^3 and copies of d^2 numbers where all modes are wanted.
-_DENSE, _DENSE_COPIES = 2e-9, 4.0
-# Copies of the d m numbers of the modes that are there at once, and their bytes.
-_COPIES, NUMBER = 7.0, 8.0
+# Seconds and bytes of the modes of water with sound on one side; with a full reservoir it is twice the memory.
+_WATER = 0.45, 4e7
+# The same of rock: of its far field, and of the mesh below a crack of n elements n^2.5 and n^2; each step takes as
+# long as with so many bodies of water.
+_ROCK, _ROCK_ACROSS, _ROCK_STEPS = (1.5, 9e7), (4e-3, 9.5e5), 4
+# Seconds of each d^3 where all modes are wanted.
+_DENSE = 2e-9
+# Copies of the d m numbers of the modes of a part: while they are solved, and after that; the bytes of a number.
+_SOLVING, _KEPT, NUMBER = 14.0, 3.0, 8.0
+# Bytes of whatever there is beside.
+_BESIDE = 3e6
+# A part that is lower has so many rows less, of each element across, for each of its heights over its widths.
+_FLAT, _FLATTEST = 1.5, 0.15
 _TIMES = ((86400.0, "days"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
 # A limit that is proposed, over what is estimated.
 _GENEROUS = 1.1
@@ -61,48 +72,79 @@ class Part:
     def cost(self) -> Cost:
         """Of its modes."""
         numbers = self.freedoms * self.modes
-        seconds, memory = _SOLVED * numbers, _COPIES * numbers
+        seconds = _SOLVED * numbers
         if 3.0 * self.kept >= self.freedoms:
-            seconds, memory = seconds + _DENSE * self.freedoms**3, memory + _DENSE_COPIES * self.freedoms**2
-        return Cost(seconds, NUMBER * memory)
+            seconds += _DENSE * self.freedoms**3
+        return Cost(seconds, NUMBER * _SOLVING * numbers)
+
+    @property
+    def kept_memory(self) -> float:
+        """Of its modes once they are known [B]."""
+        return NUMBER * _KEPT * self.freedoms * self.modes
 
 
 # Nodes for each element along a crack that is finer than the rest, in the rows that grow away from it.
 _GRADED = 25.0
 
 
-def part_of(case: Case, nodes: int, freedoms: float | None = None) -> Part:
-    """Return a part with so many nodes along its crack; with the program's own mesh if nothing else is said."""
-    across = (nodes - 1) / 2.0
+def part_of(
+    case: Case, nodes: int, freedoms: float | None = None, *, cracks: int = 1, slenderness: float = math.inf
+) -> Part:
+    """Return a part with so many nodes along its one or two cracks; with the program's own mesh if nothing else is
+    said, for which `slenderness` is its height over its width."""
+    across = (nodes / cracks - 1) / 2.0
     away = min(across, case.flexible.elements_away or across)
-    own = 2.0 * (3.0 * ROWS * away**2 + 5.0 * away + _GRADED * (across - away))
+    rows = min(ROWS, _FLAT * slenderness)
+    own = 2.0 * (3.0 * rows * away**2 + 5.0 * away + cracks * _GRADED * (across - away))
     return Part(freedoms or own, nodes, case.flexible.modes or FIRST_KEPT)
 
 
 def parts_of(case: Case) -> list[Part]:
-    """Return what the parts of a case will be, without their meshes."""
+    """Return what the parts of a case will be, without their meshes, from the crest down."""
     options = case.flexible
-    across = [options.elements_across] * (1 + len(case.further_cracks))
-    lowest = min(case.crack.elevation, *(each.elevation for each in case.further_cracks), math.inf)
-    if lowest > 0.0:
-        across.append(options.elements_across_below or options.elements_across)
-    # A part between two cracks has the nodes of both.
-    both = [int(0 < place <= len(case.further_cracks)) for place in range(len(across))]
-    return [part_of(case, (1 + twice) * (2 * each + 1)) for each, twice in zip(across, both, strict=True)]
+    levels = sorted((crack.elevation for crack in (case.crack, *case.further_cracks)), reverse=True)
+    held = [0.0] if levels[-1] > 0.0 else []
+    parts = []
+    left, base, right, crest = case.outline.bounds
+    for place, (top, foot) in enumerate(pairwise([crest - base, *levels, *held])):
+        last = place == len(levels)
+        across = (options.elements_across_below if last else None) or options.elements_across
+        # A part between two cracks has the nodes of both.
+        cracks = 2 if 0 < place < len(levels) else 1
+        line = shapely.LineString([(left - 1.0, base + foot), (right + 1.0, base + foot)])
+        width = case.outline.intersection(line).length
+        slenderness = max((top - foot) / width, _FLATTEST) if width > 0.0 else math.inf
+        parts.append(part_of(case, cracks * (2 * across + 1), cracks=cracks, slenderness=slenderness))
+    return parts
 
 
 def wave_bodies(case: Case) -> int:
     """Return how many bodies with waves surround a dam: water with sound on either side, and rock for several."""
-    sides = sum(
-        body is not None and body.compressible and body.depth > 0.0 for body in (case.reservoir, case.tailwater)
-    )
-    return sides + (0 if case.rock is None else _ROCK)
+    return _waters(case) + (0 if case.rock is None else _ROCK_STEPS)
 
 
-def building(parts: Sequence[Part], waves: int = 0) -> Cost:
-    """Return what the equations of a dam cost, with so many bodies of :func:`wave_bodies` around it."""
-    seconds = _SET_UP + _WAVES * waves + sum(part.cost.seconds for part in parts) + _RESTED * parts[0].nodes ** 3
-    return Cost(seconds, sum(part.cost.memory for part in parts))
+def surroundings_of(case: Case) -> Cost:
+    """Return what the modes of the bodies with waves around a dam cost."""
+    cost, waters = Cost(0.0, 0.0), _waters(case)
+    if waters:
+        cost += Cost(waters * _WATER[0], _WATER[1])
+    if case.rock is not None:
+        across = case.flexible.elements_across
+        cost += Cost(_ROCK[0] + _ROCK_ACROSS[0] * across**2.5, _ROCK[1] + _ROCK_ACROSS[1] * across**2)
+    return cost
+
+
+def _waters(case: Case) -> int:
+    return sum(body is not None and body.compressible and body.depth > 0.0 for body in (case.reservoir, case.tailwater))
+
+
+def building(parts: Sequence[Part], surroundings: Cost = Cost(0.0, 0.0)) -> Cost:
+    """Return what the equations of a dam cost, with those of :func:`surroundings_of` it. One part is solved after the
+    other, and what is around them after that."""
+    costs = [part.cost for part in parts]
+    seconds = _SET_UP + surroundings.seconds + sum(cost.seconds for cost in costs) + _RESTED * parts[0].nodes ** 3
+    most = max(surroundings.memory, *(cost.memory for cost in costs))
+    return Cost(seconds, _BESIDE + most + sum(part.kept_memory for part in parts))
 
 
 def check_cost(case: Case, cost: Cost, field: str | None = None) -> None:

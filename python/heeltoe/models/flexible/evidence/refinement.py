@@ -15,10 +15,9 @@ from heeltoe.models.flexible.body.reduced import FlexibleDam
 from heeltoe.models.flexible.evidence.evidence import BUDGET, FLOOR_M, Evidence, Worth, allowed
 from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
+from heeltoe.models.flexible.run.expected import FEWEST_ACROSS
 from heeltoe.result.contract import CRACKED, HEADLINES
 
-#: Fewer elements along the crack than these have no coarser mesh worth a comparison.
-_FEWEST_ACROSS = 4
 # Two meshes may agree by chance. Twice the elements of quadratic shape make what they leave a quarter at best, so of
 # what moves a number from the third mesh to the second at least this part is left; coarser meshes say nothing.
 _LEFT, _LEAST_ACROSS = 0.25, 2
@@ -161,7 +160,7 @@ class _Stand:
         if self._options.mesh_above or self._options.mesh_below:
             return None
         coarser = self._level.mesh - 1
-        few = self._options.elements_across < _FEWEST_ACROSS or not self._trials.has_mesh(coarser, _LEAST_ACROSS)
+        few = self._options.elements_across < FEWEST_ACROSS or not self._trials.has_mesh(coarser, _LEAST_ACROSS)
         return Level(self._level.mesh + 1 if few else coarser, self._halvings)
 
     @cached_property

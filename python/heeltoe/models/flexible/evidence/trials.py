@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -11,13 +10,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from heeltoe.base.arrays import Floats
-from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.kernel.dam import DAM_OUTCOMES, DamRun, Ending
-from heeltoe.models.flexible.body.cost import Cost, building, parts_of, wave_bodies
+from heeltoe.models.flexible.body.cost import Cost, building, parts_of, surroundings_of
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
-from heeltoe.models.flexible.run.expected import running
+from heeltoe.models.flexible.run.expected import running, with_mesh
 from heeltoe.result.contract import CRACKED, HEADLINES, headlines
 
 #: Factors on the shaking: as it is, and up to 1 % either way.
@@ -85,7 +83,7 @@ class Trials:
         """Return what so many runs at level 0 are estimated to take with one at another level among them."""
         first = self._shaken[0]
         case, end = with_mesh(first.case, level.mesh), first.shaking.end
-        parts = building(parts_of(case), wave_bodies(case))
+        parts = building(parts_of(case), surroundings_of(case))
         runs = running(first.case, end, self._frame_step, self.step, runs=work)
         finest = running(case, end, self._frame_step, self.step_of(level))
         return Cost(parts.seconds + runs.seconds, parts.memory + finest.memory)
@@ -179,15 +177,3 @@ class Trials:
     def failed(self, level: Level, scales: Sequence[float]) -> int:
         """Return how many of these runs, all made before, end without a result."""
         return sum(self._numbers[level, scale][0]["outcome"] != _OK for scale in scales)
-
-
-def with_mesh(case: Case, mesh: int) -> Case:
-    """Return the case with so many times twice the elements along the crack; -1 for half of them, rounded up."""
-
-    def changed(across: int) -> int:
-        return math.ceil(across * 2.0**mesh)
-
-    names = ("elements_across", "elements_across_below", "elements_away")
-    counts = {name: getattr(case.flexible, name) for name in names}
-    update = {name: None if count is None else changed(count) for name, count in counts.items()}
-    return case.model_copy(update={"flexible": case.flexible.model_copy(update=update)})

@@ -8,10 +8,12 @@ from __future__ import annotations
 import math
 
 from heeltoe.case.model import Case
-from heeltoe.models.flexible.body.cost import NUMBER, Cost, building, parts_of, wave_bodies
+from heeltoe.models.flexible.body.cost import NUMBER, Cost, building, parts_of, surroundings_of, wave_bodies
 from heeltoe.models.flexible.run.dam_runner import usual_step
 from heeltoe.models.runner import STEP
 
+#: Fewer elements along the crack than these have no coarser mesh worth a comparison.
+FEWEST_ACROSS = 4
 #: Frames kept: enough for an animation, few enough for memory.
 _FRAME_STEP = 0.01
 # Seconds of a step, of each 2 k m in it, and of that to the power of 3/2, as caches end.
@@ -25,7 +27,7 @@ _BY_BOND, _WATERED = 10.0, 1.1e-5
 # each state of the contacts is solved anew. Measured with 2, 4 and 6 joints of 4 elements.
 _JOINTS, _JOINTS_SOLVED = 5e-8, 5.4e-10
 # Bytes of a step of the ground; copies of a frame.
-_GROUND, _COPIES = 300.0, 3.0
+_GROUND, _COPIES = 100.0, 1.2
 # Runs that a result takes by its evidence, in single ones, without refinement.
 _RUNS = {"full": 5.0, "step": 3.0, "none": 1.0}
 # The longest period of a free part in times that waves of compression take through its height.
@@ -87,7 +89,10 @@ def analysing(
     spread
         How many runs with the shaking varied follow.
     """
-    parts, counted = building(parts_of(case), wave_bodies(case)), _RUNS[case.flexible.evidence] + spread
+    parts, counted = building(parts_of(case), surroundings_of(case)), _RUNS[case.flexible.evidence] + spread
+    if case.flexible.evidence == "full" and case.flexible.elements_across < FEWEST_ACROSS:
+        finer = with_mesh(case, 1)
+        parts += building(parts_of(finer), surroundings_of(finer))
     runs = [running(case, end + min(silence, STEP), frame_step, step, counted)]
     if silence:
         runs += [running(case, through, frame_step, step, 1.0) for through in (end, end + silence)]
@@ -98,3 +103,15 @@ def _step_of(case: Case) -> float:
     """Return about the step that the program will choose [s]."""
     speed = math.sqrt((case.concrete.modulus or math.inf) / case.concrete.density)
     return usual_step(_PERIOD * case.cut.height / speed)
+
+
+def with_mesh(case: Case, mesh: int) -> Case:
+    """Return the case with so many times twice the elements along the crack; -1 for half of them, rounded up."""
+
+    def changed(across: int) -> int:
+        return math.ceil(across * 2.0**mesh)
+
+    names = ("elements_across", "elements_across_below", "elements_away")
+    counts = {name: getattr(case.flexible, name) for name in names}
+    update = {name: None if count is None else changed(count) for name, count in counts.items()}
+    return case.model_copy(update={"flexible": case.flexible.model_copy(update=update)})
