@@ -256,7 +256,7 @@ def test_a_table_of_runs_on_the_command_line(tmp_path):
         "result.json",
         "table.csv",
         "table.parquet",
-        *(f"{name}.{kind}" for name in ("slips", "crack-level") for kind in ("png", "svg")),
+        *(f"{name}.{kind}" for name in ("slips", "residual-slip", "crack-level") for kind in ("png", "svg")),
     }
     rows = list(csv.DictReader((tmp_path / "table.csv").read_text().splitlines()))
     assert [(row["crack.friction"], row["uplift.pattern"]) for row in rows[:3]] == [

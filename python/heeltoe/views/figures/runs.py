@@ -40,7 +40,7 @@ def small_figures(grid: SmallStudy, units: str = "si") -> dict[str, Figure]:
     figures = {}
     if any(response.histories for response in grid.responses):
         figures["slips"] = slips_figure(grid, units)
-    if _numbers(grid) is not None and any(response.ok for response in grid.responses):
+    if _numbers(grid) is not None and sum(response.ok for response in grid.responses) > 1:
         figures["residual-slip"] = residual_slip_figure(grid, units)
     for response in grid.responses:
         if isinstance(response, DecoupledResponse) and response.summary:
