@@ -43,3 +43,16 @@ def test_the_crest_of_a_stiff_elastic_dam_that_sticks_shakes_as_the_ground():
     found = flexible(stiff, gentle)
     assert found.crest.amplification == pytest.approx(1.0, abs=0.02)
     assert found.crest.displacement_m < 1e-3
+
+
+def test_the_peak_of_the_crest_does_not_hang_on_where_a_motion_has_its_points():
+    """A pulse by its corners, and with every point between them on the same lines."""
+    corners, values = np.array([0.0, 0.2, 0.5, 1.0, 2.0]), np.array([0.0, 6.0, -5.0, 0.0, 0.0])
+    case = read_case(BASE, "crack.friction=3")
+    coarse = rigid(case, GroundMotion.from_points(corners, values)).crest.displacement_m
+    fine = np.unique(np.concatenate([corners, np.arange(0.0, 2.0, 1e-3)]))
+    found = rigid(case, GroundMotion.from_points(fine, np.interp(fine, corners, values)))
+    peak = found.crest.displacement_m
+    at_corners = np.interp(corners, found.histories["time_s"], found.histories[DISPLACEMENT])
+    assert peak > 1.2 * np.abs(at_corners).max()
+    assert coarse == pytest.approx(peak, rel=2e-3)

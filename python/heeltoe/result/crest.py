@@ -20,7 +20,9 @@ class CrestMotion(Block):
     displacement_m: Annotated[
         float,
         Number(
-            "Largest horizontal displacement from where it stands before the earthquake, relative to the ground.", "m"
+            "Largest horizontal displacement from where it stands before the earthquake, relative to the ground, "
+            "at the moments of the histories.",
+            "m",
         ),
     ]
     residual_displacement_m: Annotated[

@@ -29,7 +29,8 @@ def run_rigid(
     earthquake
         What shakes the crack.
     output_step
-        Spacing of the histories [s]; at the record's samples where it is not given.
+        Spacing of the histories [s]; where it is not given at the record's samples, and between those that are more
+        than 0.02 s apart.
     block
         Of the case, where it has been built before.
 
@@ -80,14 +81,20 @@ _SHORTEST_STEP, _LONGEST_STEP = 0.005, 0.02
 
 
 def moments_of(earthquake: Earthquake, step: float | None) -> Floats:
-    """Return the moments of the histories [s]: so far apart, or the samples of the record."""
+    """Return the moments of the histories [s]: so far apart, or the samples of the record, and others between those
+    that are far apart."""
     time = earthquake.shaking.time
     if step is None:
-        if not earthquake.silence and np.all(time[1:] > time[:-1]):
+        gaps = np.diff(time)
+        coarse = np.flatnonzero((gaps > _LONGEST_STEP * (1.0 + 1e-9)) & (time[:-1] < earthquake.end))
+        if not earthquake.silence and not coarse.size and np.all(gaps > 0.0):
             return time
+        # Between points that are far apart a block may rock and come to rest.
+        ends = np.minimum(time[1:], earthquake.end)
+        between = [np.arange(time[k], ends[k], _SHORTEST_STEP)[1:] for k in coarse.tolist()]
         spacing = float(np.clip(earthquake.motion.dt, _SHORTEST_STEP, _LONGEST_STEP))
         after = np.arange(earthquake.end, earthquake.run_end, spacing)
-        return np.unique(np.concatenate([time, after]))
+        return np.unique(np.concatenate([time, *between, after]))
     if not 0.0 < step <= time[-1]:
         raise InputError("output-step", "output_step", f"{step:g} s", duration=f"{time[-1]:g} s")
     if time[-1] / step > MOST_MOMENTS:

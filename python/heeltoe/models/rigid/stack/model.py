@@ -48,7 +48,8 @@ def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None
     earthquake
         What shakes the lower crack.
     output_step
-        Spacing of the histories [s]; at the record's samples where it is not given.
+        Spacing of the histories [s]; where it is not given at the record's samples, and between those that are more
+        than 0.02 s apart.
 
     Raises
     ------
