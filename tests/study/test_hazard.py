@@ -29,7 +29,7 @@ limits = {{ residual_slip = ["20 mm", "100 mm"] }}
 [hazard]
 {hazard}
 """
-INLINE = 'curve = [["0.1 g", 0.02], ["0.5 g", 0.002], ["1 g", 0.0003], ["2 g", 0.00004]]'
+INLINE = 'curve = [["0.1 g", 0.02], ["0.5 g", 0.002], ["1 g", 0.0003], ["2 g", 0.00004]]\nat = "0.3 g"'
 
 
 def curve(median, dispersion, covariance=None, events=10):
@@ -91,10 +91,33 @@ def test_the_interval_of_a_power_law_is_that_of_its_exponent():
     assert math.log(high / low) / 2.0 == pytest.approx(t.ppf(0.95, 9) * (k * dispersion) ** 2 * deviation, rel=1e-3)
 
 
+def test_the_fractiles_of_a_power_law_lie_as_those_of_its_median():
+    k, deviation = 2.5, 0.1
+    told = annual(curve(2.0, 0.3, (deviation**2, 0.0, 0.0)), power_law(1e-3, k, (0.5, 8.0)))
+    fractiles = told["annual_probability_fractiles"]
+    assert fractiles["50%"] == pytest.approx(told["annual_probability"], rel=1e-12)
+    from scipy.stats import t
+
+    rates = [-math.log1p(-fractiles[name]) for name in ("5%", "16%", "84%", "95%")]
+    expected = [k * deviation * t.ppf(share, 9) for share in (0.05, 0.16, 0.84, 0.95)]
+    assert [math.log(rate / told["annual_rate"]) for rate in rates] == pytest.approx(expected, rel=1e-6)
+    assert annual(curve(2.0, 0.3), power_law(1e-3, k, (0.5, 8.0)))["annual_probability_fractiles"] is None
+
+
+def test_a_strength_that_is_asked_of_has_its_probability_and_its_rate():
+    hazard = power_law(1e-3, 2.0, (0.5, 2.0, 8.0)) | {"at": [1.0, 16.0]}
+    points = {point["strength"]: point for point in annual(curve(1.0, 0.3), hazard)["at"]}
+    assert list(points) == [0.5, 1.0, 2.0, 8.0, 16.0]
+    assert points[1.0]["probability"] == pytest.approx(0.5)
+    for strength in (1.0, 16.0):
+        assert points[strength]["annual_rate"] == pytest.approx(1e-3 * strength**-2.0, rel=1e-9)
+
+
 def test_a_study_with_a_hazard_says_how_often_a_year(tmp_path):
     file = study_file(tmp_path, STUDY.format(hazard=INLINE), case=BLOCK)
     found = heeltoe.run_study(file, tmp_path / "out")
     assert [row["value"] for row in found.hazard] == [0.02, 0.1]
+    assert [point["strength"] / 9.80665 for point in found.hazard[0]["at"]] == pytest.approx([0.1, 0.3, 0.5, 1.0, 2.0])
     weak, strong = found.hazard
     assert weak["annual_rate"] > strong["annual_rate"] > 0.0
     by_hand = annual(found.curves[0][1], found.told["hazard"])

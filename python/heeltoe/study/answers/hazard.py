@@ -24,6 +24,8 @@ from heeltoe.study.answers.fragility import Curve
 
 #: Groups of strengths, of which each says how much of the rate it makes.
 _GROUPS = 24
+#: Shares of what the rate may be by the uncertainty of the fragility curve that its fractiles stay above.
+FRACTILES = {"5%": 0.05, "16%": 0.16, "50%": 0.50, "84%": 0.84, "95%": 0.95}
 #: By how much median and dispersion are moved for the slope of the rate.
 _MOVED = 1e-4
 
@@ -36,31 +38,40 @@ def annual(curve: Curve, hazard: Mapping[str, Any]) -> dict[str, Any]:
     curve
         The fragility curve of the limit.
     hazard
-        ``strength``, SI, and ``annual_rate`` of the hazard curve.
+        ``strength``, SI, and ``annual_rate`` of the hazard curve, and ``at``, other strengths that are asked of.
 
     Returns
     -------
     dict
         ``annual_rate`` [1/year] with its interval, from the uncertainty of the curve to first order and not of the
-        hazard; ``annual_probability``; ``return_period_years``; ``extrapolated``, the share of the rate from beyond
-        the ends of the hazard curve; ``contribution``, the share from each group of strengths; ``at``, the probability
-        of the limit at each strength of the hazard curve. None of them where there is no fragility curve.
+        hazard; ``annual_probability`` with its ``annual_probability_fractiles``; ``return_period_years``;
+        ``extrapolated``, the share of the rate from beyond the ends of the hazard curve; ``contribution``, the share
+        from each group of strengths; ``at``, the probability of the limit at each strength of the hazard curve, and at
+        those that are asked of. None of them where there is no fragility curve.
     """
     strength, rate = np.array(hazard["strength"]), np.array(hazard["annual_rate"])
     document: dict[str, Any] = {"limit": curve.limit, "value": curve.value, "measure": curve.measure, "why": curve.why}
     if curve.median is None or curve.dispersion is None:
         names = ("annual_rate", "annual_rate_interval", "annual_probability", "return_period_years", "extrapolated")
-        return {**document, **dict.fromkeys(names), "contribution": [], "at": []}
+        return {
+            **document,
+            **dict.fromkeys(names),
+            "annual_probability_fractiles": None,
+            "contribution": [],
+            "at": [],
+        }
     total = _total(curve, strength, rate)
     edges = np.geomspace(strength[0], strength[-1], _GROUPS + 1)
     parts = np.diff(_up_to(curve, strength, rate, np.array([0.0, *edges, np.inf])))
-    interval = _interval(curve, strength, rate, total)
-    probabilities = curve.probability(strength).tolist()
+    spread = _deviation(curve, strength, rate, total)
+    points = np.unique([*strength.tolist(), *hazard.get("at", ())])
+    probabilities = curve.probability(points).tolist()
     return {
         **document,
         "annual_rate": total,
-        "annual_rate_interval": interval,
+        "annual_rate_interval": _interval(curve, total, spread),
         "annual_probability": -math.expm1(-total),
+        "annual_probability_fractiles": _fractiles(curve, total, spread),
         "return_period_years": 1.0 / total if total > 0.0 else None,
         "extrapolated": float(parts[0] + parts[-1]) / total if total > 0.0 else 0.0,
         "contribution": [
@@ -69,7 +80,9 @@ def annual(curve: Curve, hazard: Mapping[str, Any]) -> dict[str, Any]:
         ],
         "at": [
             {"strength": at, "annual_rate": exceeded, "probability": probability}
-            for at, exceeded, probability in zip(strength.tolist(), rate.tolist(), probabilities, strict=True)
+            for at, exceeded, probability in zip(
+                points.tolist(), _rates(points, strength, rate), probabilities, strict=True
+            )
         ],
     }
 
@@ -110,10 +123,19 @@ def _stretch(curve: Curve, at: Floats, slope: float, level: float) -> Floats:
     return np.where(below, 0.0, moved - ndtr((place - middle) / spread) * falling)
 
 
-def _interval(curve: Curve, strength: Floats, rate: Floats, total: float) -> list[float] | None:
-    """Return what the rate lies within, by the covariance of the fragility curve to first order; None without one."""
-    from scipy import stats
+def _rates(points: Floats, strength: Floats, rate: Floats) -> list[float]:
+    """Return how often a year some strengths are exceeded: straight on double logarithmic axes, beyond the ends too."""
+    at, known, hazard = np.log(points), np.log(strength), np.log(rate)
+    stretch = np.clip(np.searchsorted(known, at, side="right") - 1, 0, known.size - 2)
+    slope = (hazard[stretch + 1] - hazard[stretch]) / (known[stretch + 1] - known[stretch])
+    on_curve = {float(x): float(h) for x, h in zip(strength, rate, strict=True)}
+    made = np.exp(hazard[stretch] + slope * (at - known[stretch])).tolist()
+    return [on_curve.get(point, value) for point, value in zip(points.tolist(), made, strict=True)]
 
+
+def _deviation(curve: Curve, strength: Floats, rate: Floats, total: float) -> float | None:
+    """Return the standard deviation of the logarithm of the rate, by the covariance of the fragility curve to first
+    order; None without one."""
     if curve.covariance is None or total <= 0.0:
         return None
     assert curve.median is not None
@@ -125,5 +147,26 @@ def _interval(curve: Curve, strength: Floats, rate: Floats, total: float) -> lis
     slopes = np.array([math.log(_total(other, strength, rate) / total) / _MOVED for other in moved])
     middle, both, spread = curve.covariance
     variance = float(slopes @ np.array([[middle, both], [both, spread]]) @ slopes)
-    reach = float(stats.t.ppf(0.5 + curve.confidence / 2.0, curve.events - 1)) * math.sqrt(max(variance, 0.0))
+    return math.sqrt(max(variance, 0.0))
+
+
+def _interval(curve: Curve, total: float, deviation: float | None) -> list[float] | None:
+    """Return what the rate lies within; None without a deviation of its logarithm."""
+    if deviation is None:
+        return None
+    reach = _reach(curve, 0.5 + curve.confidence / 2.0) * deviation
     return [total * math.exp(-reach), total * math.exp(reach)]
+
+
+def _fractiles(curve: Curve, total: float, deviation: float | None) -> dict[str, float] | None:
+    """Return the fractiles of the annual probability; None without a deviation of the logarithm of the rate."""
+    if deviation is None:
+        return None
+    return {name: -math.expm1(-total * math.exp(_reach(curve, share) * deviation)) for name, share in FRACTILES.items()}
+
+
+def _reach(curve: Curve, share: float) -> float:
+    """Return how many standard deviations up a share lies: Student's, since the events are few."""
+    from scipy import stats
+
+    return float(stats.t.ppf(share, curve.events - 1))

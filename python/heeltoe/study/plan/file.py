@@ -225,6 +225,8 @@ class Hazard(Fields):
     file: str | None = Field(default=None, strict=True, min_length=1)
     """A CSV file of the same, relative to the study file, with the unit of the strength in its header: `pga [g], rate`.
     """
+    at: Annotated[tuple[Value, ...], BeforeValidator(_listed)] = ()
+    """Strengths at which the probability of each limit is wanted, beside those of the curve: `["0.3 g"]`."""
 
     @model_validator(mode="after")
     @collected

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from collections.abc import Sequence
@@ -13,7 +14,7 @@ import numpy as np
 from heeltoe.base.arrays import Floats
 from heeltoe.base.input_files import read_csv_rows, reason_of
 from heeltoe.errors.error import InputError, shown
-from heeltoe.study.plan.file import Hazard
+from heeltoe.study.plan.file import Hazard, Value
 from heeltoe.study.plan.problems import Problems
 from heeltoe.units.parse import parse, parse_acceleration
 
@@ -42,14 +43,17 @@ class HazardCurve:
         (n,) ascending, SI.
     rate
         (n,) falling, how often a year it is exceeded [1/year].
+    at
+        Other strengths of which the study asks, SI.
     """
 
     strength: Floats
     rate: Floats
+    at: tuple[float, ...] = ()
 
     def to_json(self) -> dict[str, list[float]]:
         """Return it as a study keeps it."""
-        return {"strength": self.strength.tolist(), "annual_rate": self.rate.tolist()}
+        return {"strength": self.strength.tolist(), "annual_rate": self.rate.tolist(), "at": list(self.at)}
 
 
 def read_hazard(hazard: Hazard, measure: str, gravity: float, directory: Path) -> HazardCurve:
@@ -77,21 +81,28 @@ def read_hazard(hazard: Hazard, measure: str, gravity: float, directory: Path) -
         pairs = _of_file(directory / os.path.expanduser(hazard.file), field)
     else:
         pairs = [(str(strength), rate) for strength, rate in hazard.curve or ()]
-    strengths, problems = list[float](), Problems()
-    for place, (text, _) in enumerate(pairs):
-        with problems:
-            acceleration = quantity == "acceleration"
-            at = f"{field}[{place}]"
-            number = parse_acceleration(text, at).si(gravity) if acceleration else parse(text, quantity, at)
-            strengths.append(number)
-    problems.tell()
+
+    def strengths_of(values: Sequence[Value], path: str) -> list[float]:
+        numbers, problems = list[float](), Problems()
+        for place, value in enumerate(values):
+            with problems:
+                at = f"{path}[{place}]"
+                acceleration = quantity == "acceleration"
+                number = parse_acceleration(value, at).si(gravity) if acceleration else parse(value, quantity, at)
+                if not 0.0 < number < math.inf:
+                    raise InputError("out-of-range", at, str(value), bound="above 0")
+                numbers.append(number)
+        problems.tell()
+        return numbers
+
+    strengths = strengths_of([text for text, _ in pairs], field)
     strength, rate = np.array(strengths), np.array([rate for _, rate in pairs], dtype=np.float64)
     sound = strength.size >= 2 and bool(np.isfinite(strength).all() and np.isfinite(rate).all())
     if not sound or strength[0] <= 0.0 or (np.diff(strength) <= 0.0).any():
         raise InputError("hazard-order", field, shown([text for text, _ in pairs][:4]))
     if (rate <= 0.0).any() or (np.diff(rate) >= 0.0).any():
         raise InputError("hazard-rates", field, shown(rate.tolist()[:4]))
-    return HazardCurve(strength, rate)
+    return HazardCurve(strength, rate, tuple(strengths_of(hazard.at, "hazard.at")))
 
 
 def _of_file(path: Path, field: str) -> list[tuple[str, float]]:

@@ -121,7 +121,9 @@ OF_OTHERS: dict[str, dict[str, str]] = {
         "hazard[].contribution[].from": "Weakest motions of the group, in SI.",
         "hazard[].contribution[].to": "Strongest motions of the group, in SI.",
         "hazard[].contribution[].share": "Their share of the rate.",
-        "hazard[].at": "The limit at each strength of the hazard curve.",
+        "hazard[].annual_probability_fractiles": "Fractiles of the annual probability by the uncertainty of the "
+        "fragility curve, by name (5%, 16%, 50%, 84%, 95%); null without an interval.",
+        "hazard[].at": "The limit at each strength of the hazard curve, and at those of hazard.at.",
         "hazard[].at[].strength": "Of the motion, in SI.",
         "hazard[].at[].annual_rate": "How often a year it is exceeded at the site.",
         "hazard[].at[].probability": "Probability that the limit is exceeded in such a motion.",
