@@ -123,6 +123,7 @@ OF_OTHERS: dict[str, dict[str, str]] = {
         "hazard[].contribution[].share": "Their share of the rate.",
         "hazard[].annual_probability_fractiles": "Fractiles of the annual probability by the uncertainty of the "
         "fragility curve, by name (5%, 16%, 50%, 84%, 95%); null without an interval.",
+        "hazard[].annual_probability_fractiles.*": "The probability that one of them is.",
         "hazard[].at": "The limit at each strength of the hazard curve, and at those of hazard.at.",
         "hazard[].at[].strength": "Of the motion, in SI.",
         "hazard[].at[].annual_rate": "How often a year it is exceeded at the site.",
