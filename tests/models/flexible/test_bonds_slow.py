@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from heeltoe import read_case, run
+from heeltoe import flexible, read_case, run
 
 pytestmark = pytest.mark.slow
 SECTION = {
@@ -82,3 +82,22 @@ def test_koyna_cracks_at_its_heel_first_then_through_its_neck_from_downstream():
     assert neck.joint.cracked_through_s is not None
     # The top rocks on what has cracked.
     assert neck.opening_upstream_m > 1e-2
+
+
+@pytest.mark.parametrize("batch", range(6))
+def test_of_random_joints_none_heals_and_every_ledger_closes(batch):
+    rng = np.random.default_rng([3232, batch])
+    for _ in range(50):
+        fields = random_joint(rng)
+        fields["flexible"] = {"elements_across": int(rng.integers(2, 5)), "evidence": "none"}
+        fields["uplift"] = {"pattern": str(rng.choice(["none", "triangular"]))}
+        response = flexible(read_case(fields))
+        assert response.outcome == "ok", fields
+        assert response.energy.residual < 1e-9, fields
+        damage = response.crack.damage
+        assert np.all(np.isfinite(damage)), fields
+        assert np.all(np.diff(damage, axis=0) >= 0.0), fields
+        assert all(np.isfinite(values).all() for values in response.histories.values()), fields
+        for name in ("cracked_upstream_m", "cracked_downstream_m", "cracked_length_m"):
+            values = response.histories[name]
+            assert np.all(np.diff(values) >= -1e-9 * max(1.0, np.abs(values).max())), (name, fields)
