@@ -224,8 +224,8 @@ def _cost(case: Case, shaking: Earthquake, output_step: float | None, spread: in
 
 
 def _check_costs(case: Case, names: Sequence[str], shaking: Earthquake, output_step: float | None) -> None:
-    """Refuse what takes too much before the first of two models runs."""
-    if len(names) > 1 and "flexible" in names:
+    """Refuse what takes too much before the first model runs, and the first way round."""
+    if "flexible" in names:
         from heeltoe.models.flexible.body.cost import check_cost
 
         check_cost(case, _cost(case, shaking, output_step))
