@@ -43,8 +43,8 @@ class Environment:
         kept = {"SYSTEMROOT", "TEMP", "TMP", "PIP_INDEX_URL", "PIP_CONFIG_FILE", "PIP_CERT", "SSL_CERT_FILE"}
         passed = {name: value for name, value in os.environ.items() if name in kept or name.lower().endswith("_proxy")}
         self.variables = {**passed, "PATH": str(self.programs), "HOME": str(self.home), "COLUMNS": "160"}
-        found = [name for name in COMPILERS if shutil.which(name, path=self.variables["PATH"])]
-        assert not found, f"the environment has {found}"
+        result = [name for name in COMPILERS if shutil.which(name, path=self.variables["PATH"])]
+        assert not result, f"the environment has {result}"
         if WINDOWS:
             self.variables["USERPROFILE"] = str(self.home)
 
@@ -80,17 +80,19 @@ class Environment:
 
 def constraints(place: Path) -> Path:
     """Write the versions of the lock file, without their hashes, which a wheel of ours cannot have."""
-    found = re.findall(r"^([\w.-]+==[\w.!+-]+)", (ROOT / "requirements.lock").read_text(encoding="utf-8"), re.MULTILINE)
+    matches = re.findall(
+        r"^([\w.-]+==[\w.!+-]+)", (ROOT / "requirements.lock").read_text(encoding="utf-8"), re.MULTILINE
+    )
     path = place / "constraints.txt"
-    path.write_text("".join(f"{each}\n" for each in found), encoding="utf-8")
+    path.write_text("".join(f"{match}\n" for match in matches), encoding="utf-8")
     return path
 
 
 def names(wheel: Path) -> set[str]:
     """Return the files of a wheel, what is compiled and what says its version apart."""
     with zipfile.ZipFile(wheel) as archive:
-        found = {re.sub(r"^heeltoe-[^/]+\.dist-info/", "dist-info/", name) for name in archive.namelist()}
-    return {name for name in found if not re.fullmatch(r"heeltoe/kernel/_kernel\..*(so|pyd)|dist-info/sboms/.*", name)}
+        result = {re.sub(r"^heeltoe-[^/]+\.dist-info/", "dist-info/", name) for name in archive.namelist()}
+    return {name for name in result if not re.fullmatch(r"heeltoe/kernel/_kernel\..*(so|pyd)|dist-info/sboms/.*", name)}
 
 
 def check_contents(wheel: Path) -> None:

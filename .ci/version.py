@@ -22,22 +22,22 @@ def problems(root: Path, tag: str | None = None) -> list[str]:
         for name in ("Cargo.toml", "Cargo.lock", "CITATION.cff", "CHANGELOG.md")
     }
     version = str(tomllib.loads(texts["Cargo.toml"])["workspace"]["package"]["version"])
-    found = []
-    ours = [each for each in tomllib.loads(texts["Cargo.lock"])["package"] if each["name"].startswith("heeltoe")]
-    if {each["version"] for each in ours} != {version}:
-        found.append(f"Cargo.lock has another version of ours than {version}: run cargo update --workspace")
+    result = []
+    ours = [item for item in tomllib.loads(texts["Cargo.lock"])["package"] if item["name"].startswith("heeltoe")]
+    if {our["version"] for our in ours} != {version}:
+        result.append(f"Cargo.lock has another version of ours than {version}: run cargo update --workspace")
     if not re.search(rf"^version: {re.escape(version)}$", texts["CITATION.cff"], re.MULTILINE):
-        found.append(f"CITATION.cff has another version than {version}")
+        result.append(f"CITATION.cff has another version than {version}")
     heading = re.search(rf"^## {re.escape(version)} \((.+)\)$", texts["CHANGELOG.md"], re.MULTILINE)
     if heading is None:
-        found.append(f"CHANGELOG.md has no heading for {version}")
+        result.append(f"CHANGELOG.md has no heading for {version}")
     if tag is not None and tag != f"v{version}":
-        found.append(f"the tag is {tag}, the version {version}")
+        result.append(f"the tag is {tag}, the version {version}")
     date = re.search(r"^date-released: (\S+)$", texts["CITATION.cff"], re.MULTILINE)
     cited = date[1] if date else "unreleased"
     if heading is not None and (heading[1] != cited or (tag is not None and date is None)):
-        found.append(f"CHANGELOG.md dates {version} {heading[1]}, CITATION.cff {cited}; a tag needs a day in both")
-    return found
+        result.append(f"CHANGELOG.md dates {version} {heading[1]}, CITATION.cff {cited}; a tag needs a day in both")
+    return result
 
 
 if __name__ == "__main__":

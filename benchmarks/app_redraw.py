@@ -63,10 +63,10 @@ def served() -> Iterator[tuple[str, float]]:
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment) as app:
         assert app.stdout is not None
-        said = app.stdout.readline().split()
+        words = app.stdout.readline().split()
         try:
-            require(len(said) > 3 and said[3].startswith("http://"), "the app has not started")
-            yield said[3], began
+            require(len(words) > 3 and words[3].startswith("http://"), "the app has not started")
+            yield words[3], began
         finally:
             app.send_signal(signal.SIGINT)
 
@@ -74,15 +74,15 @@ def served() -> Iterator[tuple[str, float]]:
 @contextmanager
 def browser() -> Iterator[Any]:
     """Start the browser."""
-    found = next((each for each in map(shutil.which, _BROWSERS) if each), None)
-    if found is None:
+    result = next((item for item in map(shutil.which, _BROWSERS) if item), None)
+    if result is None:
         raise Skipped("there is no chromium")
     try:
         from playwright.sync_api import sync_playwright
     except ImportError:
         raise Skipped("there is no playwright") from None
     with sync_playwright() as tools:
-        yield tools.chromium.launch(executable_path=found)
+        yield tools.chromium.launch(executable_path=result)
 
 
 def opened(chromium: Any, address: str, case: str) -> Any:
@@ -108,9 +108,9 @@ def still(tab: Any) -> None:
 
 def drag(tab: Any, path: str, events: int, pause_ms: float = _PAUSE_MS) -> list[float]:
     """Move a slider, and return how long each of its events took to be seen [s]."""
-    found: list[float] = tab.evaluate(_DRAG, [f"slider-{path.replace('.', '-')}", events, pause_ms])
-    require(len(found) >= events // 2, f"{path}: {len(found)} of {events} events were drawn")
-    return found
+    result: list[float] = tab.evaluate(_DRAG, [f"slider-{path.replace('.', '-')}", events, pause_ms])
+    require(len(result) >= events // 2, f"{path}: {len(result)} of {events} events were drawn")
+    return result
 
 
 def row(name: str, what: str, found: Sequence[float]) -> list[str]:
@@ -133,9 +133,9 @@ def alone(chromium: Any, address: str) -> list[list[str]]:
         drag(tab, "crack.friction", 10)
         every: list[float] = []
         for path, name in SLIDERS.items():
-            found = drag(tab, path, EVENTS)
-            every += found
-            rows.append(row(case, name, found))
+            result = drag(tab, path, EVENTS)
+            every += result
+            rows.append(row(case, name, result))
             still(tab)
         rows.append(row(case, "all", every))
         tab.context.close()
@@ -148,11 +148,11 @@ def together(chromium: Any, address: str) -> list[str]:
     start = f"([id, events, pause]) => {{ window.dragged = ({_DRAG})([id, events, pause]); }}"
     for tab in tabs:
         tab.evaluate(start, ["slider-crack-friction", EVENTS_OF_EACH, 4 * _PAUSE_MS])
-    found = [each for tab in tabs for each in tab.evaluate("() => window.dragged")]
-    require(len(found) >= TABS * EVENTS_OF_EACH // 2, f"{len(found)} events of {TABS} tabs were drawn")
+    result = [item for tab in tabs for item in tab.evaluate("() => window.dragged")]
+    require(len(result) >= TABS * EVENTS_OF_EACH // 2, f"{len(result)} events of {TABS} tabs were drawn")
     for tab in tabs:
         tab.context.close()
-    return row(CASES[0], f"friction, {TABS} tabs at once", found)
+    return row(CASES[0], f"friction, {TABS} tabs at once", result)
 
 
 def first(chromium: Any) -> list[list[str]]:
@@ -174,8 +174,8 @@ def first(chromium: Any) -> list[list[str]]:
             )
             painted.append(late + at / 1000 - asked)
     return [
-        [name, seconds(median(found)), seconds(max(found))]
-        for name, found in (("first paint", painted), ("the first answer is drawn", answered))
+        [name, seconds(median(result)), seconds(max(result))]
+        for name, result in (("first paint", painted), ("the first answer is drawn", answered))
     ]
 
 

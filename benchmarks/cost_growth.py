@@ -44,15 +44,15 @@ def rigid_lengths() -> tuple[list[list[str]], str]:
     lines, times = [], []
     for length in LENGTHS:
         motion = _shaken_for(length)
-        found = rigid_many(blocks, [motion], limits=LIMITS, threads=1)
-        require(bool(found["slip"].min() > 0.0), "the dam did not slide")
+        batch = rigid_many(blocks, [motion], limits=LIMITS, threads=1)
+        require(bool(batch["slip"].min() > 0.0), "the dam did not slide")
         times.append(least(repeat(lambda motion=motion: rigid_many(blocks, [motion], limits=LIMITS, threads=1), 3)))
         lines.append(
             [
                 f"{length:g} s",
                 seconds(times[-1] / BLOCKS),
-                f"{found['events'][0]:.0f}",
-                f"{found['energy_residual'].max():.0e}",
+                f"{batch['events'][0]:.0f}",
+                f"{batch['energy_residual'].max():.0e}",
             ]
         )
     return lines, _power(LENGTHS, times)
@@ -70,21 +70,21 @@ def rigid_counts() -> tuple[list[list[str]], str]:
 
 def meshes(finest: int) -> tuple[list[list[str]], str]:
     """Time the elastic dam by its mesh, and how far its slip is from that of the finest."""
-    motion, found = _shaken_for(20.0), []
-    across = [each for each in ACROSS if each <= finest]
+    motion, result = _shaken_for(20.0), []
+    across = [item for item in ACROSS if item <= finest]
     for each in across:
         case = read_case(EXAMPLES / "thesis/typical-base.toml", (*DAM, f"flexible.elements_across={each}"))
         setup = repeat(lambda case=case: reduced._build(case), 3, bonded._KEPT.clear)
         shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(motion, None, motion.duration).shaking)
         slip = shaken.run(BASE_STEP).summary.slip
         require(slip > 1e-3, "the dam did not slide")
-        found.append((each, least(setup), least(repeat(lambda shaken=shaken: shaken.run(BASE_STEP), 3)), slip))
-    end = found[-1][3]
+        result.append((each, least(setup), least(repeat(lambda shaken=shaken: shaken.run(BASE_STEP), 3)), slip))
+    end = result[-1][3]
     lines = [
         [f"{each} across", seconds(ready), seconds(taken), f"{1e3 * slip:.1f} mm", f"{abs(slip / end - 1.0):.1%}"]
-        for each, ready, taken, slip in found
+        for each, ready, taken, slip in result
     ]
-    return lines, _power(across, [taken for _, _, taken, _ in found])
+    return lines, _power(across, [taken for _, _, taken, _ in result])
 
 
 def flexible_lengths_and_counts() -> tuple[list[list[str]], list[list[str]]]:

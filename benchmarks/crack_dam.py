@@ -128,9 +128,9 @@ def several_cracks(name: str, changes: tuple[str, ...]) -> list[str]:
     """Measure a dam with two cracks beside those that have one of them, in turn and at the same step."""
     case = read_case(EXAMPLES / "two-cracks.toml", ("motion.duration=12s", "analysis.silence=0s", *changes))
     cases = (case, *case.single_crack_cases)
-    dams = [ShakenDam(each, flexible_parts.build_flexible_dam(each), earthquake(each).shaking) for each in cases]
+    dams = [ShakenDam(item, flexible_parts.build_flexible_dam(item), earthquake(item).shaking) for item in cases]
     slips = [[crack.slip for crack in dam.run(HEIGHT_STEP).summaries] for dam in dams]
-    require(min(abs(slip) for each in slips for slip in each) > 1e-3, "a crack did not slide")
+    require(min(abs(slip) for item in slips for slip in item) > 1e-3, "a crack did not slide")
     times = np.array([[repeat(lambda dam=dam: dam.run(HEIGHT_STEP), 1).cpu[0] for dam in dams] for _ in range(7)])
     both, *alone = times.min(axis=0) / round(cases[0].motion.duration / HEIGHT_STEP)
     return [name, seconds(both), *map(seconds, alone), f"{both / sum(alone):.2f}"]
@@ -166,7 +166,7 @@ def with_kinks() -> dict[str, Case]:
 def beside(cases: dict[str, Case], step: float) -> list[list[str]]:
     """Measure a step [s] of each dam, in turn, and over that of the first."""
     dams = [
-        ShakenDam(each, flexible_parts.build_flexible_dam(each), earthquake(each).shaking) for each in cases.values()
+        ShakenDam(item, flexible_parts.build_flexible_dam(item), earthquake(item).shaking) for item in cases.values()
     ]
     slips = [dam.run(step).summary.slip for dam in dams]
     require(min(map(abs, slips)) > 1e-3, "a crack did not slide")

@@ -85,7 +85,7 @@ def attempt(result: Result) -> Attempt | None:
 
 def peers() -> tuple[list[Attempt], list[str]]:
     """Run the peers that are installed; also say which are not, or broke down."""
-    found, said = [], []
+    outcome, remarks = [], []
     runs = [
         (lambda step=step, name=name, element=element: peer_opensees.sliding_block(step, name, element=element))
         for step, name in OPENSEES
@@ -100,26 +100,26 @@ def peers() -> tuple[list[Attempt], list[str]]:
         try:
             result = run()
         except Skipped as reason:
-            said.append(f"Not measured: {reason}.")
+            remarks.append(f"Not measured: {reason}.")
             continue
         except NothingMeasured as reason:
-            said.append(f"Broke down: {reason}.")
+            remarks.append(f"Broke down: {reason}.")
             continue
         judged = attempt(result)
         if judged is None:
-            said.append(f"{result.program}, {result.settings}, step {result.step:g} s: {result.note}.")
+            remarks.append(f"{result.program}, {result.settings}, step {result.step:g} s: {result.note}.")
         else:
-            found.append(judged)
-    return found, list(dict.fromkeys(said))
+            outcome.append(judged)
+    return outcome, list(dict.fromkeys(remarks))
 
 
 def report() -> str:
     """Measure and return Markdown."""
     require(PROFILE == "release", "the kernel is a debug build")
     own = ours(ALONG) + ours(ALONG // 2)
-    found, said = peers()
-    if not found:
-        raise Skipped("no peer ran: " + " ".join(said))
+    result, remarks = peers()
+    if not result:
+        raise Skipped("no peer ran: " + " ".join(remarks))
     text = (
         f"Elastic block of 4 m by 1 m, {MODULUS / 1e9:g} GPa, no damping, pushed and shaken for {DURATION:g} s; errors "
         "are the largest at any tenth of a second against the exact slip of a rigid one, "
@@ -128,7 +128,7 @@ def report() -> str:
         "nodes on the base, quad8n and 8 nodes have 33; ours has 33 with 16 across and 17 with 8 across."
     )
     return "\n\n".join(
-        [heading("Elastic block beside peers", ["heeltoe", "numpy"]), text, table(COLUMNS, rows(own, found)), *said]
+        [heading("Elastic block beside peers", ["heeltoe", "numpy"]), text, table(COLUMNS, rows(own, result)), *remarks]
     )
 
 

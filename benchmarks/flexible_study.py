@@ -69,7 +69,7 @@ def study_file(folder: Path, frictions: tuple[float, ...]) -> Path:
 def busy() -> float:
     """Return the processor time of this process and of those it has waited for [s]."""
     both = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
-    return sum(each.ru_utime + each.ru_stime for each in both)
+    return sum(item.ru_utime + item.ru_stime for item in both)
 
 
 def forget() -> None:
@@ -116,9 +116,9 @@ class counted:
     def __enter__(self) -> None:
         def timed(*given: object, **named: object) -> object:
             began = time.process_time()
-            found = self._plain(*given, **named)
+            result = self._plain(*given, **named)
             self._spent.setdefault(self._key, []).append(time.process_time() - began)
-            return found
+            return result
 
         setattr(self._owner, self._name, timed)
 
@@ -154,22 +154,22 @@ def measure(frictions: tuple[float, ...]) -> list[list[str]]:
             began.append(time.perf_counter())
             marks.append(busy())
 
-        found = run_study(file, Path(folder) / "out", before=before)
+        study = run_study(file, Path(folder) / "out", before=before)
         began.append(time.perf_counter())
         marks.append(busy())
-        count = found.store.count
-        require(found.complete and found.all_ok, "some run has no result")
-        plan = replace(plan_of(read_study(file)), pilot=Pilot(**found.told["pilot"]))
+        count = study.store.count
+        require(study.complete and study.all_ok, "some run has no result")
+        plan = replace(plan_of(read_study(file)), pilot=Pilot(**study.told["pilot"]))
         here = in_this_process(plan)
-        single = alone(found, plan)
+        single = alone(study, plan)
     ahead, during = ((end - start) / count for start, end in pairwise(marks))
     # The seconds of a study are elapsed ones of its workers, one for each core, as these are.
     _, whole = (end - start for start, end in pairwise(began))
-    inside = sum(found.told["seconds"][each] for each in ("blocks", "kernel"))
+    inside = sum(study.told["seconds"][item] for item in ("blocks", "kernel"))
     beside = (os.cpu_count() or 1) * whole / inside - 1.0
     ready = single.kernel + single.setup
     return [
-        ["runs of the study", f"{count} in parts of {found.store.size}, {seconds(began[-1] - began[0])}"],
+        ["runs of the study", f"{count} in parts of {study.store.size}, {seconds(began[-1] - began[0])}"],
         ["said beforehand", seconds(expected[0])],
         ["a run of the study", seconds(during)],
         ["the same in one process, without engine and storage", seconds(here)],

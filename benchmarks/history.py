@@ -53,16 +53,16 @@ class Figure:
 def picked(section: str, commit: str) -> list[Figure]:
     """Return the figures of one section of the results."""
     title = section.split("\n", 1)[0].removeprefix("## ")
-    told = re.search(r"^Measured (\S+) on (.*?); .*?heeltoe ([^,.\s]+(?:\.\w+)*)", section, re.M)
-    if told is None:
+    match = re.search(r"^Measured (\S+) on (.*?); .*?heeltoe ([^,.\s]+(?:\.\w+)*)", section, re.M)
+    if match is None:
         return []
-    date, machine, release = told.groups()
-    found = []
+    date, machine, release = match.groups()
+    result = []
     for part, name, pattern in FIGURES:
         if part == title and (value := re.search(pattern, section, re.M)):
             number, unit = value[1].split()
-            found.append(Figure(date, release, commit, machine, part, name, f"{float(number) * UNITS[unit]:.4g}"))
-    return found
+            result.append(Figure(date, release, commit, machine, part, name, f"{float(number) * UNITS[unit]:.4g}"))
+    return result
 
 
 def read() -> list[Figure]:
@@ -89,10 +89,10 @@ def page(known: list[Figure]) -> str:
     names = [(part, name) for part, name, _ in FIGURES if any((e.part, e.figure) == (part, name) for e in known)]
     heads = ["date", "version", "commit", *(name for _, name in names)]
     lines = [heads, ["---"] * len(heads)]
-    for when in dict.fromkeys((each.date, each.version, each.commit) for each in known):
+    for when in dict.fromkeys((item.date, item.version, item.commit) for item in known):
         of_then = {(e.part, e.figure): e.seconds for e in known if (e.date, e.version, e.commit) == when}
-        lines.append([*when, *(_shown(of_then[each]) if each in of_then else "" for each in names)])
-    machines = "; ".join(dict.fromkeys(each.machine for each in known))
+        lines.append([*when, *(_shown(of_then[item]) if item in of_then else "" for item in names)])
+    machines = "; ".join(dict.fromkeys(item.machine for item in known))
     table = "\n".join("| " + " | ".join(line) + " |" for line in lines)
     return (
         "# Our own figures by version\n\nWritten by `python benchmarks/run.py`, which appends what it has measured to "
@@ -121,13 +121,13 @@ def _git(*words: str) -> str:
 
 def from_git() -> list[Figure]:
     """Return the figures of every version of results.md, the oldest first; each with the commit that brought it."""
-    found: list[Figure] = []
+    result: list[Figure] = []
     for commit in _git("log", "--reverse", "--format=%h", "--", "results.md").split():
         sections = re.split(r"^(?=## )", _git("show", f"{commit}:./results.md"), flags=re.M)[1:]
-        seen = {(each.date, each.part, each.figure, each.seconds) for each in found}
+        seen = {(item.date, item.part, item.figure, item.seconds) for item in result}
         for section in sections:
-            found += [e for e in picked(section, commit) if (e.date, e.part, e.figure, e.seconds) not in seen]
-    return found
+            result += [e for e in picked(section, commit) if (e.date, e.part, e.figure, e.seconds) not in seen]
+    return result
 
 
 if __name__ == "__main__":

@@ -98,7 +98,7 @@ def _interpreter() -> tuple[str, str]:
     Skipped
         Where none has it.
     """
-    said = "not even an interpreter"
+    reason = "not even an interpreter"
     for candidate in (sys.executable, shutil.which("python3", path=os.defpath)):
         if candidate is None:
             continue
@@ -106,8 +106,8 @@ def _interpreter() -> tuple[str, str]:
         answer = subprocess.run(call, capture_output=True, text=True, check=False, env=_environment())
         if answer.returncode == 0:
             return candidate, f"its interpreter has NumPy {answer.stdout.strip()}"
-        said = (answer.stderr.strip().splitlines() or [f"code {answer.returncode}"])[-1]
-    raise Skipped(f"no interpreter here has Siconos ({said}); Debian's package is python3-siconos")
+        reason = (answer.stderr.strip().splitlines() or [f"code {answer.returncode}"])[-1]
+    raise Skipped(f"no interpreter here has Siconos ({reason}); Debian's package is python3-siconos")
 
 
 def _environment() -> dict[str, str]:
@@ -151,21 +151,21 @@ def sliding_block(
         call = [program, str(Path(__file__).resolve()), str(path), json.dumps(order)]
         answer = subprocess.run(call, capture_output=True, text=True, check=False, env=_environment())
     require(answer.returncode == 0, f"Siconos broke down: {answer.stderr.strip()[-300:]}")
-    told = json.loads(answer.stdout.strip().splitlines()[-1])
-    notes = [f"{nodes}-node elements, {told['sweeps']:.3g} iterations of the contact per step", note]
-    if told["unsolved"]:
-        notes.append(f"contact not solved to tolerance in {told['unsolved']} steps")
-    if told["renewed"] > 1:
-        notes.append(f"contact matrix worked out anew in {told['renewed']} steps")
+    document = json.loads(answer.stdout.strip().splitlines()[-1])
+    notes = [f"{nodes}-node elements, {document['sweeps']:.3g} iterations of the contact per step", note]
+    if document["unsolved"]:
+        notes.append(f"contact not solved to tolerance in {document['unsolved']} steps")
+    if document["renewed"] > 1:
+        notes.append(f"contact matrix worked out anew in {document['renewed']} steps")
     return Result(
         "Siconos",
         settings,
         step,
-        told["steps"],
-        tuple(told["slip"]),
-        told["ringing"],
-        bool(np.isfinite(told["slip"]).all()),
-        Timing(tuple(told["wall"]), tuple(told["cpu"])),
+        document["steps"],
+        tuple(document["slip"]),
+        document["ringing"],
+        bool(np.isfinite(document["slip"]).all()),
+        Timing(tuple(document["wall"]), tuple(document["cpu"])),
         "; ".join(notes),
     )
 

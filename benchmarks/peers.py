@@ -194,7 +194,7 @@ def page(lines: list[Line]) -> str:
     parts = [_HEAD, "## Who solves what\n"]
     heads = ["program", *PROBLEMS]
     parts.append(
-        _table(heads, [[peer.name, *("●" if each in peer.solve else "" for each in PROBLEMS)] for peer in PEERS])
+        _table(heads, [[peer.name, *("●" if item in peer.solve else "" for item in PROBLEMS)] for peer in PEERS])
     )
     parts.append("\nAll problems are rigid or elastic blocks: none of these programs has the loads of a dam.\n")
     for problem, text in PROBLEMS.items():
@@ -208,7 +208,7 @@ def page(lines: list[Line]) -> str:
 
 
 def _said(peer: Peer) -> str:
-    cannot = "\n".join(f"  - {each}" for each in peer.cannot)
+    cannot = "\n".join(f"  - {item}" for item in peer.cannot)
     return (
         f"### {peer.name}\n\n{peer.what}\n\n- Licence: {peer.licence}\n- Needs: {peer.needs}\n"
         f"- Script: `benchmarks/{peer.script}`\n- Cannot:\n{cannot}\n"
@@ -228,7 +228,7 @@ def read() -> list[Line]:
 def renewed(old: list[Line], peer: Peer, new: list[Line]) -> list[Line]:
     """Return the numbers with those of one program in place of its old ones, in the order of the programs."""
     kept = [line for line in old if line["program"] != peer.name] + new
-    order = [each.name for each in PEERS]
+    order = [item.name for item in PEERS]
     return sorted(kept, key=lambda line: order.index(line["program"]))
 
 
@@ -243,12 +243,12 @@ def run(peer: Peer) -> list[Line]:
     lines = []
     for problem, solve in peer.solve.items():
         try:
-            found = solve()
+            solution = solve()
         except ImportError as error:
             raise NothingMeasured(f"not installed ({error}); it needs {peer.needs}") from None
         texts = (
-            (each.settings, each.step, f"{each.error:.2g} {each.unit}".strip(), f"{each.ours:.2g} {each.unit}".strip())
-            for each in found
+            (item.settings, item.step, f"{item.error:.2g} {item.unit}".strip(), f"{item.ours:.2g} {item.unit}".strip())
+            for item in solution
         )
         lines += [dict(zip(COLUMNS, (problem, peer.name, peer.version(), *text), strict=True)) for text in texts]
     return lines
@@ -257,14 +257,14 @@ def run(peer: Peer) -> list[Line]:
 def main() -> None:
     """Run programs and write what they found."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("peer", nargs="*", metavar="PEER", help=f"of {', '.join(each.name for each in PEERS)}")
+    parser.add_argument("peer", nargs="*", metavar="PEER", help=f"of {', '.join(item.name for item in PEERS)}")
     parser.add_argument("--page", action="store_true", help="the page alone")
-    told = parser.parse_args()
-    by_name = {each.name.lower(): each for each in PEERS}
-    if unknown := [name for name in told.peer if name.lower() not in by_name]:
+    answer = parser.parse_args()
+    by_name = {item.name.lower(): item for item in PEERS}
+    if unknown := [name for name in answer.peer if name.lower() not in by_name]:
         parser.error(f"there is no program {', '.join(unknown)}")
     lines = read() if NUMBERS.exists() else []
-    for peer in [] if told.page else [by_name[name.lower()] for name in told.peer] or PEERS:
+    for peer in [] if answer.page else [by_name[name.lower()] for name in answer.peer] or PEERS:
         try:
             new = run(peer)
         except NothingMeasured as reason:
@@ -272,7 +272,7 @@ def main() -> None:
             continue
         lines = renewed(lines, peer, new)
         print("\n".join(" ".join(f"{line[column]:12s}" for column in COLUMNS[1:]) for line in new))
-    if not told.page:
+    if not answer.page:
         with NUMBERS.open("w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
             writer.writeheader()

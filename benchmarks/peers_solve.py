@@ -66,13 +66,13 @@ def pyslammer() -> list[Solved]:
     motion = el_centro()[0].scaled_to(PEAK * G)
     exact = slip_one_way(motion.acceleration, STEP, YIELD * G)
     mine = float(np.abs(peer_pyslammer.our_slip(motion, YIELD) - exact).max())
-    found = []
+    result = []
     for step in STEPS[:2]:
         record = program.GroundMotion(motion.resampled(step).acceleration / G, step)
         slip = program.RigidAnalysis(YIELD, record).sliding_disp[:: round(STEP / step)]
         wrong = float(np.abs(slip - exact).max())
-        found.append(Solved("rigid", f"{step:g} s", wrong / exact[-1], mine / exact[-1]))
-    return found
+        result.append(Solved("rigid", f"{step:g} s", wrong / exact[-1], mine / exact[-1]))
+    return result
 
 
 def opensees() -> list[Solved]:
@@ -99,7 +99,7 @@ def siconos_blocks() -> list[Solved]:
     sys.path.append(str(Path(__file__).parents[1] / "tests"))
     from shared.stacks import STACKS, at_samples, pulse
 
-    found = []
+    result = []
     for name, (stack, size) in STACKS.items():
         time, ground = pulse(size, rest=1.5)
         problem = stack.problem(time, ground)
@@ -111,8 +111,8 @@ def siconos_blocks() -> list[Solved]:
         mine = float(np.abs(stack.exact(time, ground) - limit[:, [4, 0, 1, 6, 2, 3]]).max())
         for step, seen in zip(BLOCK_STEPS, coarse, strict=True):
             wrong = float(np.abs(seen - limit).max())
-            found.append(Solved(f"both {name}, Gauss-Seidel", f"{step:g} s", 1e3 * wrong, 1e3 * mine, "mm"))
-    return found
+            result.append(Solved(f"both {name}, Gauss-Seidel", f"{step:g} s", 1e3 * wrong, 1e3 * mine, "mm"))
+    return result
 
 
 def _elastic(slip: tuple[float, ...], settings: str, step: float) -> Solved:
@@ -146,6 +146,6 @@ def scipy() -> list[Solved]:
         return float(np.abs(found / exact - 1.0).max())
 
     return [
-        Solved("DOP853", f"{each:.0e}", wrong(np.array(rocking_peers.scipy_impacts(each))), wrong(mine))
-        for each in TOLERANCES
+        Solved("DOP853", f"{item:.0e}", wrong(np.array(rocking_peers.scipy_impacts(item))), wrong(mine))
+        for item in TOLERANCES
     ]

@@ -86,8 +86,8 @@ def rows(our_attempts: list[Attempt], attempts: list[Attempt]) -> list[list[str]
         elif match:
             quickest = min(match, key=lambda a: a.timing.median)
             times = attempt.timing.median / quickest.timing.median
-            said = f"{seconds(quickest.timing.median)} at {quickest.step:g} s, {1e3 * quickest.error:.2g} mm"
-            ratio = f"{times:,.0f} ({said})"
+            measured = f"{seconds(quickest.timing.median)} at {quickest.step:g} s, {1e3 * quickest.error:.2g} mm"
+            ratio = f"{times:,.0f} ({measured})"
         result.append(
             [
                 attempt.program,

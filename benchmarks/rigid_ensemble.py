@@ -90,7 +90,7 @@ def costs(ensemble: Ensemble, result: dict[str, Floats]) -> list[str]:
     matrix, time = np.array(parts), np.array(taken)
     unit = np.linalg.lstsq(matrix / time[:, None], np.ones(time.size), rcond=None)[0]
     error = np.abs(matrix @ unit / time - 1.0)
-    return [ensemble.name, *(f"{1e9 * each:.1f} ns" for each in unit), f"{np.median(error):.0%}", f"{error.max():.0%}"]
+    return [ensemble.name, *(f"{1e9 * item:.1f} ns" for item in unit), f"{np.median(error):.0%}", f"{error.max():.0%}"]
 
 
 def flatness(ensemble: Ensemble) -> list[str]:

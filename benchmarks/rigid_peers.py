@@ -16,12 +16,12 @@ def engines() -> str:
     """Measure the push-and-sine block and return Markdown."""
     own = [ours(step) for step in OUR_STEPS]
     best: list[Attempt] = []
-    said = []
+    remarks = []
     for name in ("peer_mujoco", "peer_pybullet"):
         try:
             peer = import_module(name)
         except ImportError as reason:
-            said.append(f"Not measured: {name.removeprefix('peer_')} ({reason}).")
+            remarks.append(f"Not measured: {name.removeprefix('peer_')} ({reason}).")
             continue
         # Of all settings the most exact one at that step, and the quickest where it is another.
         for step in STEPS:
@@ -29,13 +29,13 @@ def engines() -> str:
             exact, quick = min(tried, key=lambda a: a.error), min(tried, key=lambda a: a.timing.median)
             best += [exact] if exact is quick else [exact, quick]
     if not best:
-        raise Skipped("no peer ran: " + " ".join(said))
+        raise Skipped("no peer ran: " + " ".join(remarks))
     text = (
         f"Push-and-sine block, exact slip {EXACT[-1]:.10f} m after 5 s. Errors are the largest at any tenth of a "
         "second, relative to the slip in the end. Of every engine the setting with the smallest error at each step, "
         "and the quickest if that is another."
     )
-    return "\n\n".join([text, table(COLUMNS, rows(own, best)), *said])
+    return "\n\n".join([text, table(COLUMNS, rows(own, best)), *remarks])
 
 
 def slopes() -> str:

@@ -85,10 +85,10 @@ def scipy_impacts(tolerance: float) -> tuple[float, ...]:
     """Return the moments of impact by SciPy."""
     now, state, moments = 0.0, np.array([0.5 * SLENDERNESS, 0.0]), []
     while True:
-        found = _swing((0.0, 0.0, 0.0), now, FREE_END, state, tolerance)
-        if found.status != 1:
+        result = _swing((0.0, 0.0, 0.0), now, FREE_END, state, tolerance)
+        if result.status != 1:
             return tuple(moments)
-        now, state = _struck(found)
+        now, state = _struck(result)
         moments.append(now)
 
 
@@ -107,12 +107,12 @@ def scipy_peak(time: Floats, ground: Floats, tolerance: float) -> tuple[float, .
                 need = math.copysign(GRAVITY * math.tan(SLENDERNESS), last if abs(last) > abs(value) else value)
                 now = max(now, float(start + (need - first) / slope)) if abs(value) <= abs(need) else now
                 state = np.array([-math.copysign(1e-14, need), 0.0])
-            found = _swing((float(first), float(slope), float(start)), now, float(end), state, tolerance)
-            largest = max([largest, *(abs(float(y[0])) for y in found.y_events[1])])
-            if found.status != 1:
-                state = found.y[:, -1]
+            result = _swing((float(first), float(slope), float(start)), now, float(end), state, tolerance)
+            largest = max([largest, *(abs(float(y[0])) for y in result.y_events[1])])
+            if result.status != 1:
+                state = result.y[:, -1]
                 break
-            now, state = _struck(found)
+            now, state = _struck(result)
             if abs(state[1]) < 1e-9:
                 state = np.zeros(2)
     return (largest,)
@@ -155,10 +155,10 @@ def ours_impacts(block: Block, what: Varying) -> tuple[float, ...]:
 def ours_peak(case: Case, block: Block, time: Floats, ground: Floats) -> tuple[float, ...]:
     """Return the largest rotation [rad] by the kernel."""
     run = walk(case, block, Shaking(time, ground))
-    found = run.summary
+    summary = run.summary
     require(run.outcome == "ok", "the block did not stand")
-    require(found.impacts > 10, "the block hardly rocked")
-    return (math.asin(max(found.largest_gap_heel, found.largest_gap_toe) / WIDTH),)
+    require(summary.impacts > 10, "the block hardly rocked")
+    return (math.asin(max(summary.largest_gap_heel, summary.largest_gap_toe) / WIDTH),)
 
 
 def rows(reference: tuple[float, ...], ours: Solve, theirs: Callable[[float], tuple[float, ...]]) -> list[list[str]]:

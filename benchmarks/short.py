@@ -67,11 +67,11 @@ CHOSEN: tuple[tuple[str, str, str, tuple[tuple[str, dict[str, str]], ...]], ...]
 def rows(text: str, section: str) -> list[dict[str, str]]:
     """Return the rows of all tables of a section by the heads of their columns, and `above` what stands before them."""
     (body,) = re.findall(rf"^## {re.escape(section)}\n(.*?)(?=^## |\Z)", text, re.MULTILINE | re.DOTALL)
-    found: list[dict[str, str]] = []
+    result: list[dict[str, str]] = []
     for above, table in re.findall(r"^([^|\n].*)\n\n((?:^\|.*\n)+)", body, re.MULTILINE):
         head, _, *lines = ([cell.strip() for cell in line.strip("|\n ").split(" | ")] for line in table.splitlines())
-        found += [{"above": above} | dict(zip(head, line, strict=False)) for line in lines]
-    return found
+        result += [{"above": above} | dict(zip(head, line, strict=False)) for line in lines]
+    return result
 
 
 def only(found: list[dict[str, str]], wanted: dict[str, str]) -> dict[str, str]:

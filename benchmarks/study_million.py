@@ -67,9 +67,9 @@ def measured(runs: int) -> list[str]:
         elapsed = time.perf_counter() - began
         require(running.returncode in (0, 3), f"the study ended with {running.returncode}")
         require((folder / "out" / "figures" / "fragility.png").is_file(), "there is no fragility figure")
-        told = json.loads((folder / "out" / "study.json").read_text(encoding="utf-8"))
-        require(told["count"] == runs, "not all runs were run")
-    steps = [told["seconds"][step] for step in STEPS]
+        answer = json.loads((folder / "out" / "study.json").read_text(encoding="utf-8"))
+        require(answer["count"] == runs, "not all runs were run")
+    steps = [answer["seconds"][step] for step in STEPS]
     cells = [elapsed, used.ru_utime + used.ru_stime, *steps, elapsed - sum(steps)]
     return [f"{runs:,}", *map(seconds, cells), f"{used.ru_maxrss / 1024:.0f} MB"]
 

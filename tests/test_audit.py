@@ -51,6 +51,6 @@ def audit(place: Path, old: str | None, lock: str | None, deny: str = "exit 0") 
     ],
 )
 def test_what_could_not_be_looked_at_is_no_pass(tmp_path, old, lock, deny, code, words):
-    found = audit(tmp_path, old, lock, deny)
-    assert found.returncode == code, found.stdout + found.stderr
-    assert words in found.stdout
+    result = audit(tmp_path, old, lock, deny)
+    assert result.returncode == code, result.stdout + result.stderr
+    assert words in result.stdout

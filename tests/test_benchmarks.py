@@ -49,11 +49,11 @@ def test_what_measures_nothing_fails_and_writes_nothing(tmp_path):
     (tmp_path / "crack_dam.py").write_text(
         "from measure import require\ndef report():\n    require(False, 'no dam')\n", encoding="utf-8"
     )
-    found = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "run.py", "crack_dam"], cwd=tmp_path, capture_output=True, text=True, timeout=60
     )
-    assert found.returncode == 1
-    assert "nothing measured: no dam" in found.stderr
+    assert process.returncode == 1
+    assert "nothing measured: no dam" in process.stderr
     assert not (tmp_path / "results.md").exists()
 
 
@@ -64,16 +64,16 @@ def test_what_cannot_be_measured_here_is_said_and_no_failure(tmp_path):
     (tmp_path / "study_million.py").write_text(
         "from measure import Skipped\ndef report():\n    raise Skipped('no records')\n", encoding="utf-8"
     )
-    found = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "run.py", "crack_peers", "study_million"],
         cwd=tmp_path,
         capture_output=True,
         text=True,
         timeout=60,
     )
-    assert found.returncode == 0, found.stderr
-    assert "crack_peers: not measured here, its section stays: No module named 'no_such_peer'" in found.stderr
-    assert "study_million: not measured here, its section stays: no records" in found.stderr
+    assert process.returncode == 0, process.stderr
+    assert "crack_peers: not measured here, its section stays: No module named 'no_such_peer'" in process.stderr
+    assert "study_million: not measured here, its section stays: no records" in process.stderr
 
 
 def test_figures_are_picked_kept_once_and_shown(run, tmp_path, monkeypatch):
@@ -85,11 +85,11 @@ def test_figures_are_picked_kept_once_and_shown(run, tmp_path, monkeypatch):
         "## Flexible dams\n\nMeasured 2026-11-22 on 2 cores; Linux, Python 3.11.7; heeltoe 0.1.0, numpy 2.4.6."
         "\n\n| base crack | 88 | 17 | 200 µs | 76.1 ms (1%) | 206 ms | 200 ms |"
     )
-    found = history.picked(section, "abc1234")
-    assert [(each.version, each.figure, each.seconds) for each in found] == [("0.1.0", "20 s, base crack", "0.206")]
-    history.add(found)
-    history.add(found)
-    assert history.read() == found
+    result = history.picked(section, "abc1234")
+    assert [(item.version, item.figure, item.seconds) for item in result] == [("0.1.0", "20 s, base crack", "0.206")]
+    history.add(result)
+    history.add(result)
+    assert history.read() == result
     assert "| 2026-11-22 | 0.1.0 | abc1234 | 206 ms |" in (tmp_path / "history.md").read_text(encoding="utf-8")
     assert history.picked("## Flexible dams\n\nnothing", "abc1234") == []
 
@@ -99,7 +99,7 @@ def test_the_history_is_that_of_its_figures(run):
 
     known = history.read()
     assert known
-    assert {(each.part, each.figure) for each in known} <= {(part, name) for part, name, _ in history.FIGURES}
+    assert {(item.part, item.figure) for item in known} <= {(part, name) for part, name, _ in history.FIGURES}
     assert {part for part, *_ in history.FIGURES} <= set(run.PARTS.values())
     assert (FOLDER / "history.md").read_text(encoding="utf-8") == history.page(known)
 

@@ -26,7 +26,7 @@ FOR_TYPES = "\n\nif TYPE_CHECKING:\n    {0}\n"
 def linted(place: Path) -> tuple[int, str]:
     """Check the package that lies in `place`, which an editable installation does not hide."""
     program = "from importlinter.cli import lint_imports_command as check; check()"
-    found = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-c", program, "--config", ROOT / "pyproject.toml", "--no-logo", "--no-cache"],
         cwd=place,
         capture_output=True,
@@ -34,7 +34,7 @@ def linted(place: Path) -> tuple[int, str]:
         timeout=120,
         check=False,
     )
-    return found.returncode, found.stdout + found.stderr
+    return process.returncode, process.stdout + process.stderr
 
 
 @pytest.fixture(scope="module")
@@ -45,10 +45,10 @@ def copy(tmp_path_factory):
 
 
 def test_all_contracts_hold(copy):
-    code, said = linted(copy)
-    assert code == 0, said
+    code, message = linted(copy)
+    assert code == 0, message
     for contract in (ONE_WAY, MODELS, VIEWS):
-        assert f"{contract} KEPT" in said
+        assert f"{contract} KEPT" in message
 
 
 @pytest.mark.parametrize(
@@ -67,12 +67,12 @@ def test_an_import_that_goes_back_up_is_caught(copy, file, form, forbidden, cont
     text = path.read_text()
     try:
         path.write_text(text + form.format(forbidden))
-        code, said = linted(copy)
+        code, message = linted(copy)
     finally:
         path.write_text(text)
     assert code == 1
-    assert f"{contract} BROKEN" in said
-    assert f"heeltoe.{file.removesuffix('.py').replace('/', '.')} -> {forbidden.split()[1]}" in said
+    assert f"{contract} BROKEN" in message
+    assert f"heeltoe.{file.removesuffix('.py').replace('/', '.')} -> {forbidden.split()[1]}" in message
 
 
 def test_the_checks_are_part_of_make_lint():

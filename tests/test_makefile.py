@@ -29,10 +29,10 @@ def tree(tmp_path: Path) -> Path:
 def builds(tree: Path, *changed: Path) -> bool:
     """Whether make would build the kernel if these files had just been changed."""
     pretend = [word for path in changed for word in ("-W", str(path))]
-    found = subprocess.run(
+    process = subprocess.run(
         ["make", "-n", *pretend, str(BUILT)], cwd=tree, capture_output=True, text=True, check=True, timeout=30
     )
-    return "maturin" in found.stdout
+    return "maturin" in process.stdout
 
 
 def test_every_source_of_the_kernel_is_seen(tree: Path) -> None:

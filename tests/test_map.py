@@ -49,8 +49,8 @@ def test_a_folder_holds_its_subject_in_files():
     """The root hands out public names, and the records are a registry of formats; all others say what they are."""
     others = {PACKAGE / "__init__.py", PACKAGE / "motion" / "records" / "__init__.py"}
     for path in set(PACKAGE.rglob("__init__.py")) - others:
-        (said,) = ast.parse(path.read_text(encoding="utf-8")).body
-        assert isinstance(said, ast.Expr), path
+        (message,) = ast.parse(path.read_text(encoding="utf-8")).body
+        assert isinstance(message, ast.Expr), path
 
 
 def test_the_root_holds_users_names_and_rooms_alone():
@@ -80,8 +80,8 @@ def test_a_run_takes_this_walk():
 
     sys.setprofile(note)
     try:
-        said = command("run", ROOT / "examples" / "block.toml")
+        process = command("run", ROOT / "examples" / "block.toml")
     finally:
         sys.setprofile(None)
-    assert said.returncode == 0, said.stderr
+    assert process.returncode == 0, process.stderr
     assert taken == stops

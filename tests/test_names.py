@@ -19,14 +19,14 @@ def typed():
     tree = ast.parse((PACKAGE / "__init__.py").read_text(encoding="utf-8"))
     (block,) = (node for node in tree.body if isinstance(node, ast.If))
     assert ast.unparse(block.test) == "TYPE_CHECKING"
-    found = {}
+    result = {}
     for line in block.body:
         assert isinstance(line, ast.ImportFrom)
         for alias in line.names:
             # Without "as" a strict type checker would not hand it on.
             assert alias.asname == alias.name
-            found[alias.name] = line.module
-    return found
+            result[alias.name] = line.module
+    return result
 
 
 def test_all_lists_of_public_names_agree():
@@ -54,7 +54,7 @@ def test_no_module_takes_the_place_of_a_public_name():
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode == 0, done.stderr
-    packages = {found.name for found in pkgutil.iter_modules(heeltoe.__path__)}
+    packages = {result.name for result in pkgutil.iter_modules(heeltoe.__path__)}
     assert packages.isdisjoint(heeltoe.__all__)
 
 

@@ -45,11 +45,11 @@ def test_things_say_what_they_are_in_a_few_lines(case, response, grid, typical_b
         (dam_periods(case), ("DamPeriods",)),
         (heeltoe.overturning_map(read_case(SLENDER), count=2), ("OverturningMap",)),
     ):
-        said = repr(thing)
-        assert str(thing) == said
-        assert all(word in said for word in words), said
-        assert len(said) < 1200
-        assert said.count("\n") < 8
+        message = repr(thing)
+        assert str(thing) == message
+        assert all(word in message for word in words), message
+        assert len(message) < 1200
+        assert message.count("\n") < 8
 
 
 def test_what_never_started_says_so(case):

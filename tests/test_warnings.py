@@ -37,7 +37,7 @@ def test_names_of_quantities_say_their_unit(code):
     assert not text.endswith(".")
     for name, form in placeholders(text).items():
         unit = form.partition("|")[0].partition(" ")[2]
-        kind = next((found for end, found in ENDINGS.items() if name.endswith(end)), None)
+        kind = next((result for end, result in ENDINGS.items() if name.endswith(end)), None)
         wanted = UNITS[unit][1] if unit in UNITS else None
         assert wanted == {"length": "displacement" if unit == "mm" else "length"}.get(kind, kind), name
     # What is not in braces would not be converted; what the relations of records and thesis are about stays.
@@ -46,12 +46,12 @@ def test_names_of_quantities_say_their_unit(code):
 
 
 def test_a_notice_is_a_value_with_its_quantities():
-    said = Notice("slip-in-the-air", slip_m=0.0254, restitution=0.5)
-    assert said == Notice("slip-in-the-air", slip_m=0.0254, restitution=0.5)
-    assert len({said, Notice("slip-in-the-air", slip_m=0.0254, restitution=0.5)}) == 1
-    assert str(said).startswith("most of the slip, 25.4 mm, happens in the air")
-    assert said.text("us").startswith("most of the slip, 1 in, happens in the air")
-    assert (said.severity, said.field, said.time_s) == ("caution", "crack.restitution", None)
+    notice = Notice("slip-in-the-air", slip_m=0.0254, restitution=0.5)
+    assert notice == Notice("slip-in-the-air", slip_m=0.0254, restitution=0.5)
+    assert len({notice, Notice("slip-in-the-air", slip_m=0.0254, restitution=0.5)}) == 1
+    assert str(notice).startswith("most of the slip, 25.4 mm, happens in the air")
+    assert notice.text("us").startswith("most of the slip, 1 in, happens in the air")
+    assert (notice.severity, notice.field, notice.time_s) == ("caution", "crack.restitution", None)
     with pytest.raises(TypeError, match="slip-in-the-air takes restitution, slip_m, not slip_m"):
         Notice("slip-in-the-air", slip_m=0.0254)
     with pytest.raises(KeyError):
@@ -59,8 +59,8 @@ def test_a_notice_is_a_value_with_its_quantities():
 
 
 def test_json_has_quantities_in_si_and_the_place():
-    said = Notice("motion-gap", field="motion.vertical", time_s=0.29, name="x", gap_s=0.31)
-    assert json.loads(json.dumps(said.to_json())) == {
+    notice = Notice("motion-gap", field="motion.vertical", time_s=0.29, name="x", gap_s=0.31)
+    assert json.loads(json.dumps(notice.to_json())) == {
         "code": "motion-gap",
         "text": "x has a gap of 0.31 s at 0.29 s",
         "severity": "caution",

@@ -15,11 +15,18 @@ def write_gallery(place: Path) -> None:
     for program in PROGRAMS:
         text = program.read_text(encoding="utf-8")
         tree = ast.parse(text)
-        title, _, said = (ast.get_docstring(tree) or "").partition("\n")
+        title, _, description = (ast.get_docstring(tree) or "").partition("\n")
         picture = f"gallery-{program.stem}.png"
         figure = runpy.run_path(str(program))["picture"]()
         figure.savefig(place / picture, dpi=110)
         code = "\n".join(text.splitlines()[tree.body[0].end_lineno or 0 :]).strip()
-        pieces += [f"## {title.rstrip('.')}", "", " ".join(said.split()), "", f"![{title.rstrip('.')}]({picture})", ""]
+        pieces += [
+            f"## {title.rstrip('.')}",
+            "",
+            " ".join(description.split()),
+            "",
+            f"![{title.rstrip('.')}]({picture})",
+            "",
+        ]
         pieces += [f"`examples/gallery/{program.name}`", "", "```python", code, "```", ""]
     (place / "gallery.md").write_text("\n".join(pieces), encoding="utf-8")

@@ -39,8 +39,8 @@ PAGES = {
 
 def write_reference(place: Path) -> None:
     """Write the pages into a directory."""
-    for name, (title, kinds, said) in PAGES.items():
-        (place / f"{name}.md").write_text("\n".join(_page(title, kinds, said)), encoding="utf-8")
+    for name, (title, kinds, remark) in PAGES.items():
+        (place / f"{name}.md").write_text("\n".join(_page(title, kinds, remark)), encoding="utf-8")
     (place / "combinations.md").write_text("\n".join(combinations()), encoding="utf-8")
     (place / "commands.md").write_text("\n".join(_commands()), encoding="utf-8")
     (place / "python.md").write_text("\n".join(_python()), encoding="utf-8")
@@ -49,25 +49,25 @@ def write_reference(place: Path) -> None:
 def _page(title: str, kinds: tuple[str, ...], said: str) -> Iterator[str]:
     yield from (f"# {title}", "", said, "")
     for kind in kinds:
-        found = [each for each in everything() if each.kind == kind]
+        result = [item for item in everything() if item.kind == kind]
         level = "##"
         if len(kinds) > 1:
             yield from (f"## {kind.removeprefix('column of ').capitalize()}", "")
             level = "###"
-        for block, members in _blocks(found):
+        for block, members in _blocks(result):
             if block:
                 about = f" {_link(block.page)}" if block.page else ""
                 yield from (f"{level} {_text(block.name)}", "", f"{_text(block.meaning)}{about}", "")
-            for each in members:
-                yield from _entry(each, "" if block is None else block.page)
+            for member in members:
+                yield from _entry(member, "" if block is None else block.page)
 
 
 def _blocks(found: list[Meaning]) -> Iterator[tuple[Meaning | None, list[Meaning]]]:
     """Group names by the block that they stand in; those of no block come first."""
-    blocks = [each for each in found if each.parts]
+    blocks = [item for item in found if item.parts]
     inside = {name for block in blocks for name in block.parts}
-    yield None, [each for each in found if not each.parts and each.name not in inside]
-    by_name = {each.name: each for each in found}
+    yield None, [item for item in found if not item.parts and item.name not in inside]
+    by_name = {item.name: item for item in found}
     for block in blocks:
         yield block, [by_name[name] for name in block.parts if name in by_name and not by_name[name].parts]
 
@@ -83,8 +83,8 @@ def _entry(each: Meaning, page: str) -> Iterator[str]:
         f"read by {each.found_in}" if field and each.found_in not in ("", "all models", "what is shown alone") else "",
         f"found in {command}" if command else "",
     ]
-    said = _text("; ".join(filter(None, parts)))
-    more = [f"*{said}*" if said else "", _link(each.page) if each.page != page else ""]
+    remark = _text("; ".join(filter(None, parts)))
+    more = [f"*{remark}*" if remark else "", _link(each.page) if each.page != page else ""]
     yield f"`{each.name}`"
     yield f": {_text(each.meaning)}" + "".join(f"\\\n  {line}" for line in [" ".join(filter(None, more))] if line)
     yield ""
@@ -104,7 +104,7 @@ def _link(page: str) -> str:
 def _text(text: str) -> str:
     """Return a text in which stars and brackets are themselves."""
     pieces = re.split(r"(`[^`]*`)", text)
-    return "".join(each if each.startswith("`") else re.sub(r"([*\[\]<>_])", r"\\\1", each) for each in pieces)
+    return "".join(piece if piece.startswith("`") else re.sub(r"([*\[\]<>_])", r"\\\1", piece) for piece in pieces)
 
 
 def combinations() -> Iterator[str]:
@@ -139,19 +139,19 @@ def _commands() -> Iterator[str]:
     )
     commands: dict[str, Any] = typer.main.get_command(app).commands  # type: ignore[attr-defined]
     for name, command in commands.items():
-        arguments = [each for each in command.params if each.param_type_name == "argument"]
-        options = [each for each in command.params if each.param_type_name == "option" and each.name != "help"]
-        said = " ".join((command.help or "").split())
-        called = " ".join([f"heeltoe {name}", *(each.metavar or each.name.upper() for each in arguments)])
-        yield from (f"## heeltoe {name}", "", _text(said), "", f"    {called}{' [OPTIONS]' if options else ''}", "")
-        for each in (*arguments, *options):
-            written = ", ".join(each.opts) if each.param_type_name == "option" else each.metavar or each.name.upper()
-            value = "" if each.param_type_name == "argument" or each.is_flag else f" {each.metavar or 'TEXT'}"
-            default = f" *Default: {each.default}.*" if _worth_saying(each) else ""
+        arguments = [param for param in command.params if param.param_type_name == "argument"]
+        options = [param for param in command.params if param.param_type_name == "option" and param.name != "help"]
+        text = " ".join((command.help or "").split())
+        called = " ".join([f"heeltoe {name}", *(argument.metavar or argument.name.upper() for argument in arguments)])
+        yield from (f"## heeltoe {name}", "", _text(text), "", f"    {called}{' [OPTIONS]' if options else ''}", "")
+        for item in (*arguments, *options):
+            written = ", ".join(item.opts) if item.param_type_name == "option" else item.metavar or item.name.upper()
+            value = "" if item.param_type_name == "argument" or item.is_flag else f" {item.metavar or 'TEXT'}"
+            default = f" *Default: {item.default}.*" if _worth_saying(item) else ""
             yield from (
                 f"`{written}{value}`",
                 "",
-                f": {_text(getattr(each, 'help', None) or 'What it is about.')}{default}",
+                f": {_text(getattr(item, 'help', None) or 'What it is about.')}{default}",
                 "",
             )
 

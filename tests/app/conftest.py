@@ -32,9 +32,9 @@ def address():
     """Serve the app, and return where."""
     words = [sys.executable, "-m", "heeltoe", "app", "--no-browser", "--port", "0"]
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"}) as app:
-        said = app.stdout.readline()
-        assert "heeltoe app at http://" in said
-        yield said.split()[3]
+        message = app.stdout.readline()
+        assert "heeltoe app at http://" in message
+        yield message.split()[3]
         app.send_signal(signal.SIGINT)
         try:
             assert app.wait(20) == 0
@@ -47,14 +47,14 @@ def address():
 @pytest.fixture(scope="module")
 def chromium():
     """Start the browser of this machine."""
-    found = next((each for each in map(shutil.which, _BROWSERS) if each), None)
-    if found is None:
+    result = next((item for item in map(shutil.which, _BROWSERS) if item), None)
+    if result is None:
         leave = pytest.fail if _REQUIRED else pytest.skip
         leave("no browser: install chromium (make browser) to run these tests")
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as tools:
-        browser = tools.chromium.launch(executable_path=found)
+        browser = tools.chromium.launch(executable_path=result)
         yield browser
         browser.close()
 
@@ -92,9 +92,9 @@ def page(tab, address):
     opened.goto(address)
     yield opened
     opened.evaluate("() => { localStorage.clear(); sessionStorage.clear(); }")
-    said = complaints[:]
+    message = complaints[:]
     complaints.clear()
-    assert not said
+    assert not message
 
 
 @pytest.fixture
@@ -120,8 +120,12 @@ def heard_well():
     axe = pytest.importorskip("axe_playwright_python.sync_playwright")
 
     def grave(tab) -> list[tuple[str, str]]:
-        found = axe.Axe().run(tab).response["violations"]
-        return [(each["id"], each["nodes"][0]["html"]) for each in found if each["impact"] in ("serious", "critical")]
+        violations = axe.Axe().run(tab).response["violations"]
+        return [
+            (violation["id"], violation["nodes"][0]["html"])
+            for violation in violations
+            if violation["impact"] in ("serious", "critical")
+        ]
 
     return grave
 

@@ -19,8 +19,8 @@ HEADERS = {"host": "127.0.0.1:8642", "origin": HOME}
 @pytest.fixture(scope="module")
 def server(tmp_path_factory):
     folder = tmp_path_factory.mktemp("app")
-    with TestClient(application(Settings("127.0.0.1", 8642, folder)), base_url=HOME) as found:
-        yield found
+    with TestClient(application(Settings("127.0.0.1", 8642, folder)), base_url=HOME) as result:
+        yield result
 
 
 def enter(server):
@@ -29,9 +29,9 @@ def enter(server):
 
 def heard(tab, of):
     """Return the next message of a kind; the page lives with others between."""
-    while (told := tab.receive_json())["of"] != of:
-        assert told["of"] in ("hello", "state")
-    return told
+    while (message := tab.receive_json())["of"] != of:
+        assert message["of"] in ("hello", "state")
+    return message
 
 
 def sent(server, name, content):
@@ -58,8 +58,8 @@ def test_what_no_page_asks_is_told(server, action, fields):
         tab.send_json({"do": action, **fields})
         assert heard(tab, "bad request")
         tab.send_json({"do": "case", "serial": 7})
-        told = heard(tab, "case")
-        assert (told["serial"], told["errors"]) == (7, [])
+        messages = heard(tab, "case")
+        assert (messages["serial"], messages["errors"]) == (7, [])
 
 
 def test_a_change_reaches_all_pages(server):
@@ -68,7 +68,7 @@ def test_a_change_reaches_all_pages(server):
         tab.send_json({"do": "edit case", "changes": {"title": "Mine", "reservoir.depth": "70"}})
         state = heard(tab, "state")
         assert (state["case"]["title"], state["case"]["example"]) == ("Mine", "")
-        assert next(each["value"] for each in state["sliders"] if each["path"] == "reservoir.depth") == 70.0
+        assert next(slider["value"] for slider in state["sliders"] if slider["path"] == "reservoir.depth") == 70.0
         assert heard(tab, "case")["fields"]["reservoir"]["depth"] == "70 m"
         tab.send_json({"do": "drag", "handle": "reservoir", "by": {"z": -1e290}})
         assert heard(tab, "case")["fields"]["reservoir"]["depth"] == "0 m"
@@ -91,10 +91,10 @@ def test_what_is_no_case_file_is_told_by_its_name(server, content):
     with enter(server) as tab:
         file = sent(server, heard(tab, "hello")["session"], content)
         tab.send_json({"do": "open case", "file": file, "called": "../../\u202eevil.toml", "serial": 3})
-        told = heard(tab, "case")
-        assert told["file"].startswith("evil.toml: ")
-        assert file not in told["file"]
-        assert told["fields"]["title"] == "Typical dam cracked at its base"
+        messages = heard(tab, "case")
+        assert messages["file"].startswith("evil.toml: ")
+        assert file not in messages["file"]
+        assert messages["fields"]["title"] == "Typical dam cracked at its base"
 
 
 def test_a_case_and_its_record(server):
@@ -104,8 +104,8 @@ def test_a_case_and_its_record(server):
         text = BASE.read_text(encoding="utf-8").replace("elcentro-1940-180-nga", "mine.txt").encode()
         file = sent(server, name, text)
         tab.send_json({"do": "open case", "file": file, "called": "c.toml"})
-        told = heard(tab, "case")
-        assert [each["field"] for each in told["errors"]] == ["motion.file"]
+        messages = heard(tab, "case")
+        assert [error["field"] for error in messages["errors"]] == ["motion.file"]
         beside = {"dir\\mine.txt": sent(server, name, record)}
         tab.send_json({"do": "open case", "file": file, "called": "c.toml", "beside": beside})
         assert heard(tab, "case")["errors"] == []

@@ -21,13 +21,13 @@ from shared.dams import ALL_EXAMPLES, PLAIN, example
 
 @pytest.fixture
 def session(tmp_path):
-    found = Session("", tmp_path)
-    begin(found)
-    return found
+    one_session = Session("", tmp_path)
+    begin(one_session)
+    return one_session
 
 
 def wrong(session):
-    return [each.field for each in fields_of(session)[1]]
+    return [item.field for item in fields_of(session)[1]]
 
 
 def test_the_last_sound_case_stays_while_a_field_is_wrong(session):
@@ -124,7 +124,7 @@ def test_what_another_page_changes_is_taken_over(session):
     fields, errors = fields_of(session)
     assert fields["motion"]["file"] == "mine.at2"
     assert (fields["reservoir"]["depth"], fields["tailwater"]["depth"]) == ("300 ft", "5.0 m")
-    assert [each.field for each in errors] == ["crack.friction"]
+    assert [error.field for error in errors] == ["crack.friction"]
     back(session)
     assert "tailwater" not in fields_of(session)[0]
 
@@ -217,8 +217,8 @@ def test_handles_move_what_they_stand_for(name, units):
         assert told(handle)["text"]
         for way in handle.ways:
             changed = case.with_(moved(case, units, handle.name, by={way.axis: -1}))
-            again = next(each for each in handles(changed, units) if each.name == handle.name)
-            value = next(each.value for each in again.ways if each.axis == way.axis)
+            again = next(item for item in handles(changed, units) if item.name == handle.name)
+            value = next(item.value for item in again.ways if item.axis == way.axis)
             assert value == pytest.approx(max(way.value - way.step, way.least), abs=way.step / 1.9)
             assert value < way.value or way.value == way.least
     assert moved(case, units, "nothing", to={"x": 1.0}) == {}
@@ -239,7 +239,7 @@ def test_each_dam_is_drawn(path):
     case = read_case(path)
     seen = drawing(case, "us")
     json.dumps(seen, allow_nan=False)
-    kinds = {each["kind"] for each in seen["shapes"]}
+    kinds = {shape["kind"] for shape in seen["shapes"]}
     assert {"below", "above"} <= kinds
     assert ("water" in kinds) == bool(case.reservoir and case.reservoir.depth)
 
@@ -282,9 +282,9 @@ def test_slopes_and_ends_are_shown_and_drawn(session):
     edit(session, {"uplift": {"pattern": "drained", "drain_x": "5 m", "drain_efficiency": 0.5}})
     assert not wrong(session)
     assert session.units == "us"
-    names = [each.name for each in handles(session.case, "si")]
+    names = [item.name for item in handles(session.case, "si")]
     assert "crest" in names
     assert "drains" in names
     assert not {"base", "anchor 1"} & set(names)
-    kinds = [each["kind"] for each in drawing(session.case, "us")["lines"]]
+    kinds = [line["kind"] for line in drawing(session.case, "us")["lines"]]
     assert kinds == ["crack", "drain", "anchor"]

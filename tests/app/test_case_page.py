@@ -158,10 +158,10 @@ def test_a_file_is_opened_and_saved(case, tmp_path):
     case.wait_for_function("() => document.querySelector('.problems').textContent === ''")
     wait_for(case, "#case-title", "<img")
     assert case.locator("img").count() == 0
-    with case.expect_download() as found:
+    with case.expect_download() as result:
         case.click("text=Save the case file")
-    assert re.fullmatch(r"[a-z0-9-]+\.toml", found.value.suggested_filename)
-    saved = tomllib.loads(found.value.path().read_text())
+    assert re.fullmatch(r"[a-z0-9-]+\.toml", result.value.suggested_filename)
+    saved = tomllib.loads(result.value.path().read_text())
     assert saved["section"] == {"height": "50 ft", "crest_width": "5 ft", "base_width": "40 ft"}
     assert saved["title"].startswith("<img")
     broken = tmp_path / "broken.toml"

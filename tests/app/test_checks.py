@@ -31,7 +31,7 @@ def test_the_slip_is_that_of_the_elastic_dam_where_it_was_run():
 
 def test_every_section_is_checked():
     case = example("two-cracks", *SHORT, {"statics.sections": ["0 m", "90 m"]})
-    told = checked(case, {}, "si")
-    assert "at 2 sections" in told["verdict"]
-    assert {row["cells"][0] for row in told["checks"]} >= {"0 m, usual", "90 m, usual"}
-    assert not any("statics_of_sections" in text for text in told["warnings"])
+    answer = checked(case, {}, "si")
+    assert "at 2 sections" in answer["verdict"]
+    assert {row["cells"][0] for row in answer["checks"]} >= {"0 m, usual", "90 m, usual"}
+    assert not any("statics_of_sections" in text for text in answer["warnings"])

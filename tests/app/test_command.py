@@ -15,25 +15,25 @@ from shared.dams import BLOCK
 
 
 def test_a_public_address_is_asked_for():
-    said = command("app", "--host", "0.0.0.0", "--no-browser")
-    assert said.returncode == 2
-    assert "--public" in said.stderr
+    process = command("app", "--host", "0.0.0.0", "--no-browser")
+    assert process.returncode == 2
+    assert "--public" in process.stderr
 
 
 def test_an_address_in_use_is_told():
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
-        said = command("app", "--port", str(taken.getsockname()[1]), "--no-browser")
-    assert said.returncode == 2
-    assert "--port: the app cannot listen at 127.0.0.1:" in said.stderr
+        process = command("app", "--port", str(taken.getsockname()[1]), "--no-browser")
+    assert process.returncode == 2
+    assert "--port: the app cannot listen at 127.0.0.1:" in process.stderr
 
 
 def test_a_missing_package_is_told(monkeypatch):
     monkeypatch.setattr(serving, "find_spec", lambda name: None)
-    said = command("app", "--no-browser")
-    assert said.returncode == 2
-    assert 'extra "app"' in said.stderr
+    process = command("app", "--no-browser")
+    assert process.returncode == 2
+    assert 'extra "app"' in process.stderr
 
 
 @pytest.mark.parametrize("arguments", [("run", str(BLOCK)), ("--help",)])
@@ -46,8 +46,8 @@ def test_other_commands_load_nothing_of_it(arguments):
         "names = ('heeltoe.app', 'starlette', 'uvicorn', 'websockets', 'plotly', 'anyio')\n"
         "print([name for name in sys.modules if name.split('.')[0] in names or name.startswith('heeltoe.app')])"
     )
-    found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
-    assert found.stdout.splitlines()[-1] == "[]"
+    process = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
+    assert process.stdout.splitlines()[-1] == "[]"
 
 
 def test_ctrl_c_ends_it_at_once_even_where_it_was_ignored():
@@ -60,8 +60,8 @@ def test_ctrl_c_ends_it_at_once_even_where_it_was_ignored():
     app.stdout.readline()
     app.send_signal(signal.SIGINT)
     try:
-        said = app.communicate(timeout=60)
+        message = app.communicate(timeout=60)
     finally:
         app.kill()
     assert app.returncode == 0
-    assert said == ("", "")
+    assert message == ("", "")

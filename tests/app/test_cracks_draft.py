@@ -21,9 +21,9 @@ from shared.dams import example
 
 @pytest.fixture
 def session(tmp_path):
-    found = Session("", tmp_path)
-    begin(found)
-    return found
+    one_session = Session("", tmp_path)
+    begin(one_session)
+    return one_session
 
 
 def choose(session, name):
@@ -69,9 +69,9 @@ def test_what_two_laws_share_stays(session):
 def test_a_field_of_a_law_says_which_laws_know_it():
     assert field_of("crack.law.name").only == ()
     assert field_of("crack.law.slip").only == ("slip weakening", "cohesion")
-    of_law = next(each for each in blocks() if each.path == "crack.law").fields
+    of_law = next(entry for entry in blocks() if entry.path == "crack.law").fields
     for name, (needed, allowed) in LAW_FIELDS.items():
-        shown = {each.path.rpartition(".")[2] for each in of_law if each.only and name in each.only}
+        shown = {entry.path.rpartition(".")[2] for entry in of_law if entry.only and name in entry.only}
         assert shown == {*needed, *allowed}
 
 
@@ -80,17 +80,17 @@ def test_further_cracks_go_where_there_is_room(session):
         there = fields_of(session)[0].get("further_cracks", [])
         edit(session, {"further_cracks": [*there, item(session.case, "si", "further_cracks")]})
         assert not draft_of(session).errors
-    assert [each.elevation for each in session.case.further_cracks] == [90.0, 45.0, 22.5]
+    assert [further_crack.elevation for further_crack in session.case.further_cracks] == [90.0, 45.0, 22.5]
 
 
 def test_every_crack_is_drawn_and_moved(session):
     case = example("two-cracks")
     drawn = drawing(case, "si")
-    lines = {each["kind"]: each["points"] for each in drawn["lines"]}
+    lines = {line["kind"]: line["points"] for line in drawn["lines"]}
     assert lines["crack"] == [[0.0, 0.0], [80.0, 0.0]]
     assert lines["further-crack"] == [[0.0, 90.0], [8.0, 90.0]]
-    assert sum(each["kind"] == "uplift" for each in drawn["shapes"]) == 2
-    (handle,) = [each for each in handles(case, "si") if each.name == "further crack 1"]
+    assert sum(shape["kind"] == "uplift" for shape in drawn["shapes"]) == 2
+    (handle,) = [entry for entry in handles(case, "si") if entry.name == "further crack 1"]
     assert handle.at == pytest.approx((2.8, 90.0))
     changed = moved(case, "si", "further crack 1", {"z": 60.2})
     assert changed["further_cracks"][0]["elevation"] == "60 m"
@@ -98,7 +98,7 @@ def test_every_crack_is_drawn_and_moved(session):
     # Elevations count from the lowest point of the section.
     edit(session, {"section": {"polygon": [["0 m", "5 m"], ["80 m", "5 m"], ["0 m", "105 m"]]}})
     edit(session, {"further_cracks": [{"elevation": "50 m"}]})
-    (handle,) = [each for each in handles(session.case, "si") if each.name == "further crack 1"]
+    (handle,) = [entry for entry in handles(session.case, "si") if entry.name == "further crack 1"]
     assert handle.at == pytest.approx((14.0, 55.0))
     assert moved(session.case, "si", handle.name, {"z": 65.0})["further_cracks"][0]["elevation"] == "60 m"
 
@@ -112,12 +112,12 @@ def test_an_aftershock_has_all_that_a_motion_has(session):
         "processing": [{"step": "cut", "low": "1"}],
         "pause": "12",
     }
-    (found,) = typed([given], field_of("aftershocks"), "si")
-    assert found["points"] == [["0 s", "0.1 g"], ["1 s", "0 g"]]
-    assert found["vertical"] == {"points": [["0 s", "0.1 g"], ["1 s", "0 g"]], "pga": "0.2 g"}
-    assert found["pause"] == "12 s"
+    (result,) = typed([given], field_of("aftershocks"), "si")
+    assert result["points"] == [["0 s", "0.1 g"], ["1 s", "0 g"]]
+    assert result["vertical"] == {"points": [["0 s", "0.1 g"], ["1 s", "0 g"]], "pga": "0.2 g"}
+    assert result["pause"] == "12 s"
     cells = field_of("aftershocks").inner[2].inner
-    assert [each.label for each in cells] == ["Time", "Acceleration"]
+    assert [cell.label for cell in cells] == ["Time", "Acceleration"]
     back(session)
     assert not session.case.aftershocks
 
@@ -136,7 +136,7 @@ def test_a_study_begins_with_a_model_that_knows_the_crack(session):
 
 
 def test_every_block_begins_sound(session):
-    had = [each.path for each in blocks() if each.optional]
+    had = [entry.path for entry in blocks() if entry.optional]
     assert {"crack.law", "crack.roughness", "tailwater"} <= set(had)
     for path in had:
         put(session, path, there=True)

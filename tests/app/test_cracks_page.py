@@ -132,7 +132,7 @@ def test_each_of_several_cracks_answers(case, picture):
     case.wait_for_selector(".card[data-model=decoupled]", state="hidden")
     case.wait_for_selector(".card[data-details=flexible] >> text=Each crack", timeout=120_000)
     rows = case.locator("[data-details=flexible] table[aria-label='Each crack, from the crest down'] tbody tr")
-    assert [each.split("\t")[0] for each in rows.all_inner_texts()] == ["90 m (leads)", "0 m"]
+    assert [all_inner_text.split("\t")[0] for all_inner_text in rows.all_inner_texts()] == ["90 m (leads)", "0 m"]
     # Both models say it, the page once.
     case.wait_for_selector("text=/^Dotted: crack at/")
     # Each part is drawn as an outline of its own.

@@ -38,12 +38,12 @@ def test_after_a_drag_the_plot_is_the_answer(page, tmp_path):
     page.wait_for_timeout(500)
     time, slip = map(np.array, page.evaluate(_PLOTTED))
     case = read_case(example_path("typical-base")).with_({"motion.pga": "0.4 g"})
-    found = live(case, "rigid", earthquake(case)).histories
-    expected = 1000.0 * np.interp(time, found["time_s"], found["slip_m"])
+    histories = live(case, "rigid", earthquake(case)).histories
+    expected = 1000.0 * np.interp(time, histories["time_s"], histories["slip_m"])
     assert abs(slip[-1]) > 1.0
     np.testing.assert_allclose(slip, expected, atol=1e-3 * np.abs(expected).max())
     # No peak is lost between the moments that are drawn.
-    assert np.abs(slip).max() == pytest.approx(1000.0 * np.abs(found["slip_m"]).max(), rel=1e-6)
+    assert np.abs(slip).max() == pytest.approx(1000.0 * np.abs(histories["slip_m"]).max(), rel=1e-6)
 
 
 _SLIDERS = """() => [...document.querySelectorAll("input[type=range][id^=slider-]")]

@@ -36,20 +36,20 @@ def test_no_peak_is_lost(count):
 
 def test_curves_are_the_histories():
     case = example("typical-base")
-    told = answer(case, {}, "rigid", "si")
-    slip = np.frombuffer(base64.b64decode(told["curves"]["slip"]["values"]["data"]), "<f4")
-    found = live(case, "rigid", earthquake(case))
-    assert slip[-1] == pytest.approx(1e3 * found.residual_slip_m)
-    assert told["verdict"] in repr(found)
-    assert sum(span["end"] - span["start"] for span in told["ribbon"]) == pytest.approx(found.end_time_s)
+    reply = answer(case, {}, "rigid", "si")
+    slip = np.frombuffer(base64.b64decode(reply["curves"]["slip"]["values"]["data"]), "<f4")
+    result = live(case, "rigid", earthquake(case))
+    assert slip[-1] == pytest.approx(1e3 * result.residual_slip_m)
+    assert reply["verdict"] in repr(result)
+    assert sum(span["end"] - span["start"] for span in reply["ribbon"]) == pytest.approx(result.end_time_s)
 
 
 def test_a_sequence_and_a_law_are_told_beside_the_numbers():
-    told = answer(example("aftershocks"), {}, "rigid", "si")
-    [table] = told["tables"]
+    reply = answer(example("aftershocks"), {}, "rigid", "si")
+    [table] = reply["tables"]
     assert table["label"] == "Motion by motion"
     assert [row[0].split()[0] for row in table["rows"]] == ["1", "2", "3"]
-    assert not told["facts"]
+    assert not reply["facts"]
     law = {"name": "slip weakening", "peak_friction": 1.2, "residual_friction": 0.8, "slip": "20 mm"}
     case = example("typical-base").with_({"crack.law": law})
     [[label, text]] = answer(case, {}, "rigid", "us")["facts"]
@@ -58,24 +58,24 @@ def test_a_sequence_and_a_law_are_told_beside_the_numbers():
 
 
 def test_a_rough_crack_is_told_beside_the_numbers():
-    told = answer(example("rough-crack"), {}, "rigid", "si")
-    [[label, text]] = told["facts"]
+    reply = answer(example("rough-crack"), {}, "rigid", "si")
+    [[label, text]] = reply["facts"]
     assert label == "rough crack"
     assert "the flanks wore from 11.3 to 11.2 degrees" in text
     # The elastic dam knows no asperities: it is not what is advised.
-    [advice] = [each["text"] for each in told["warnings"] if "and the dam is elastic" in each["text"]]
+    [advice] = [warning["text"] for warning in reply["warnings"] if "and the dam is elastic" in warning["text"]]
     assert "run it without crack.roughness, too, and with concrete.modulus" in advice
 
 
 def test_two_blocks_answer_and_move_one_on_the_other():
     case = example("two-cracks")
-    told = answer(case, {}, "rigid", "si")
-    [table] = told["tables"]
+    reply = answer(case, {}, "rigid", "si")
+    [table] = reply["tables"]
     assert [row[0] for row in table["rows"]] == ["90 m", "0 m (leads)"]
-    assert [each["name"] for each in told["curves"]["cracks"]] == ["crack at 90 m"]
+    assert [crack["name"] for crack in reply["curves"]["cracks"]] == ["crack at 90 m"]
     # The lower block is what stands between the cracks.
     upper, lower = (
-        shapely.Polygon(unpacked(part["points"])[unpacked(part["outline"])]) for part in told["dam"]["parts"]
+        shapely.Polygon(unpacked(part["points"])[unpacked(part["outline"])]) for part in reply["dam"]["parts"]
     )
     assert (upper.area, lower.area) == pytest.approx((80.0, case.outline.area - 80.0))
 
@@ -147,23 +147,23 @@ def test_sliders_stand_where_the_case_is_and_change_it(units):
         assert slider.least <= slider.value <= slider.most + slider.step
         case.with_(change(slider, slider.most, case))
         case.with_(change(slider, slider.least, case))
-    [above] = [each for each in sliders(case.with_({"reservoir.depth": "103 m"}), "si") if "depth" in each.path]
+    [above] = [item for item in sliders(case.with_({"reservoir.depth": "103 m"}), "si") if "depth" in item.path]
     assert (above.value, above.most) == (103.0, 103.0)
     with_drains = case.with_(change(sliders(case, units)[-1], 0.5, case))
     assert (with_drains.uplift.pattern, with_drains.uplift.drain_efficiency) == ("drained", 0.5)
 
 
 def test_an_error_is_told_at_its_field():
-    told = answer(example("typical-base"), {"crack.friction": -1.0}, "rigid", "si")
-    assert told["error"]["field"] == "crack.friction"
+    reply = answer(example("typical-base"), {"crack.friction": -1.0}, "rigid", "si")
+    assert reply["error"]["field"] == "crack.friction"
 
 
 def test_warnings_name_buttons_and_no_commands():
-    said = {code: in_words_of_the_page(template) for code, (_, _, template) in CATALOGUE.items()}
-    assert not {code: each for code, each in said.items() if re.search(r"(^| )--\w|heeltoe [a-z]+ ", each)}
+    message = {code: in_words_of_the_page(template) for code, (_, _, template) in CATALOGUE.items()}
+    assert not {code: each for code, each in message.items() if re.search(r"(^| )--\w|heeltoe [a-z]+ ", each)}
 
 
 def test_a_block_is_told_to_be_run_as_an_elastic_dam():
-    said = " ".join(each["text"] for each in answer(example("typical-height"), {}, "rigid", "si")["warnings"])
-    assert "see the elastic dam beside it" in said
-    assert "--model" not in said
+    text = " ".join(warning["text"] for warning in answer(example("typical-height"), {}, "rigid", "si")["warnings"])
+    assert "see the elastic dam beside it" in text
+    assert "--model" not in text

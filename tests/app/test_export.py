@@ -44,9 +44,9 @@ class Tab:
     def hear(self, *kinds):
         """Return the next message of one of these kinds; a job's when it has ended."""
         while True:
-            told = self.socket.receive_json()
-            if told["of"] in kinds and told.get("state") != "running":
-                return told
+            message = self.socket.receive_json()
+            if message["of"] in kinds and message.get("state") != "running":
+                return message
 
     def ask(self, what, *kinds, **fields):
         self.socket.send_json({"do": what, **fields})
@@ -63,18 +63,18 @@ def files_made(tab, wanted):
     """Have the files made, and return their names."""
     made = tab.ask("make", "job", **wanted)
     assert made["state"] == "done", made["said"]
-    return {each["name"] for each in made["result"]["files"]}
+    return {item["name"] for item in made["result"]["files"]}
 
 
 def case_file(ask, tab, folder):
     """Fetch the case, with its record where that was sent, into a folder."""
-    found = ask.get(tab.ask("case file", "download")["address"])
-    if 'filename="case.zip"' in found.headers["content-disposition"]:
-        with zipfile.ZipFile(io.BytesIO(found.content)) as archive:
+    result = ask.get(tab.ask("case file", "download")["address"])
+    if 'filename="case.zip"' in result.headers["content-disposition"]:
+        with zipfile.ZipFile(io.BytesIO(result.content)) as archive:
             archive.extractall(folder)
         return folder / "case"
-    assert found.headers["content-disposition"] == 'attachment; filename="case.toml"'
-    (folder / "case.toml").write_bytes(found.content)
+    assert result.headers["content-disposition"] == 'attachment; filename="case.toml"'
+    (folder / "case.toml").write_bytes(result.content)
     return folder
 
 
@@ -122,8 +122,8 @@ def test_the_shown_words_make_the_same_report_and_numbers(ask, tab, tmp_path):
 @pytest.mark.slow
 def test_the_shown_words_make_the_same_elastic_dam(ask, tab, tmp_path):
     brief = {"motion.duration": "3 s", "analysis.silence": "0 s", "flexible.elements_across": "2"}
-    told = tab.ask("edit case", "case", changes={**brief, "flexible.evidence": "none"})
-    assert not told["errors"]
+    answer = tab.ask("edit case", "case", changes={**brief, "flexible.evidence": "none"})
+    assert not answer["errors"]
     wanted = {"model": "auto"}
     assert {"result.json", "rigid/result.json"} <= files_made(tab, wanted)
     same_elsewhere(ask, tab, tmp_path, wanted)
@@ -134,11 +134,11 @@ def test_a_file_is_served_once_as_a_file_and_to_its_tab_alone(ask, tab):
     assert made["state"] == "done", made["said"]
     link = tab.ask("fetch", "download", name="")["address"]
     assert ask.head(link).status_code == 404
-    told = ask.get(link)
-    assert told.headers["content-disposition"].startswith("attachment")
-    assert told.headers["x-content-type-options"] == "nosniff"
-    assert "heeltoe.zip" in told.headers["content-disposition"]
-    assert zipfile.ZipFile(io.BytesIO(told.content)).testzip() is None
+    answer = ask.get(link)
+    assert answer.headers["content-disposition"].startswith("attachment")
+    assert answer.headers["x-content-type-options"] == "nosniff"
+    assert "heeltoe.zip" in answer.headers["content-disposition"]
+    assert zipfile.ZipFile(io.BytesIO(answer.content)).testzip() is None
     assert ask.get(link).status_code == 404
     for name in ("../case.toml", "/etc/passwd", "..", ".heeltoe-files", "result.json/../../case.toml"):
         assert tab.ask("fetch", "download", name=name)["of"] == "bad request"

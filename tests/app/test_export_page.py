@@ -33,9 +33,9 @@ def test_files_are_made_and_fetched(export, picture):
     export.click("text=Make the files")
     export.wait_for_selector("text=Download all (zip)")
     picture(export, "export")
-    found = saved(export, "[aria-label='Download result.json']")
-    assert found.suggested_filename == "result.json"
-    assert json.loads(found.path().read_text())["residual_slip_m"] == pytest.approx(0.2674, abs=1e-3)
+    result = saved(export, "[aria-label='Download result.json']")
+    assert result.suggested_filename == "result.json"
+    assert json.loads(result.path().read_text())["residual_slip_m"] == pytest.approx(0.2674, abs=1e-3)
     assert saved(export, "[aria-label='Download report.pdf']").path().read_bytes().startswith(b"%PDF")
     assert saved(export, "text=Download all (zip)").suggested_filename == "heeltoe.zip"
     case = saved(export, "text=Download the case file").path().read_text()

@@ -48,9 +48,9 @@ class Tab:
         texts = []
         while True:
             texts.append(self._socket.receive_text())
-            told = json.loads(texts[-1])
-            if told.get("serial") == self._serial:
-                return told, "".join(texts)
+            answer = json.loads(texts[-1])
+            if answer.get("serial") == self._serial:
+                return answer, "".join(texts)
 
 
 @pytest.fixture
@@ -126,8 +126,8 @@ def test_names_are_our_own(folder, tmp_path, called):
     with serve(folder) as client, enter(client) as socket:
         tab = Tab(client, socket)
         name = tab.send(CASE.encode(), "..%2f..%2fevil.py").json()["name"]
-        told, _ = tab.ask("open case", file=name, called=called, beside={called: name})
-        assert told["of"] == "case"
+        answer, _ = tab.ask("open case", file=name, called=called, beside={called: name})
+        assert answer["of"] == "case"
         assert re.fullmatch(r"upload-[0-9a-f]{16}", name)
         made = [path for path in tmp_path.rglob("*") if path not in before and path.is_file()]
         assert [path.name for path in made] == [name]
@@ -199,8 +199,8 @@ def test_a_case_names_no_file_that_was_not_sent(folder, secret, opened):
         tab = Tab(client, socket)
         for way in ways_to(secret):
             for field in fields:
-                told, texts = tab.ask("edit case", changes={field: way})
-                assert [each["code"] for each in told["errors"] if each["field"] == field], (field, way)
+                answer, texts = tab.ask("edit case", changes={field: way})
+                assert [error["code"] for error in answer["errors"] if error["field"] == field], (field, way)
                 texts += tab.ask("rigid", values={})[1] + tab.ask("case")[1]
                 assert SECRET not in texts
                 tab.ask("step case")
@@ -210,16 +210,16 @@ def test_a_case_names_no_file_that_was_not_sent(folder, secret, opened):
                 form = {"horizontal": {"source": f"{source}:{way}"}, "vertical": {"source": f"{source}:{way}"}}
                 form["horizontal"] |= {"unit": "g", "magnitude": way}
                 for action in ("motion look", "use motion"):
-                    told, texts = tab.ask(action, form=form)
+                    answer, texts = tab.ask(action, form=form)
                     assert SECRET not in texts
-                    assert "error" in told or source == "case", (source, told)
+                    assert "error" in answer or source == "case", (source, answer)
                     if source in ("name", "record"):
-                        assert told["error"]["problem"].startswith("there is no record")
+                        assert answer["error"]["problem"].startswith("there is no record")
             assert tab.ask("record", file=way, called="a")[0]["of"] == "bad request"
             study = {"models": ["rigid"], "method": "grid", "vary": [], "source": "records", "records": [way]}
-            told, texts = tab.ask("study look", study=study)
+            answer, texts = tab.ask("study look", study=study)
             assert SECRET not in texts
-            assert told["of"] == "bad request" or told["error"]
+            assert answer["of"] == "bad request" or answer["error"]
             assert tab.ask("open example", name=way)[0]["of"] == "bad request"
     assert not [name for name in opened if Path(name).name == secret.name]
 
@@ -234,7 +234,7 @@ def test_no_address_leads_to_a_file(folder, secret, opened):
                 assert client.get(f"{HOME}{base}{quoted}").status_code in (404, 405), (base, way)
         opened.clear()
         assert client.get("/page/main.js").status_code == 200
-        assert any(each.endswith("main.js") for each in opened)  # what is opened is seen
+        assert any(item.endswith("main.js") for item in opened)  # what is opened is seen
 
 
 def test_a_link_leads_nowhere(folder, secret):
@@ -256,8 +256,8 @@ def test_another_tab_has_other_files(folder):
         [path] = stored(folder)
         for way in (name, f"../{path.parent.name}/{name}", str(path)):
             assert second.ask("open case", file=way, called="a")[0]["of"] == "bad request"
-            told, _ = second.ask("edit case", changes={"motion.file": way})
-            assert "motion.file" in [each["field"] for each in told["errors"]]
+            answer, _ = second.ask("edit case", changes={"motion.file": way})
+            assert "motion.file" in [error["field"] for error in answer["errors"]]
 
 
 def test_uploads_and_examples_are_found_by_their_names_alone(tmp_path):

@@ -89,12 +89,12 @@ def test_a_public_address_needs_its_token(settings):
         for query in ("", "?token=wrong", "?token=secret"):
             with pytest.raises(WebSocketDisconnect), client.websocket_connect(f"/talk{query}", headers=own):
                 pass
-        told = client.get("/?token=secret")
-        assert (told.status_code, told.headers["location"]) == (303, "/")
-        assert "HttpOnly" in told.headers["set-cookie"]
-        assert "SameSite=strict" in told.headers["set-cookie"]
+        answer = client.get("/?token=secret")
+        assert (answer.status_code, answer.headers["location"]) == (303, "/")
+        assert "HttpOnly" in answer.headers["set-cookie"]
+        assert "SameSite=strict" in answer.headers["set-cookie"]
         assert client.get("/").status_code == 200
-        shown = {**own, "cookie": told.headers["set-cookie"].split(";")[0]}
+        shown = {**own, "cookie": answer.headers["set-cookie"].split(";")[0]}
         with client.websocket_connect("/talk", headers=shown) as tab:
             assert tab.receive_json()["of"] == "hello"
 
@@ -130,8 +130,8 @@ def test_what_no_page_asks_is_told_and_the_tab_goes_on(ask, message):
         tab.send_text(message)
         assert tab.receive_json()["of"] == "bad request"
         tab.send_json({"do": "rigid", "values": {"crack.friction": 1.2}, "serial": 5})
-        told = tab.receive_json()
-        assert (told["of"], told["serial"], told["ok"]) == ("rigid", 5, True)
+        answer = tab.receive_json()
+        assert (answer["of"], answer["serial"], answer["ok"]) == ("rigid", 5, True)
 
 
 def test_open_tabs_are_so_many_and_the_next_one_is_told(settings):
@@ -150,14 +150,14 @@ def test_open_tabs_are_so_many_and_the_next_one_is_told(settings):
 
 
 def test_sessions_are_few_and_end(settings):
-    found = Sessions(replace(settings, most_sessions=2))
-    first = found.enter("")
-    assert found.enter(first.name) is not first  # a tab that was doubled
-    found.leave(first)
-    assert found.enter(first.name) is first
-    found.leave(first)
-    found.enter("")
-    assert found.get(first.name) is None
+    sessions = Sessions(replace(settings, most_sessions=2))
+    first = sessions.enter("")
+    assert sessions.enter(first.name) is not first  # a tab that was doubled
+    sessions.leave(first)
+    assert sessions.enter(first.name) is first
+    sessions.leave(first)
+    sessions.enter("")
+    assert sessions.get(first.name) is None
     assert not first.folder.exists()
     brief = Sessions(replace(settings, idle_s=-1.0))
     gone = brief.enter("")

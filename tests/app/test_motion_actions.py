@@ -32,10 +32,10 @@ def tab(tmp_path):
             """Return the answer; nobody is told what its files are called here."""
             ask.serial += 1
             socket.send_json({"do": what, "serial": ask.serial, **fields})
-            while (told := socket.receive_json()).get("serial") != ask.serial:
-                assert told["of"] == "state"
-            assert "upload-" not in json.dumps(told)
-            return told
+            while (message := socket.receive_json()).get("serial") != ask.serial:
+                assert message["of"] == "state"
+            assert "upload-" not in json.dumps(message)
+            return message
 
         ask.serial = 0
         # It drifts, which is warned of by its name.
@@ -51,7 +51,7 @@ def test_a_record_is_called_as_its_sender_calls_it(tab):
     assert "error" not in tab("use motion", form=FORM)
     answer = tab("rigid", values={})
     assert CALLED in answer["shaking"]
-    assert any(CALLED in each["text"] for each in answer["warnings"])
+    assert any(CALLED in warning["text"] for warning in answer["warnings"])
     assert CALLED in json.dumps(tab("statics", values={})["basis"])
     assert tab("study form")["choices"]["own"] == CALLED
     assert tab("case")["fields"]["motion"]["file"] == CALLED
@@ -70,8 +70,8 @@ def test_a_motion_in_the_case_is_a_step_that_is_taken_back(tab):
 
 def test_what_keeps_a_motion_from_being_in_force_is_told(tab):
     tab("edit case", changes={"crack.friction": "slippery"})
-    told = tab("use motion", form=FORM)
-    assert told["error"]["field"] == "crack.friction"
+    messages = tab("use motion", form=FORM)
+    assert messages["error"]["field"] == "crack.friction"
     tab("edit case", changes={"crack.friction": "1"})
     assert CALLED in tab("rigid", values={})["shaking"]
 
@@ -86,9 +86,9 @@ def test_a_motion_that_cannot_be_read_changes_nothing(tab):
 def test_aftershocks_are_added_moved_and_removed(tab):
     first = tab("motion")["motions"][0]["title"]
     assert tab("use motion", form=FORM, to=1)["place"] == 1
-    told = tab("motion", place=1)
-    assert [each["title"] for each in told["motions"]] == [first, CALLED]
-    assert told["form"]["horizontal"]["title"] == CALLED
+    messages = tab("motion", place=1)
+    assert [motion["title"] for motion in messages["motions"]] == [first, CALLED]
+    assert messages["form"]["horizontal"]["title"] == CALLED
     assert tab("change motions", what="pause", place=1, pause="12").get("error") is None
     assert tab("case")["fields"]["aftershocks"] == [{"file": CALLED, "unit": "g", "pause": "12 s"}]
     tab("change motions", what="up", place=1)

@@ -37,8 +37,8 @@ def ran(page) -> None:
 
 def reached(page) -> int:
     """Return how many of a million runs are done."""
-    said = page.wait_for_selector(".studies .state >> text=/of 1,000,000 runs/").inner_text()
-    return int(said.split(" of ")[0].replace(",", ""))
+    message = page.wait_for_selector(".studies .state >> text=/of 1,000,000 runs/").inner_text()
+    return int(message.split(" of ")[0].replace(",", ""))
 
 
 def saved(page, label: str) -> bytes:

@@ -23,19 +23,19 @@ FORM = {"models": ["rigid"], "method": "grid", "source": "case", "vary": []}
 def session(tmp_path):
     folder = tmp_path / "tab"
     folder.mkdir()
-    found = Session("x", folder)
-    begin(found)
+    one_session = Session("x", folder)
+    begin(one_session)
     time = np.arange(400) * 0.01
     np.savetxt(folder / "upload-1", np.column_stack([time, np.sin(9.0 * time)]))
-    found.sent[EVIL] = "upload-1"
-    return found
+    one_session.sent[EVIL] = "upload-1"
+    return one_session
 
 
 def test_a_record_that_was_sent_goes_with_the_study_under_a_harmless_name(session, tmp_path):
     form = {**FORM, "source": "records", "records": [EVIL], "motions.unit": "m/s^2"}
     form |= {"scale.measure": "pga", "scale.values": "0.1 g, 0.2 g"}
-    told = look(study_asked(form, session), session.folder / "study-1", 100)
-    assert "2 runs" in told["outlook"]
+    picture = look(study_asked(form, session), session.folder / "study-1", 100)
+    assert "2 runs" in picture["outlook"]
     both = look(study_asked({**form, "both_signs": True}, session), session.folder / "study-0", 100)
     assert "4 runs" in both["outlook"]
     files = {path.name for path in (session.folder / "study-1").iterdir()}
@@ -73,8 +73,8 @@ def test_what_no_form_says_is_refused(session, form):
      ({"scale.measure": "sa", "scale.values": "0.1 g"}, "motions.scale.period")],
 )  # fmt: skip
 def test_errors_are_told_at_their_fields(session, form, field):
-    told = look(study_asked({**FORM, **form}, session), session.folder / "study-2", 10_000)
-    assert told["error"]["field"] == field
+    picture = look(study_asked({**FORM, **form}, session), session.folder / "study-2", 10_000)
+    assert picture["error"]["field"] == field
 
 
 def test_fields_are_drawn_together_and_intervals_have_their_confidence(session):
@@ -89,8 +89,8 @@ def test_fields_are_drawn_together_and_intervals_have_their_confidence(session):
     for wrong, field in (({"correlation": "crack.friction, x, 0.4"}, "correlation[0]"),
                          ({"correlation": "crack.friction"}, "correlation[0]"),
                          ({"fragility.confidence": "2"}, "fragility.confidence")):  # fmt: skip
-        told = look(study_asked({**form, **wrong}, session), session.folder / "study-4", 100)
-        assert told["error"]["field"].startswith(field), wrong
+        picture = look(study_asked({**form, **wrong}, session), session.folder / "study-4", 100)
+        assert picture["error"]["field"].startswith(field), wrong
 
 
 def test_plain_numbers_are_in_the_units_that_are_chosen(session):
@@ -123,10 +123,10 @@ def test_motions_are_ordered_by_magnitude_and_distance(session):
 
 
 def test_every_choice_is_a_field_of_a_study(session):
-    found = choices(session)
-    assert {"crack.friction", "reservoir.depth", "uplift.pattern"} <= {each["path"] for each in found["fields"]}
-    assert all(each["meaning"] for each in found["fields"])
-    assert EVIL in [each["name"] for group in found["records"] for each in group["records"]]
+    result = choices(session)
+    assert {"crack.friction", "reservoir.depth", "uplift.pattern"} <= {item["path"] for item in result["fields"]}
+    assert all(item["meaning"] for item in result["fields"])
+    assert EVIL in [record["name"] for group in result["records"] for record in group["records"]]
 
 
 def test_errors_come_back_from_other_processes():
@@ -139,4 +139,4 @@ def test_errors_come_back_from_other_processes():
 def test_what_stands_in_an_empty_form_is_in_the_units_that_are_chosen(session):
     session.units = "us"
     assert choices(session)["units"] == "us"
-    assert next(each for each in choices(session)["fields"] if each["path"] == "reservoir.depth")["now"].endswith(" ft")
+    assert next(item for item in choices(session)["fields"] if item["path"] == "reservoir.depth")["now"].endswith(" ft")

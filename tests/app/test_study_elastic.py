@@ -27,7 +27,7 @@ STUDY = {"models": ["flexible"], "method": "grid", "source": "case", "vary": [FR
 
 def processes() -> set[int]:
     """Return all that this process has begun, and what those have."""
-    return {each.pid for each in psutil.Process().children(recursive=True)}
+    return {item.pid for item in psutil.Process().children(recursive=True)}
 
 
 @pytest.mark.slow

@@ -24,15 +24,15 @@ def outcome(path, required: str) -> subprocess.CompletedProcess[str]:
 
 @pytest.mark.slow
 def test_they_are_skipped_and_say_so(tmp_path):
-    found = outcome(tmp_path, "")
-    assert found.returncode == 0, found.stdout
-    assert "1 skipped" in found.stdout
-    assert "no browser: install chromium" in found.stdout
+    process = outcome(tmp_path, "")
+    assert process.returncode == 0, process.stdout
+    assert "1 skipped" in process.stdout
+    assert "no browser: install chromium" in process.stdout
 
 
 @pytest.mark.slow
 def test_they_fail_where_they_are_required(tmp_path):
-    found = outcome(tmp_path, "required")
-    assert found.returncode == 1
-    assert "1 error" in found.stdout
-    assert "no browser: install chromium" in found.stdout
+    process = outcome(tmp_path, "required")
+    assert process.returncode == 1
+    assert "1 error" in process.stdout
+    assert "no browser: install chromium" in process.stdout

@@ -18,15 +18,15 @@ from shared.dams import FAST, example
 
 def followed(job, *, when, do):
     """Follow a job until its end; `do` something to it as soon as it says `when`."""
-    told = []
+    answer = []
 
     async def tell(message):
-        told.append(message)
-        if when(message) and not any(map(when, told[:-1])):
+        answer.append(message)
+        if when(message) and not any(map(when, answer[:-1])):
             do(job)
 
     asyncio.run(asyncio.wait_for(job.follow(tell), 60))
-    return told
+    return answer
 
 
 def running(message):
@@ -38,29 +38,29 @@ def a_run(*changes):
 
 
 def test_a_run_says_how_far_it_is_and_what_comes_of_it():
-    told = followed(a_run(*FAST), when=lambda message: False, do=None)
-    assert any(map(running, told))
-    assert (told[-1]["state"], told[-1]["result"]["model"]) == ("done", "flexible")
+    messages = followed(a_run(*FAST), when=lambda message: False, do=None)
+    assert any(map(running, messages))
+    assert (messages[-1]["state"], messages[-1]["result"]["model"]) == ("done", "flexible")
 
 
 def test_a_cancelled_run_ends():
     job = a_run()
-    told = followed(job, when=running, do=Job.cancel)
-    assert (told[-1]["state"], told[-1]["result"]) == ("cancelled", None)
+    messages = followed(job, when=running, do=Job.cancel)
+    assert (messages[-1]["state"], messages[-1]["result"]) == ("cancelled", None)
 
 
 def test_a_killed_run_is_told():
-    told = followed(a_run(), when=running, do=lambda job: os.kill(job.process_id, signal.SIGKILL))
-    assert told[-1]["state"] == "lost"
-    assert "SIGKILL" in told[-1]["said"]
+    messages = followed(a_run(), when=running, do=lambda job: os.kill(job.process_id, signal.SIGKILL))
+    assert messages[-1]["state"] == "lost"
+    assert "SIGKILL" in messages[-1]["said"]
 
 
 def test_what_is_refused_is_told_in_its_words():
-    told = followed(
+    messages = followed(
         a_run("analysis.time_limit=1s", "flexible.elements_across=100"), when=lambda message: False, do=None
     )
-    assert told[-1]["state"] == "refused"
-    assert "analysis.time_limit" in told[-1]["said"]
+    assert messages[-1]["state"] == "refused"
+    assert "analysis.time_limit" in messages[-1]["said"]
 
 
 def test_a_killed_process_beside_is_replaced():

@@ -43,8 +43,8 @@ def test_threads_that_want_the_same_build_it_once():
     with ThreadPoolExecutor(8) as pool:
         waiting = [pool.submit(get) for _ in range(8)]
         go_on.set()
-        found = {id(each.result(10.0)) for each in waiting}
-    assert len(found) == len(built) == 1
+        result = {id(item.result(10.0)) for item in waiting}
+    assert len(result) == len(built) == 1
 
 
 def test_others_need_not_wait():

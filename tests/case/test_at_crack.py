@@ -38,7 +38,7 @@ def ends(head, foot, **more):
 
 
 def codes(case):
-    return [each.code for each in case_warnings(case)]
+    return [case_warning.code for case_warning in case_warnings(case)]
 
 
 @given(
@@ -64,10 +64,10 @@ def test_ends_are_the_same_as_a_place_on_the_crack(elevation, tilt, part, lean, 
     there = read_case(dam(crack=crack, anchors=[on_crack]))
     for one, other in ((head, foot), (foot, head)):
         case = read_case(dam(crack=crack, anchors=[ends(one, other, **steel)]))
-        found, known = case.anchors_at_crack[0], there.anchors_at_crack[0]
-        assert found.distance == pytest.approx(known.distance, abs=1e-9)
-        assert found.inclination == pytest.approx(known.inclination, abs=1e-9)
-        assert (found.prestress, found.axial_stiffness) == (known.prestress, known.axial_stiffness)
+        result, known = case.anchors_at_crack[0], there.anchors_at_crack[0]
+        assert result.distance == pytest.approx(known.distance, abs=1e-9)
+        assert result.inclination == pytest.approx(known.inclination, abs=1e-9)
+        assert (result.prestress, result.axial_stiffness) == (known.prestress, known.axial_stiffness)
         assert prestress(case).moment == pytest.approx(prestress(there).moment, rel=1e-9, abs=1e-3)
 
 
@@ -133,7 +133,7 @@ def test_drains_that_raise_the_head_are_told(efficiency, raised):
 )
 def test_where_the_head_is(anchor, said):
     case = read_case(dam(anchors=[anchor | {"prestress": "1 MN/m"}]))
-    assert [each for each in codes(case) if each.startswith("anchor")] == said
+    assert [code for code in codes(case) if code.startswith("anchor")] == said
 
 
 @pytest.mark.parametrize(

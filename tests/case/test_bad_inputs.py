@@ -170,23 +170,23 @@ def place(tmp_path, monkeypatch):
 
 def refuse(place: Path, arguments: list[str], words: list[str]) -> None:
     before = sorted(place.rglob("*"))
-    said = command(*arguments)
-    err = said.stderr
-    assert said.returncode == 2, err
+    screen = command(*arguments)
+    err = screen.stderr
+    assert screen.returncode == 2, err
     lines = err.splitlines()
     assert lines, "nothing was said"
     assert all(line.startswith("heeltoe: ") and "; " in line for line in lines), err
     for word in words:
         assert word in err, err
-    assert "Verdict" not in said.stdout
+    assert "Verdict" not in screen.stdout
     assert sorted(place.rglob("*")) == before, "something was left behind"
 
 
 @pytest.mark.usefixtures("place")
 def test_the_good_case_runs():
-    said = command("run", "case.toml")
-    assert said.returncode == 0, said.stderr
-    assert "Verdict" in said.stdout
+    screen = command("run", "case.toml")
+    assert screen.returncode == 0, screen.stderr
+    assert "Verdict" in screen.stdout
 
 
 @pytest.mark.parametrize("name", EDITS)

@@ -179,7 +179,7 @@ def test_warnings(changes, words):
 def test_examples_are_sound_and_survive_json(path):
     case = read_case(path)
     # Its tailwater presses on the elastic part below the crack.
-    assert {each.code for each in case_warnings(case)} <= (
+    assert {case_warning.code for case_warning in case_warnings(case)} <= (
         {"tailwater-below-crack"} if path.stem == "anchored" else set()
     )
     assert case.title

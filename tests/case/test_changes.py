@@ -115,6 +115,6 @@ def test_what_stands_in_a_list_is_changed_by_its_place():
     ],
 )
 def test_a_place_that_is_not_there_is_said(change, said):
-    with pytest.raises(InputError, match="no such field") as found:
+    with pytest.raises(InputError, match="no such field") as result:
         TWO.with_(change)
-    assert said in str(found.value)
+    assert said in str(result.value)

@@ -35,11 +35,11 @@ def records(tmp_path_factory) -> dict[str, tuple[Fields, Any]]:
         "b.txt": "# time step: 0.011 s\n# units: [g]\n" + bare.replace(" ", "\n"),
     }.items():
         (place / name).write_text(text)
-    found: dict[str, tuple[Fields, Any]] = {}
+    result: dict[str, tuple[Fields, Any]] = {}
     flat = [["0 s", "0 g"], ["1 s", "0 g"]]
     for block in ("motion", "motion.vertical"):
         source = {f"{block}.points": GONE}
-        found |= {
+        result |= {
             f"{block}.file": ({**source, f"{block}.file": str(place / "a.txt")}, str(place / "b.txt")),
             f"{block}.channel": ({**source, f"{block}.file": str(place / "three.V2"), f"{block}.channel": 1}, 3),
             f"{block}.unit": (
@@ -69,12 +69,12 @@ def records(tmp_path_factory) -> dict[str, tuple[Fields, Any]]:
         corners = [(0.0, 0.0), (base, 0.0), (5.0, 30.0), (0.0, 30.0)]
         drawing.modelspace().add_lwpolyline(corners, close=True, dxfattribs={"layer": layer})
     drawing.saveas(place / "two.dxf")
-    found["section.file"] = ({"section": {"file": str(place / "a.csv")}}, str(place / "b.csv"))
-    found["section.layer"] = ({"section": {"file": str(place / "two.dxf"), "layer": "A"}}, "B")
-    found["section.unit"] = ({"section": {"file": str(place / "bare.csv"), "unit": "m"}}, "dam")
-    found["motion.duration"] = ({}, "0.35 s")
-    found["motion.allow_zero"] = ({"motion": {"points": flat}}, True)
-    return found
+    result["section.file"] = ({"section": {"file": str(place / "a.csv")}}, str(place / "b.csv"))
+    result["section.layer"] = ({"section": {"file": str(place / "two.dxf"), "layer": "A"}}, "B")
+    result["section.unit"] = ({"section": {"file": str(place / "bare.csv"), "unit": "m"}}, "dam")
+    result["motion.duration"] = ({}, "0.35 s")
+    result["motion.allow_zero"] = ({"motion": {"points": flat}}, True)
+    return result
 
 
 # What everything is shown in changes no number; tests/views/test_units.py looks at what is shown.
@@ -87,20 +87,20 @@ def outcome(model: str, written: str) -> tuple[Any, list[str], list[str]]:
     """Return the numbers of a run of a case in JSON, all that it warns of, and which fields it says have no effect."""
     try:
         case = read_case(json.loads(written))
-        found = statics_of_sections(case) if model == "statics" else run(case, model)
+        result = statics_of_sections(case) if model == "statics" else run(case, model)
     except InputError as error:
         return str(error), [str(error)], []
-    numbers = json.loads(json.dumps(found.to_json()))
-    for each in (numbers, *(section["statics"] for section in numbers.get("sections", ()))):
+    numbers = json.loads(json.dumps(result.to_json()))
+    for item in (numbers, *(section["statics"] for section in numbers.get("sections", ()))):
         for name in ("warnings", "build", "seconds"):
-            each.pop(name, None)
-    return numbers, [str(each) for each in found.warnings], idle(found.warnings)
+            item.pop(name, None)
+    return numbers, [str(warning) for warning in result.warnings], idle(result.warnings)
 
 
 def idle(warnings: Sequence[Notice]) -> list[str]:
     """Return the fields that warnings say have no effect."""
-    said = [dict(each.quantities).get("fields", each.field) for each in warnings if each.code in SILENT]
-    return [path for text in said for path in text.split(", ")]
+    message = [dict(warning.quantities).get("fields", warning.field) for warning in warnings if warning.code in SILENT]
+    return [path for text in message for path in text.split(", ")]
 
 
 def told(model: str, fields: Fields) -> list[str]:
@@ -116,12 +116,12 @@ def faults(model: str, records: dict[str, tuple[Fields, Any]], skip: Skip, *, br
 
     A `brief` run ends with the ground motion, where the field is not about what comes after.
     """
-    found = []
+    result = []
     for path, field in ALL.items():
         before, after, written = pair(path, field, records)
         if brief and not path.startswith("analysis."):
-            for each in (before, after):
-                put(each, "analysis.silence", "0 s")
+            for item in (before, after):
+                put(item, "analysis.silence", "0 s")
         if skip(path, told(model, after)):
             continue
         old, _, _ = outcome(model, json.dumps(before))
@@ -131,7 +131,7 @@ def faults(model: str, records: dict[str, tuple[Fields, Any]], skip: Skip, *, br
         if isinstance(old, str) and path.startswith("rock.") and old.startswith("crack.elevation: 0 m is at the base"):
             assert model == "decoupled"
             continue  # rock is below a base, a chain below a crack above it
-        new, said, unread = outcome(model, json.dumps(after))
+        new, message, unread = outcome(model, json.dumps(after))
         if isinstance(old, str) and old.startswith("crack.roughness: ") and new == old:
             continue  # the flexible model knows no rough crack, and says so
         if isinstance(old, str) and old.startswith("further_cracks[0].law: "):
@@ -141,16 +141,16 @@ def faults(model: str, records: dict[str, tuple[Fields, Any]], skip: Skip, *, br
             assert model == "rigid"
             continue  # two blocks know no bond, and say so
         if isinstance(old, str) and path != "motion.allow_zero":
-            found.append(f"{path}: {old}")
+            result.append(f"{path}: {old}")
         # Fields of the static checks are for `heeltoe statics`.
         if path.startswith("statics.") and model != "statics":
             assert new == old
             continue
-        if new == old and not any(written in text for text in said):
-            found.append(f"{path} changes nothing, and nobody says so")
+        if new == old and not any(written in text for text in message):
+            result.append(f"{path} changes nothing, and nobody says so")
         if new != old and written in unread:
-            found.append(f"{path} changes something, though it is said to have no effect")
-    return found
+            result.append(f"{path} changes something, though it is said to have no effect")
+    return result
 
 
 @pytest.mark.slow

@@ -8,9 +8,9 @@ from shared.dams import ALL_EXAMPLES, EXAMPLES, STUDIES
 
 
 def test_all_cases_and_studies_are_written(tmp_path):
-    said = command("examples", cwd=tmp_path)
-    assert said.returncode == 0, said.stderr
-    assert said.stdout == f"wrote {len(ALL_EXAMPLES) + len(STUDIES)} cases and studies into examples\n"
+    process = command("examples", cwd=tmp_path)
+    assert process.returncode == 0, process.stderr
+    assert process.stdout == f"wrote {len(ALL_EXAMPLES) + len(STUDIES)} cases and studies into examples\n"
     for path in (*ALL_EXAMPLES, *STUDIES):
         assert (tmp_path / "examples" / path.relative_to(EXAMPLES)).read_bytes() == path.read_bytes()
     assert command("study", "examples/studies/fragility.toml", "--dry-run", cwd=tmp_path).returncode == 0
@@ -18,8 +18,8 @@ def test_all_cases_and_studies_are_written(tmp_path):
 
 def test_nothing_of_the_users_is_touched(tmp_path):
     (tmp_path / "examples").mkdir()
-    said = command("examples", cwd=tmp_path)
-    assert (said.returncode, said.stderr) == (
+    process = command("examples", cwd=tmp_path)
+    assert (process.returncode, process.stderr) == (
         2,
         "heeltoe: examples: already exists; give another name, or remove it first\n",
     )

@@ -22,8 +22,8 @@ def test_a_pattern_that_is_there_already_keeps_its_options():
     assert same.model_dump() == read_case(DRAINED).model_dump()
     other = read_case(DRAINED, ["uplift.pattern=triangular"])
     assert (other.uplift.drain_position, other.uplift.drain_efficiency, other.statics.drain_diameter) == (None,) * 3
-    found = run_small(DRAINED | {"motion": PULSE}, [], parse_axes(["uplift.pattern=drained,triangular,none"]), rigid)
-    assert [each.outcome for each in found.responses] == ["ok"] * 3
+    result = run_small(DRAINED | {"motion": PULSE}, [], parse_axes(["uplift.pattern=drained,triangular,none"]), rigid)
+    assert [item.outcome for item in result.responses] == ["ok"] * 3
 
 
 @pytest.mark.parametrize(
@@ -55,9 +55,11 @@ def test_what_is_no_other_motion_is_not_refused():
 def test_a_motion_from_python_comes_without_the_vertical_one_and_says_so():
     motion = GroundMotion.from_points([0.0, 0.1, 0.2], [0.0, 3.0, 0.0])
     alone, pair = (read_case(BLOCK, [f"motion.vertical={given}"]) for given in ("none", '{file = "elsewhere"}'))
-    assert [each.code for each in rigid(alone, motion).warnings if each.field == "motion.vertical"] == []
+    assert [warning.code for warning in rigid(alone, motion).warnings if warning.field == "motion.vertical"] == []
     response = rigid(pair, motion)
-    assert [each.code for each in response.warnings if each.field == "motion.vertical"] == ["vertical-left-out"]
+    assert [warning.code for warning in response.warnings if warning.field == "motion.vertical"] == [
+        "vertical-left-out"
+    ]
     assert response.residual_slip_m == rigid(alone, motion).residual_slip_m
     again = rigid(pair, response.motion)
     assert again.warnings == response.warnings

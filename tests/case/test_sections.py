@@ -58,14 +58,14 @@ def test_slopes_say_the_same_as_corners(upstream, downstream, crest):
     height = max(sum(rise for rise, _ in face) for face in (upstream, downstream))
     faces, sides = [], []
     for face in (upstream, downstream):
-        level, out, said, corners = height, 0.0, [], [(0.0, height)]
+        level, out, message, corners = height, 0.0, [], [(0.0, height)]
         for number, (rise, slope) in enumerate(face):
             lower = 0.0 if number == len(face) - 1 else level - rise
             out += slope * (level - lower)
             level = lower
-            said.append([f"{level!r} m", slope])
+            message.append([f"{level!r} m", slope])
             corners.append((out, level))
-        faces.append(said[::-1])
+        faces.append(message[::-1])
         sides.append(corners)
     left = [(-out, level) for out, level in sides[0]]
     right = [(crest + out, level) for out, level in sides[1]]
@@ -204,7 +204,7 @@ def test_without_the_package(tmp_path, monkeypatch):
 def test_refused_faces(section, words):
     with pytest.raises(InputError) as caught:
         read_case(dam(height="40 m", crest_width="5 m", **section))
-    assert any(words in str(each) for each in (caught.value, *caught.value.others))
+    assert any(words in str(item) for item in (caught.value, *caught.value.others))
 
 
 @given(st.binary(max_size=400), st.integers(0, 3))

@@ -25,12 +25,16 @@ def test_cracks_stand_from_the_crest_down_and_inherit_friction_and_uplift():
             ],
         }
     )
-    assert [each.crack.elevation for each in case.single_crack_cases] == [90.0, 40.0, 0.0]
+    assert [single_crack_case.crack.elevation for single_crack_case in case.single_crack_cases] == [90.0, 40.0, 0.0]
     assert case.asked == 1
-    assert [each.crack.mu_kinetic for each in case.single_crack_cases] == [0.8, 1.2, 1.2]
-    assert [each.uplift.pattern for each in case.single_crack_cases] == ["triangular", "triangular", "uniform"]
-    assert [each.uplift.intensity for each in case.single_crack_cases] == [0.5, 1.0, 1.0]
-    assert all(not each.further_cracks for each in case.single_crack_cases)
+    assert [single_crack_case.crack.mu_kinetic for single_crack_case in case.single_crack_cases] == [0.8, 1.2, 1.2]
+    assert [single_crack_case.uplift.pattern for single_crack_case in case.single_crack_cases] == [
+        "triangular",
+        "triangular",
+        "uniform",
+    ]
+    assert [single_crack_case.uplift.intensity for single_crack_case in case.single_crack_cases] == [0.5, 1.0, 1.0]
+    assert all(not single_crack_case.further_cracks for single_crack_case in case.single_crack_cases)
 
 
 @pytest.mark.parametrize(
@@ -97,9 +101,9 @@ def test_maps_and_tables_of_blocks_refuse_several():
 
 
 def test_static_checks_judge_every_crack_as_a_section():
-    found = statics_of_sections(CASE)
-    assert [each.elevation_m for each in found.joints] == [90.0, 0.0]
-    for joint, case in zip(found.joints, CASE.single_crack_cases, strict=True):
+    result = statics_of_sections(CASE)
+    assert [item.elevation_m for item in result.joints] == [90.0, 0.0]
+    for joint, case in zip(result.joints, CASE.single_crack_cases, strict=True):
         assert joint.statics.to_json()["cases"] == statics_of_sections(case).joints[0].statics.to_json()["cases"]
 
 

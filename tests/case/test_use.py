@@ -15,7 +15,7 @@ SILT = {"depth": "20 m", "vertical_density": "900 kg/m^3"}
 
 
 def said(fields, *models):
-    return [str(each) for each in unused_fields(read_case(fields), models)]
+    return [str(unused_field) for unused_field in unused_fields(read_case(fields), models)]
 
 
 def test_fields_of_other_models_are_told_in_one_line():
@@ -124,10 +124,14 @@ def test_what_a_reader_expects_to_matter_is_told_by_itself():
     ],
 )
 def test_fields_put_out_of_use_by_others_are_told_with_the_reason(changes, models, fields, why):
-    idle = [each for each in unused_fields(read_case(dam(**changes)), models) if each.code == "fields-idle"]
-    (found,) = idle
-    assert str(found).startswith(f"no effect of {fields}: ")
-    assert why in str(found)
+    idle = [
+        unused_field
+        for unused_field in unused_fields(read_case(dam(**changes)), models)
+        if unused_field.code == "fields-idle"
+    ]
+    (result,) = idle
+    assert str(result).startswith(f"no effect of {fields}: ")
+    assert why in str(result)
 
 
 @pytest.mark.parametrize(
@@ -145,50 +149,56 @@ def test_fields_put_out_of_use_by_others_are_told_with_the_reason(changes, model
     ],
 )
 def test_what_has_an_effect_is_not_told(changes, models):
-    assert "fields-idle" not in {each.code for each in unused_fields(read_case(dam(**changes)), models)}
+    assert "fields-idle" not in {unused_field.code for unused_field in unused_fields(read_case(dam(**changes)), models)}
 
 
 @pytest.mark.parametrize("criteria", CRITERIA)
 def test_criteria_tell_what_they_do_not_ask_for(criteria):
     asked = {"structure": "normal", "site_information": "well defined", "compressive_strength": "20 MPa"}
     plain = dam(motion=None, statics={"criteria": criteria, "bonded": 0.5, "cohesion": "1 MPa"})
-    told = []
+    answer = []
     for name, value in asked.items():
-        found = statics(read_case(dam(motion=None, statics=plain["statics"] | {name: value})))
-        same = [each.to_json() for each in found.checks] == [
-            each.to_json() for each in statics(read_case(plain)).checks
+        result = statics(read_case(dam(motion=None, statics=plain["statics"] | {name: value})))
+        same = [check.to_json() for check in result.checks] == [
+            check.to_json() for check in statics(read_case(plain)).checks
         ]
-        idle = [each for each in found.warnings if each.code == "fields-idle"]
+        idle = [warning for warning in result.warnings if warning.code == "fields-idle"]
         assert same is bool(idle), name
-        told += [name] if idle else []
-    assert tuple(told) == unread(CRITERIA[criteria])
+        answer += [name] if idle else []
+    assert tuple(answer) == unread(CRITERIA[criteria])
 
 
 def test_checks_after_a_run_count_what_the_run_reads():
     case = example("typical-base", *FAST)
-    (alone,) = (each for each in statics(case).warnings if each.code == "fields-unused")
+    (alone,) = (warning for warning in statics(case).warnings if warning.code == "fields-unused")
     assert "motion.file" in str(alone)
-    (beside,) = (each for each in statics(case, 0.1, beside=("rigid",)).warnings if each.code == "fields-unused")
+    (beside,) = (
+        warning for warning in statics(case, 0.1, beside=("rigid",)).warnings if warning.code == "fields-unused"
+    )
     assert str(beside).startswith("no effect in the rigid model and the static checks: concrete.modulus")
     assert "motion" not in str(beside)
 
 
 def test_every_result_tells_it():
     case = example("koyna", "motion.duration=1s", "flexible.elements_across=2", "flexible.evidence=none")
-    assert "fields-unused" in {each.code for each in rigid(case).warnings}
+    assert "fields-unused" in {warning.code for warning in rigid(case).warnings}
     both = run(case, "decoupled,flexible")
-    assert {each.code for each in both.warnings} & {"fields-unused", "restitution-unused"} == set()
-    assert {each.code for each in both.beside.warnings} & {"fields-unused", "restitution-unused"} == set()
+    assert {warning.code for warning in both.warnings} & {"fields-unused", "restitution-unused"} == set()
+    assert {warning.code for warning in both.beside.warnings} & {"fields-unused", "restitution-unused"} == set()
 
 
 def test_pressures_that_an_elastic_dam_does_not_have_are_told():
     def told(value, *models):
         given = dam(reservoir={"depth": "80 m", "hydrodynamic": value})
-        return [str(each) for each in unused_fields(read_case(given), models) if "hydrodynamic" in str(each)]
+        return [
+            str(unused_field)
+            for unused_field in unused_fields(read_case(given), models)
+            if "hydrodynamic" in str(unused_field)
+        ]
 
-    said = ['reservoir.hydrodynamic = "zangar" has no effect on the motion of the elastic dam']
+    message = ['reservoir.hydrodynamic = "zangar" has no effect on the motion of the elastic dam']
     for models in (("flexible",), ("rigid", "flexible")):
-        assert [each.partition(",")[0] for each in told("zangar", *models)] == said
+        assert [item.partition(",")[0] for item in told("zangar", *models)] == message
         assert told("westergaard", *models) == []
     assert told("zangar", "rigid") == []
 
@@ -196,16 +206,16 @@ def test_pressures_that_an_elastic_dam_does_not_have_are_told():
 def test_an_unusual_modulus_is_told_wherever_it_is_read():
     changes = ("concrete.modulus=20 MPa", "motion.duration=1s", "flexible.elements_across=2", "flexible.evidence=none")
     for model in ("decoupled", "flexible"):
-        told = {each.code for each in run(example("koyna", *changes), model).warnings}
-        assert "modulus-unusual" in told
+        codes = {warning.code for warning in run(example("koyna", *changes), model).warnings}
+        assert "modulus-unusual" in codes
 
 
 def test_choices_for_what_never_happened_are_told():
     rare = {"analysis.event_limit": "1000", "analysis.paradox": "tangential impact", "motion.allow_zero": "true"}
     case = example("block", *(f"{path}={value}" for path, value in rare.items()))
-    told = {each.field: str(each) for each in rigid(case).warnings if each.code == "fields-idle"}
-    assert told.keys() == rare.keys()
-    assert told["analysis.event_limit"] == "no effect of analysis.event_limit: the run has fewer events"
+    answer = {warning.field: str(warning) for warning in rigid(case).warnings if warning.code == "fields-idle"}
+    assert answer.keys() == rare.keys()
+    assert answer["analysis.event_limit"] == "no effect of analysis.event_limit: the run has fewer events"
     few = rigid(example("block", "analysis.event_limit=1"))
     assert few.outcome == "event limit"
-    assert "fields-idle" not in {each.code for each in few.warnings}
+    assert "fields-idle" not in {warning.code for warning in few.warnings}

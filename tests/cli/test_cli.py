@@ -40,10 +40,10 @@ def test_figures_in_us_units(tmp_path):
     assert command(*run, "--units", "us").returncode == 0
     assert "slip [in]" in (tmp_path / "response.svg").read_text(encoding="utf-8")
     assert "kip/ft" in (tmp_path / "section.svg").read_text(encoding="utf-8")
-    said = command("run", *RIGID, "--units", "us", "--set", "title=Dam of 100 m", "--duration", "5s")
+    screen = command("run", *RIGID, "--units", "us", "--set", "title=Dam of 100 m", "--duration", "5s")
     for words in ("Dam of 100 m", "ft/s", "residual slip", " in "):
-        assert words in said.stdout
-    assert not re.search(r"\d\s(mm|m/s|m)\b", said.stdout.replace("Dam of 100 m", ""))
+        assert words in screen.stdout
+    assert not re.search(r"\d\s(mm|m/s|m)\b", screen.stdout.replace("Dam of 100 m", ""))
     refused = command(*run, "--units", "imperial")
     assert refused.returncode == 2
     assert "--units" in refused.stderr
@@ -185,9 +185,9 @@ def test_flexible_says_what_its_result_rests_on(tmp_path):
 
 def test_evidence_is_chosen_on_the_command_line():
     short = ("run", *RIGID, "--model", "flexible", *COARSE, "--duration", "1s", "--json", "-", "--evidence")
-    found = [json.loads(command(*short, each).stdout)["evidence"] for each in ("none", "step")]
-    assert found[0] is None
-    assert (found[1]["asked"], found[1]["runs"]) == ("step", 2)
+    evidences = [json.loads(command(*short, item).stdout)["evidence"] for item in ("none", "step")]
+    assert evidences[0] is None
+    assert (evidences[1]["asked"], evidences[1]["runs"]) == ("step", 2)
     result = command(*short, "some")
     assert result.returncode == 2
     assert "flexible.evidence" in result.stderr
@@ -385,23 +385,23 @@ def test_a_file_that_cannot_be_written_is_not_called_standard_output(monkeypatch
     # Whoever imports it now keeps what is patched.
     import_module("heeltoe.study.run.run")
     monkeypatch.setattr("heeltoe.study.plan.file.read_study", full)
-    said = command("study", "study.toml")
-    assert said.returncode == 2
-    assert said.stderr.startswith("heeltoe: /there/cache: it cannot be written (No space left on device)")
+    screen = command("study", "study.toml")
+    assert screen.returncode == 2
+    assert screen.stderr.startswith("heeltoe: /there/cache: it cannot be written (No space left on device)")
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device here is always full")
 def test_a_standard_output_that_is_full_is_called_that():
     with Path("/dev/full").open("w") as full:
-        said = subprocess.run(
+        message = subprocess.run(
             [sys.executable, "-m", "heeltoe", "run", str(BLOCK)],
             stdout=full,
             stderr=subprocess.PIPE,
             text=True,
             check=False,
         )
-    assert said.returncode == 2
-    assert said.stderr.splitlines()[-1].startswith("heeltoe: standard output: it cannot be written (No space left")
+    assert message.returncode == 2
+    assert message.stderr.splitlines()[-1].startswith("heeltoe: standard output: it cannot be written (No space left")
 
 
 def test_what_the_system_refuses_otherwise_is_no_trouble_of_standard_output(monkeypatch):
@@ -427,14 +427,14 @@ def test_a_block_loads_no_statistics_no_meshes_and_no_figures():
 
 
 def test_the_help_cuts_no_sentence():
-    said = command("--help", columns=80)
-    assert "..." not in said.stdout.partition("Commands:")[2]
-    assert max(map(len, said.stdout.splitlines())) <= 80
+    screen = command("--help", columns=80)
+    assert "..." not in screen.stdout.partition("Commands:")[2]
+    assert max(map(len, screen.stdout.splitlines())) <= 80
 
 
 def test_examples_are_listed_with_a_line_each(tmp_path):
-    said = command("examples", "--list", cwd=tmp_path)
-    lines = said.stdout.splitlines()
+    screen = command("examples", "--list", cwd=tmp_path)
+    lines = screen.stdout.splitlines()
     assert lines[::2] == [
         path.relative_to(ROOT / "examples").as_posix() for path in sorted((ROOT / "examples").rglob("*.toml"))
     ]

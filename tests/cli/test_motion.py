@@ -29,15 +29,15 @@ def records(tmp_path, monkeypatch):
 def test_three_components_in_one_go(records):
     run = command("motion", "a.asc", "b.asc", "c.asc", "--json", "-", "--units", "us", "--out", "drawn", cwd=records)
     assert run.returncode == 0, run.stderr
-    said = json.loads(run.stdout)["motions"]
-    assert [each["component"] for each in said] == ["HNE", "HNN", "HNZ"]
-    assert said[0]["pga_g"] == pytest.approx(np.abs(GAL).max() / 100.0 / G, rel=1e-6)
-    assert len(said[0]["spectrum"]["period_s"]) == len(said[0]["spectrum"]["pseudo_acceleration_m_s2"]) > 50
-    assert said[0]["format"] == "ESM ASC"
+    motions = json.loads(run.stdout)["motions"]
+    assert [item["component"] for item in motions] == ["HNE", "HNN", "HNZ"]
+    assert motions[0]["pga_g"] == pytest.approx(np.abs(GAL).max() / 100.0 / G, rel=1e-6)
+    assert len(motions[0]["spectrum"]["period_s"]) == len(motions[0]["spectrum"]["pseudo_acceleration_m_s2"]) > 50
+    assert motions[0]["format"] == "ESM ASC"
     assert "in/s" in run.stderr or "ft/s" in run.stderr
-    drawn = sorted(each.name for each in (records / "drawn").iterdir())
+    drawn = sorted(path.name for path in (records / "drawn").iterdir())
     assert drawn == [f"{name}.{ending}" for name in "abc" for ending in ("motion.png", "txt")]
-    assert read_record(records / "drawn" / "a.txt").pga / G == pytest.approx(said[0]["pga_g"], rel=1e-6)
+    assert read_record(records / "drawn" / "a.txt").pga / G == pytest.approx(motions[0]["pga_g"], rel=1e-6)
 
 
 def test_nothing_is_drawn_that_is_not_asked_for(records):
@@ -65,8 +65,8 @@ def test_components_stand_side_by_side_in_one_unit(units, pgd, speed, records):
     lines = {line[:22].strip(): line[22:] for line in run.stdout.splitlines()}
     assert lines["component"].split() == ["HNE", "HNN", "HNZ"]
     for label, unit in (("PGV", speed), ("PGD", pgd), ("Arias intensity", speed)):
-        numbers, found = lines[label].split()[::2], lines[label].split()[1::2]
-        assert found == [unit] * 3
+        numbers, result = lines[label].split()[::2], lines[label].split()[1::2]
+        assert result == [unit] * 3
         share = 0.49 if label == "Arias intensity" else 0.7
         assert float(numbers[1]) == pytest.approx(share * float(numbers[0]), rel=2e-3)
     # Four are printed one below the other.
@@ -85,10 +85,10 @@ def test_a_match_is_written_as_a_record(records):
     run = command("motion", "a.asc", "--match", "s.txt", "--out", "m.txt", "--json", "m.json", cwd=records)
     assert run.returncode == 0, run.stderr
     assert "off the target by" in run.stdout
-    said = json.loads((records / "m.json").read_text())["motions"][0]
-    assert 0.0 < said["misfit"]["rms"] <= said["misfit"]["largest"]
+    message = json.loads((records / "m.json").read_text())["motions"][0]
+    assert 0.0 < message["misfit"]["rms"] <= message["misfit"]["largest"]
     matched = read_record(records / "m.txt")
-    assert matched.pga / G == pytest.approx(said["pga_g"], rel=1e-6)
+    assert matched.pga / G == pytest.approx(message["pga_g"], rel=1e-6)
     assert "matched by wavelets to s" in matched.processing[0]
 
 

@@ -30,7 +30,7 @@ def test_programs_run(block, tmp_path, monkeypatch):
     exec(compile(block, "block", "exec"), {})
 
 
-@pytest.mark.parametrize(("block", "mark"), [each[1:] for each in TOML], ids=[place for place, _, _ in TOML])
+@pytest.mark.parametrize(("block", "mark"), [item[1:] for item in TOML], ids=[place for place, _, _ in TOML])
 def test_cases_can_be_read(block, mark):
     """A block that is a part of a case says above it of which: ``<!-- in examples/koyna.toml -->``."""
     fields = tomllib.loads(block)

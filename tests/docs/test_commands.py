@@ -83,14 +83,14 @@ def test_a_line_can_be_typed(line, place, request):
         arguments += [f"--set=aftershocks[{place}].duration=1s" for place in (0, 1)]
     # The records of a suite have the length that they have.
     quick = COARSE if "--motions" in arguments else QUICK.get(name, ())
-    said = command(name, *arguments, *quick, cwd=place)
+    process = command(name, *arguments, *quick, cwd=place)
     # In so short an earthquake the limit may be met in the whole range.
-    assert said.returncode in ((0, 3) if name == "solve" else (0,)), said.stderr
+    assert process.returncode in ((0, 3) if name == "solve" else (0,)), process.stderr
 
 
 @pytest.mark.parametrize("page", PAGES)
 def test_commands_and_options_in_passing_are_there(page):
-    options = {option for each in COMMANDS.values() for parameter in each.params for option in parameter.opts}
+    options = {option for item in COMMANDS.values() for parameter in item.params for option in parameter.opts}
     for span in spans(page):
         if span.startswith("heeltoe "):
             _, name, *arguments = shlex.split(span)

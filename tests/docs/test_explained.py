@@ -22,7 +22,7 @@ def test_where_a_name_is_explained_there_is_something(place):
 
 
 def test_all_those_places_are_used():
-    assert {each.page for each in everything() if each.page} == set(pages())
+    assert {item.page for item in everything() if item.page} == set(pages())
 
 
 def test_equations_that_the_code_names_are_there():
@@ -30,9 +30,9 @@ def test_equations_that_the_code_names_are_there():
     for top, ending in (("python", "py"), ("crates", "rs"), ("docs", "md")):
         for path in (ROOT / top).rglob(f"*.{ending}"):
             text = " ".join(path.read_text(encoding="utf-8").split())
-            found = re.findall(r"docs/([\w-]+\.md),? equations? (\d+[a-z]?)(?: to (\d+[a-z]?))?", text)
-            found += re.findall(r"\[[\w-]+\.md\]\(([\w-]+\.md)\), equation (\d+[a-z]?)()", text)
-            named += [(f"docs/{page}", number) for page, *numbers in found for number in numbers if number]
+            result = re.findall(r"docs/([\w-]+\.md),? equations? (\d+[a-z]?)(?: to (\d+[a-z]?))?", text)
+            result += re.findall(r"\[[\w-]+\.md\]\(([\w-]+\.md)\), equation (\d+[a-z]?)()", text)
+            named += [(f"docs/{page}", number) for page, *numbers in result for number in numbers if number]
     assert named
     for page, number in named:
         assert number in equations(page), (page, number)

@@ -28,9 +28,9 @@ def test_links_lead_somewhere(page, target):
 @pytest.mark.parametrize("page", PAGES)
 def test_source_files_are_named_so_that_they_are_found(page):
     for name in sorted(set(re.findall(r"[\w./-]+\.(?:py|rs)\b", PAGES[page]))):
-        found = [path for path in files() if path == name or path.endswith(f"/{name}")]
-        found = [path for path in found if path == name or not path.startswith("tests/")]
-        assert len(found) == 1, (name, found)
+        result = [path for path in files() if path == name or path.endswith(f"/{name}")]
+        result = [path for path in result if path == name or not path.startswith("tests/")]
+        assert len(result) == 1, (name, result)
 
 
 @pytest.mark.parametrize("page", PAGES)
@@ -39,20 +39,20 @@ def test_paths_are_there(page):
     for path in sorted(set(re.findall(rf"(?<![\w/.]){places}", PAGES[page]))):
         if path.startswith(("docs/_build", "docs/generated")):
             continue
-        assert any(each == path or each.startswith(f"{path}/") for each in files()), path
+        assert any(file == path or file.startswith(f"{path}/") for file in files()), path
 
 
 def field(path: str) -> Any:
     """Return the schema of a field of a case by its path, None where there is no such field."""
     schema = case_schema()
-    found: Any = schema
+    result: Any = schema
     for name in path.split("."):
-        reference = re.search(r"#/\$defs/(\w+)", str(found.get("$ref", found.get("anyOf", ""))))
-        found = schema["$defs"][reference[1]] if reference else found
-        found = found.get("properties", {}).get(name)
-        if found is None:
+        reference = re.search(r"#/\$defs/(\w+)", str(result.get("$ref", result.get("anyOf", ""))))
+        result = schema["$defs"][reference[1]] if reference else result
+        result = result.get("properties", {}).get(name)
+        if result is None:
             return None
-    return found
+    return result
 
 
 BLOCKS = "|".join(set(case_schema()["properties"]) - {"title"})

@@ -29,16 +29,16 @@ def module(name: str) -> ModuleType:
     spec = importlib.util.spec_from_file_location(name, SITE / f"{name}.py")
     assert spec
     assert spec.loader
-    found = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(found)
-    return found
+    result = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(result)
+    return result
 
 
 def test_the_reference_has_every_name(tmp_path):
     module("reference").write_reference(tmp_path)
     text = "".join(path.read_text(encoding="utf-8") for path in tmp_path.iterdir())
-    for each in everything():
-        assert f"`{each.name}`" in text or each.parts, each.name
+    for item in everything():
+        assert f"`{item.name}`" in text or item.parts, item.name
     for name in heeltoe.__all__:
         assert f":: heeltoe.{name}\n" in text, name
     for option in ("--spread [N|none]", "--json FILE|-", "--resume"):
@@ -57,13 +57,13 @@ def test_a_program_of_the_gallery_draws(program, monkeypatch):
 def site(tmp_path_factory) -> Path:
     pytest.importorskip("furo", reason="the extra docs is not installed")
     place = tmp_path_factory.mktemp("site") / "html"
-    said = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-b", "html", ROOT / "docs", place],
         capture_output=True,
         text=True,
         check=False,
     )
-    assert said.returncode == 0, said.stderr
+    assert process.returncode == 0, process.stderr
     return place
 
 
@@ -89,6 +89,6 @@ def test_the_built_pages_ask_nothing_of_the_network(site):
     for path in site.rglob("*.html"):
         loads = re.findall(r'<(?:script|img|iframe|source)[^>]*? src="([^"]+)"', path.read_text(encoding="utf-8"))
         loads += re.findall(r'<link [^>]*?href="([^"]+)"', path.read_text(encoding="utf-8"))
-        assert not [each for each in loads if re.match("(?:[a-z]+:)?//", each)], path.name
+        assert not [load for load in loads if re.match("(?:[a-z]+:)?//", load)], path.name
     for path in site.rglob("*.css"):
         assert not re.search(r"@import|url\(['\"]?(?:https?:)?//", path.read_text(encoding="utf-8")), path.name

@@ -17,10 +17,10 @@ SLOPED = [(0, 0), (36, 3), (6, 40), (6, 45), (0, 45)]
 @pytest.mark.parametrize("corners", [DAM, BATTERED, OVERHANG, SLOPED])
 def test_areas_and_moments_add_up(corners):
     whole = shapely.Polygon(corners)
-    found = pieces(np.array(corners, dtype=float))
-    assert sum(each.area_m2 for each in found) == pytest.approx(whole.area)
+    parts = pieces(np.array(corners, dtype=float))
+    assert sum(part.area_m2 for part in parts) == pytest.approx(whole.area)
     for axis, middle in (("x", whole.centroid.x), ("z", whole.centroid.y)):
-        assert sum(each.area_m2 * getattr(each, f"{axis}_m") for each in found) == pytest.approx(whole.area * middle)
+        assert sum(part.area_m2 * getattr(part, f"{axis}_m") for part in parts) == pytest.approx(whole.area * middle)
 
 
 def test_a_dam_is_a_rectangle_and_a_triangle():
@@ -38,6 +38,6 @@ def test_one_piece_and_too_many_are_left_whole():
 
 def test_a_slope_under_a_slope_is_a_quadrilateral():
     corners = np.array([(0.0, 0.0), (20.0, 4.0), (10.0, 30.0), (0.0, 35.0)])
-    found = pieces(corners)
-    assert [each.shape for each in found] == ["quadrilateral", "triangle"]
-    assert sum(each.area_m2 for each in found) == pytest.approx(shapely.Polygon(corners).area)
+    parts = pieces(corners)
+    assert [part.shape for part in parts] == ["quadrilateral", "triangle"]
+    assert sum(part.area_m2 for part in parts) == pytest.approx(shapely.Polygon(corners).area)

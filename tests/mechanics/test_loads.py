@@ -111,10 +111,10 @@ def test_reservoir_against_numeric_integration(corners, part, filling):
         fx, fz = pressure * (end - start)[1], -pressure * (end - start)[0]
         moment = (x - case.cut.heel[0]) * fz - (z - case.cut.heel[1]) * fx
         expected += [fx.sum(), fz.sum(), moment.sum()]
-    found = loads.reservoir_pressure(case)
+    result = loads.reservoir_pressure(case)
     tolerance = 1e-5 * 1000 * G * 100 * 100
-    assert (found.horizontal, found.vertical) == pytest.approx(expected[:2], rel=1e-5, abs=tolerance)
-    assert found.moment == pytest.approx(expected[2], rel=1e-5, abs=100 * tolerance)
+    assert (result.horizontal, result.vertical) == pytest.approx(expected[:2], rel=1e-5, abs=tolerance)
+    assert result.moment == pytest.approx(expected[2], rel=1e-5, abs=100 * tolerance)
 
 
 @given(dams(), st.floats(0.0, 0.9), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
@@ -218,5 +218,5 @@ def test_moment_about_another_point():
 def test_where_a_face_with_a_ledge_is():
     ledge = [(0.0, 0.0), (60.0, 0.0), (10.0, 70.0), (6.0, 70.0), (2.0, 20.0), (0.0, 20.0)]
     section = solved(ledge, 5.0).cut
-    found = [loads.face_at(section, height) for height in (0.0, 10.0, 15.0, 40.0, 65.0, 80.0)]
-    assert found == pytest.approx([0.0, 0.0, 2.0, 4.0, 6.0, 6.0])
+    result = [loads.face_at(section, height) for height in (0.0, 10.0, 15.0, 40.0, 65.0, 80.0)]
+    assert result == pytest.approx([0.0, 0.0, 2.0, 4.0, 6.0, 6.0])

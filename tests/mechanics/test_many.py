@@ -39,29 +39,29 @@ def row_of(columns, row):
 
 def sizes_of(block):
     """Return how large the terms are that the numbers of a block are sums of."""
-    force = sum(abs(each.horizontal) + abs(each.vertical) for each in block.forces)
+    force = sum(abs(item.horizontal) + abs(item.vertical) for item in block.forces)
     long = max(block.width, block.section.height)
     mass, weighed = block.mass_horizontal, block.mass_horizontal + force / block.gravity
-    masses, moved, followed = (np.array([each, each, each * long]) for each in (mass, mass, weighed))
+    masses, moved, followed = (np.array([item, item, item * long]) for item in (mass, mass, weighed))
     forces = np.array([force, force, force * long])
     lengths, ones, coupling = np.full(3, long), np.ones(3), masses * [1.0, long, 1.0]
     return np.concatenate([masses * [1.0, 1.0, long], lengths, forces, moved, followed, ones, coupling])
 
 
 def compare(case, columns, piece=3):
-    found = block_columns(case, columns)
+    result = block_columns(case, columns)
     count = len(next(iter(columns.values())))
-    assert found.shape == (count, len(BLOCK))
-    for row, numbers in enumerate(found):
+    assert result.shape == (count, len(BLOCK))
+    for row, numbers in enumerate(result):
         alone = build_block(case.with_(row_of(columns, row)))
         assert np.max(np.abs(numbers - alone.parameters()) / sizes_of(alone)) < ROUNDING
-        assert crack_widths(found)[row] == pytest.approx(alone.width, rel=1e-13)
+        assert crack_widths(result)[row] == pytest.approx(alone.width, rel=1e-13)
     # The same bits whatever else is in the columns.
     pieces = [
         block_columns(case, {path: values[start : start + piece] for path, values in columns.items()})
         for start in range(0, count, piece)
     ]
-    assert np.array_equal(found, np.concatenate(pieces))
+    assert np.array_equal(result, np.concatenate(pieces))
 
 
 def drawn(height, count, seed=1, **others):
@@ -84,11 +84,11 @@ def drawn(height, count, seed=1, **others):
         "ice.depth": (0.0, 0.2),
         "uplift.intensity": (0.0, 1.2),
     }
-    found = {path: rng.uniform(*ends, count) for path, ends in ranges.items()}
+    result = {path: rng.uniform(*ends, count) for path, ends in ranges.items()}
     for option, owner in UPLIFT_OPTIONS.items():
         if option != "points":
-            found[f"uplift.{option}"] = np.where(pattern == owner, rng.uniform(0.1, 0.9, count), np.nan)
-    return found | {"uplift.pattern": pattern} | others
+            result[f"uplift.{option}"] = np.where(pattern == owner, rng.uniform(0.1, 0.9, count), np.nan)
+    return result | {"uplift.pattern": pattern} | others
 
 
 @pytest.mark.parametrize("path", ALL_EXAMPLES, ids=lambda path: path.relative_to(EXAMPLES).as_posix())
@@ -279,7 +279,7 @@ def test_a_ledge_that_leaves_no_crack_at_some_height():
     spur += [(-8.0, 25.0), (0.0, 25.0)]
     case = read_case({"section": polygon(spur), "crack": {"friction": 1.0}})
     elevations = np.array([10.0, 35.0, 60.0, 45.0])
-    alone = [stands(case, {"crack.elevation": f"{each} m"}) for each in elevations]
+    alone = [stands(case, {"crack.elevation": f"{elevation} m"}) for elevation in elevations]
     assert alone == [True, False, True, False]
     assert sound_blocks(case, {"crack.elevation": elevations})[1].tolist() == alone
     refused(case, {"crack.elevation": elevations}, 1)
@@ -299,9 +299,9 @@ def test_a_ledge_that_leaves_no_crack_at_some_height():
     ],
 )
 def test_what_is_no_column(columns, said):
-    with pytest.raises(InputError) as found:
+    with pytest.raises(InputError) as result:
         block_columns(example("typical-base"), columns)
-    assert str(found.value).startswith(said)
+    assert str(result.value).startswith(said)
 
 
 def test_columns_are_fields_with_quantities():

@@ -49,7 +49,7 @@ def test_the_nappe(nappe, weight, arm):
     force = loads.nappe(case)
     assert force.vertical == pytest.approx(-1000 * G * weight)
     assert force.horizontal == 0.0
-    assert ("nappe" in [each.name for each in loads.static_forces(case)]) == (nappe != "none")
+    assert ("nappe" in [static_force.name for static_force in loads.static_forces(case)]) == (nappe != "none")
     if arm is not None:
         assert force.moment == pytest.approx(arm * force.vertical)
         assert force.lift_moment == force.moment
@@ -58,18 +58,18 @@ def test_the_nappe(nappe, weight, arm):
 
 def test_there_is_no_nappe_up_to_the_crest():
     case = wall(reservoir={"depth": "10 m", "nappe": "weight"})
-    assert "nappe" not in [each.name for each in loads.static_forces(case)]
+    assert "nappe" not in [static_force.name for static_force in loads.static_forces(case)]
     assert loads.nappe(case).vertical == 0.0
 
 
 @pytest.mark.parametrize("elevation", [0.0, 4.0])
 def test_only_the_face_moves_water_whose_depth_is_the_whole(elevation):
-    found = virtual_mass(wall(elevation))
+    result = virtual_mass(wall(elevation))
     z = elevation + (10.0 - elevation) * (np.arange(200_000) + 0.5) / 200_000
     strip = 7 / 8 * 1000 * np.sqrt(12.0 * (12.0 - z)) * (10.0 - elevation) / 200_000
-    assert found.mass == pytest.approx(strip.sum(), rel=1e-9)
-    assert found.height == pytest.approx(strip @ (z - elevation) / strip.sum(), rel=1e-9)
-    assert found.inertia == pytest.approx(strip @ (z - elevation - found.height) ** 2, rel=1e-6)
+    assert result.mass == pytest.approx(strip.sum(), rel=1e-9)
+    assert result.height == pytest.approx(strip @ (z - elevation) / strip.sum(), rel=1e-9)
+    assert result.inertia == pytest.approx(strip @ (z - elevation - result.height) ** 2, rel=1e-6)
 
 
 def test_the_uplift_takes_the_whole_depth():
@@ -91,25 +91,25 @@ def test_a_flood_above_the_crest_stands_in_its_sheet():
 def test_the_nappe_follows_the_vertical_motion_as_its_reservoir_does():
     still = {"depth": "12 m", "nappe": "weight", "follows_vertical_motion": True}
     shaken = {"seismic_coefficient": 0.1, "vertical_seismic_coefficient": 0.2}
-    found = heeltoe.statics(wall(reservoir=still, statics=shaken))
-    lifting = next(each for each in found.cases if each.name == "pseudo-static downstream, lifting")
+    result = heeltoe.statics(wall(reservoir=still, statics=shaken))
+    lifting = next(item for item in result.cases if item.name == "pseudo-static downstream, lifting")
     forces = {force.name: force for force in lifting.forces}
     assert forces["nappe in vertical motion"].vertical == pytest.approx(-0.2 * forces["nappe"].vertical)
     assert forces["reservoir in vertical motion"].horizontal == pytest.approx(-0.2 * forces["reservoir"].horizontal)
 
 
 def test_a_reader_is_told_what_is_left_out():
-    said = [str(each) for each in heeltoe.statics(wall()).warnings]
-    assert any("the water stands 2 m above the crest" in each and 'reservoir.nappe = "none"' in each for each in said)
+    texts = [str(warning) for warning in heeltoe.statics(wall()).warnings]
+    assert any("the water stands 2 m above the crest" in text and 'reservoir.nappe = "none"' in text for text in texts)
 
 
 def test_a_run_takes_the_same_loads():
     still = {"motion": {"points": [["0 s", "0 g"], ["0.1 s", "0.2 g"], ["0.2 s", "0 g"]]}}
-    found = {}
+    result = {}
     for nappe in ("none", "weight"):
         case = wall(reservoir={"depth": "12 m", "nappe": nappe}, uplift={"pattern": "none"}, **still)
-        found[nappe] = heeltoe.rigid(case).static["normal_force_n"]
-    assert found["weight"] - found["none"] == pytest.approx(1000 * G * 8.0)
+        result[nappe] = heeltoe.rigid(case).static["normal_force_n"]
+    assert result["weight"] - result["none"] == pytest.approx(1000 * G * 8.0)
 
 
 def test_ice_above_the_crest_is_refused():

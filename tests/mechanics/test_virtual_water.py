@@ -30,11 +30,11 @@ def test_slopes_take_from_the_push_what_potential_flow_says(degrees):
     # A series of half-sines in height: 0.5428 rho a h^2.
     odd = np.arange(1, 2001, 2)
     assert upright == pytest.approx(float(np.sum(16.0 / (math.pi * odd) ** 3)), rel=1e-3)
-    found, down = push(leaning(degrees))
+    result, down = push(leaning(degrees))
     # It presses along the normal, ...
-    assert down == pytest.approx(math.tan(math.radians(degrees)) * found, rel=1e-9)
+    assert down == pytest.approx(math.tan(math.radians(degrees)) * result, rel=1e-9)
     # ... and the straight line for Zangar's curve is within 8 %.
-    assert slope_factor(math.tan(math.radians(degrees))) == pytest.approx(found / upright, rel=0.08)
+    assert slope_factor(math.tan(math.radians(degrees))) == pytest.approx(result / upright, rel=0.08)
 
 
 def test_a_level_face_moves_no_water_sideways():

@@ -32,10 +32,10 @@ def test_sums_against_strips(elevation):
     case = make(SLOPED, elevation, reservoir=ZANGAR)
     # Ten of forty metres are vertical: the line from the foot to where 36 m of water meet the face.
     unit = 1000 * coefficient(6.0 / 36.0)
-    found = zangar(case, case.reservoir, upstream=True)
+    result = zangar(case, case.reservoir, upstream=True)
     heel = 6.0 * elevation / 30.0
     slow = by_strips(36.0, elevation, lambda z: (np.minimum(z / 5.0, 6.0) - heel, np.where(z < 30.0, 0.2, 0.0)), unit)
-    assert [found.mass, found.first, found.second, found.lift, found.turning] == pytest.approx(slow, rel=1e-6)
+    assert [result.mass, result.first, result.second, result.lift, result.turning] == pytest.approx(slow, rel=1e-6)
 
 
 def test_the_block_feels_the_horizontal_part():
@@ -74,15 +74,15 @@ def test_an_overhang_has_the_pressure_of_a_vertical_face():
 def test_the_curve_is_that_of_potential_flow(degrees):
     """An electric analogy is potential flow. C_m is the largest pressure on a face, which falls less with the slope
     than what the whole face is pushed with: the sums stay on the safe side, by up to 0.06 of a vertical face's."""
-    upright, found = (push(leaning(angle), columns=40, rows=16)[0] for angle in (0.0, float(degrees)))
+    upright, result = (push(leaning(angle), columns=40, rows=16)[0] for angle in (0.0, float(degrees)))
     share = coefficient(math.tan(math.radians(degrees))) / coefficient(0.0)
-    assert -0.01 < share - found / upright < 0.065
+    assert -0.01 < share - result / upright < 0.065
 
 
 def test_the_static_checks_take_it():
     statics = {"seismic_coefficient": 0.1}
     case = make(SLOPED, reservoir=ZANGAR, statics=statics)
-    pushed = next(each for each in heeltoe.statics(case).cases if each.name == "pseudo-static downstream")
+    pushed = next(item for item in heeltoe.statics(case).cases if item.name == "pseudo-static downstream")
     line = next(line for line in pushed.sheet().lines if line.name == "hydrodynamic")
     sums = zangar(case, case.reservoir, upstream=True)
     assert line.horizontal_n == pytest.approx(0.980665 * sums.mass)

@@ -32,7 +32,7 @@ def test_each_crack_is_pressed_by_the_anchors_that_cross_it():
         )
         assert sum(pull > 0.0 for pull in pulls) == count
         pull = prestress(alone)
-        with_anchors, without = (build_flexible_dam(each).crack_forces[place].sum(axis=1) for each in (case, bare))
+        with_anchors, without = (build_flexible_dam(item).crack_forces[place].sum(axis=1) for item in (case, bare))
         assert with_anchors - without == pytest.approx([-pull.horizontal, -pull.vertical], abs=1.0)
 
 
@@ -47,7 +47,7 @@ def test_what_an_anchor_pulls_down_it_pulls_up_below():
 def test_anchors_hold_back_both_models():
     for run in (flexible, rigid):
         bare, held = (run(case).to_json() for case in (dam(), dam(THROUGH | {"prestress": "30 MN/m"})))
-        assert [each["anchors"][0]["peak_tension_n"] for each in held["cracks"]] == [30e6, 30e6]
+        assert [crack["anchors"][0]["peak_tension_n"] for crack in held["cracks"]] == [30e6, 30e6]
         assert abs(held["residual_slip_m"]) < 0.8 * abs(bare["residual_slip_m"])
 
 
@@ -66,7 +66,7 @@ def test_static_checks_of_each_section_know_the_anchor():
         for case in (dam(), dam(THROUGH))
     )
     for elevation in (90.0, 0.0):
-        one, other = (next(case for case in each[elevation].cases if case.name == "usual") for each in (bare, held))
+        one, other = (next(case for case in item[elevation].cases if case.name == "usual") for item in (bare, held))
         assert other.normal_force_n > one.normal_force_n + 1.9e6
 
 
@@ -91,7 +91,7 @@ def test_what_cannot_be_used_is_refused_by_name(anchor, said):
 
 def test_an_anchor_misses_only_where_it_crosses_no_crack():
     def missed(anchor):
-        return [each for each in rigid(dam(anchor)).warnings if each.code == "anchor-misses"]
+        return [warning for warning in rigid(dam(anchor)).warnings if warning.code == "anchor-misses"]
 
     assert not missed(ABOVE)
     assert missed(THROUGH | {"foot_x": "3.2 m", "foot_elevation": "95 m"})

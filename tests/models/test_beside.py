@@ -23,7 +23,7 @@ def both(typical_both) -> Response:
 
 def saying(response: Response, **values: float) -> Response:
     """The same with some headline numbers, and nothing in all others."""
-    nothing = {each.key: 0.0 for each in HEADLINES}
+    nothing = {item.key: 0.0 for item in HEADLINES}
     return with_numbers(response, **(nothing | values))
 
 
@@ -37,7 +37,7 @@ def test_both_models_meet_the_same_motion(both):
     assert both.beside.motion is both.motion
     assert both.beside.residual_slip_m == rigid(read_case(BASE, FAST)).residual_slip_m
     assert both.residual_slip_m == flexible(read_case(BASE, FAST)).residual_slip_m
-    assert all(each.seconds > 0.0 for each in both.responses)
+    assert all(response.seconds > 0.0 for response in both.responses)
 
 
 def test_json(both):
@@ -45,7 +45,7 @@ def test_json(both):
     assert data["title"] == "Typical dam cracked at its base"
     assert (data["model"], data["beside"]["model"]) == ("flexible", "rigid")
     assert data["chosen"]["asked"] == data["beside"]["chosen"]["asked"] == "both"
-    slips = [each["residual_slip_m"] for each in (data, data["beside"])]
+    slips = [item["residual_slip_m"] for item in (data, data["beside"])]
     assert data["ratio"]["residual_slip_m"] == pytest.approx(slips[0] / slips[1], rel=1e-12)
     # This rigid block does not rock: there is nothing to divide by.
     assert data["beside"]["rocking_upstream_rad"] == 0.0
@@ -64,10 +64,12 @@ def test_the_model_that_fits_the_case(name, changes, models):
     """What the case has the data for: a modulus makes it elastic, a crack at a height shakes the block by its part
     below; the limits are judged with the better model alone."""
     limit = "limits.residual_slip=1 mm"
-    found = run(example(name, *FAST, "motion.duration=0.4 s", limit, *changes))
-    assert [each.model for each in found.responses] == models
-    assert [bool(each.limits) for each in found.responses] == [each is found for each in found.responses]
-    data = found.to_json()
+    result = run(example(name, *FAST, "motion.duration=0.4 s", limit, *changes))
+    assert [response.model for response in result.responses] == models
+    assert [bool(response.limits) for response in result.responses] == [
+        response is result for response in result.responses
+    ]
+    data = result.to_json()
     assert data["chosen"]["asked"] == "auto"
     assert "concrete.modulus" in data["chosen"]["why"]
 
@@ -134,7 +136,7 @@ def test_what_a_rigid_block_passes_and_the_dam_fails(elevation):
     quick = ("flexible.elements_across=4", "flexible.evidence=none", "motion.duration=12 s")
     case = example("lift-joint", *quick, f"crack.elevation={elevation} m")
     assert all(check.met for check in rigid(case).limits)
-    found = run(case)
-    assert found.model == "flexible"
-    assert not any(check.met for check in found.limits)
-    assert "It does not keep within its limits" in verdict(found)
+    response = run(case)
+    assert response.model == "flexible"
+    assert not any(check.met for check in response.limits)
+    assert "It does not keep within its limits" in verdict(response)

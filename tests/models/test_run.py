@@ -18,10 +18,15 @@ OPENED = ["section.base_width=70 m", "crack.friction=1.2", "motion.sign=recorded
 
 def test_python_and_the_command_line_warn_of_the_same():
     changes = [f"--set={change}" for change in OPENED]
-    told = json.loads(command("run", str(BASE), "--model", "rigid", *changes, "--json", "-").stdout)
+    answer = json.loads(command("run", str(BASE), "--model", "rigid", *changes, "--json", "-").stdout)
     response = heeltoe.rigid(read_case(BASE, OPENED))
-    assert [each.code for each in response.warnings] == ["crack-opens", "rigid-block", "rigid-slides", "fields-unused"]
-    assert response.to_json() == told
+    assert [warning.code for warning in response.warnings] == [
+        "crack-opens",
+        "rigid-block",
+        "rigid-slides",
+        "fields-unused",
+    ]
+    assert response.to_json() == answer
 
 
 def test_every_way_to_a_model_is_the_same():
@@ -30,19 +35,19 @@ def test_every_way_to_a_model_is_the_same():
         one, other = run(case, model), function(case)
         assert type(one) is type(other)
         assert one.to_json() == other.to_json()
-        assert sum(each.code == "crack-opens" for each in one.warnings) == 1
+        assert sum(warning.code == "crack-opens" for warning in one.warnings) == 1
         assert [check.name for check in one.limits] == ["residual_slip"]
     both = run(case, "both")
     assert both.to_json() == one.to_json() | {
         **{name: both.to_json()[name] for name in ("chosen", "beside", "ratio", "meaning", "warnings")}
     }
     # What the block reads is not said to change nothing.
-    unread = {each.code for each in one.warnings} - {each.code for each in both.warnings}
+    unread = {warning.code for warning in one.warnings} - {warning.code for warning in both.warnings}
     assert unread == {"restitution-unused"}
     # The better model is judged.
     assert both.limits
     assert not both.beside.limits
-    assert sum(each.code == "crack-opens" for each in both.beside.warnings) == 1
+    assert sum(warning.code == "crack-opens" for warning in both.beside.warnings) == 1
 
 
 def test_models_are_listed_once():
@@ -73,7 +78,7 @@ def test_the_way_of_a_rigid_run_is_straight():
             "heeltoe.case.combinations",
         )
         known = known or frame.f_code.co_name in ("in_stages", "varies")
-        if any(each is case for each in given for case in fresh) and not known and way[-1:] != [module]:
+        if any(item is case for item in given for case in fresh) and not known and way[-1:] != [module]:
             way.append(module)
 
     sys.setprofile(watch)

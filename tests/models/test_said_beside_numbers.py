@@ -20,9 +20,9 @@ def test_a_crack_whose_kinetic_friction_does_not_hold_the_water_says_so():
 
 def test_a_law_whose_residual_friction_does_not_hold_the_water_says_so_at_rest():
     law = {"crack.law": {"name": "slip weakening", "peak_friction": 1.0, "residual_friction": 0.5, "slip": "10 mm"}}
-    found = rigid(read_case(BASE, [{"crack.friction": None}, law, "motion.pga=0.02g"]))
-    assert found.residual_slip_m == 0.0
-    assert "slides-on" in codes(found)
+    response = rigid(read_case(BASE, [{"crack.friction": None}, law, "motion.pga=0.02g"]))
+    assert response.residual_slip_m == 0.0
+    assert "slides-on" in codes(response)
 
 
 def test_bounces_that_amplify_the_last_digit_are_not_determined():
@@ -35,9 +35,9 @@ def test_bounces_that_amplify_the_last_digit_are_not_determined():
 
 def test_tension_without_a_strength_is_said_to_be_unjudged():
     changes = [*COARSE, "motion.duration=4s", "motion.pga=0.8g"]
-    found = flexible(read_case(BASE, changes))
-    assert found.tension.stress_pa > 1e6
-    assert "tension-unjudged" in codes(found)
+    response = flexible(read_case(BASE, changes))
+    assert response.tension.stress_pa > 1e6
+    assert "tension-unjudged" in codes(response)
     judged = flexible(read_case(BASE, [*changes, "concrete.tensile_strength=9 MPa"]))
     assert "tension-unjudged" not in codes(judged)
 
@@ -48,10 +48,10 @@ def test_a_modulus_that_is_not_that_of_concrete_is_said_under_every_model():
 
 def test_an_elastic_dam_that_slides_far_says_so():
     changes = [*COARSE, "motion.duration=6s", "motion.pga=2.5g", "crack.friction=0.75"]
-    found = flexible(read_case(BASE, changes))
-    assert found.ok
-    assert abs(found.residual_slip_m) > 0.1 * 80.0
-    assert "slid-far" in codes(found)
+    response = flexible(read_case(BASE, changes))
+    assert response.ok
+    assert abs(response.residual_slip_m) > 0.1 * 80.0
+    assert "slid-far" in codes(response)
 
 
 def test_a_number_of_threads_that_is_none_is_refused_by_name():
@@ -61,8 +61,8 @@ def test_a_number_of_threads_that_is_none_is_refused_by_name():
 
 
 def test_the_uncertainty_is_never_less_than_two_meshes_that_agree_by_chance_may_hide():
-    found = flexible(read_case(BASE, [*FAST, "flexible.evidence=step"]))
-    worth = found.evidence.residual_slip_m
+    response = flexible(read_case(BASE, [*FAST, "flexible.evidence=step"]))
+    worth = response.evidence.residual_slip_m
     assert worth.uncertainty >= max(0.03 * abs(worth.value), 5e-5)
 
 
@@ -70,11 +70,11 @@ def test_motions_after_an_overturning_are_said_to_be_unknown():
     pulse = {"motion": {"points": [["0 s", "-1.5 g"], ["1.2 s", "-1.5 g"], ["1.2 s", "0 g"], ["2 s", "0 g"]]}}
     after = {"aftershocks": [{"points": [["0 s", "0 g"], ["0.3 s", "0.2 g"], ["0.6 s", "0 g"]], "pause": "5 s"}]}
     case = example("slender", "analysis.rotation=finite", "crack.friction=3", pulse, after)
-    found = heeltoe.rigid(case)
-    assert found.outcome == "overturned"
-    assert "sequence-ends" in codes(found)
-    assert not found.sequence[-1].static["ok"]
-    assert "nothing stands after it" in found.sequence[-1].static["missed"][0]
+    response = heeltoe.rigid(case)
+    assert response.outcome == "overturned"
+    assert "sequence-ends" in codes(response)
+    assert not response.sequence[-1].static["ok"]
+    assert "nothing stands after it" in response.sequence[-1].static["missed"][0]
 
 
 DOWELS = {"distance": "40 m", "shear_stiffness": "30 MN/m/m", "capacity": "2.5 MN/m"}
@@ -83,33 +83,33 @@ DOWELS = {"distance": "40 m", "shear_stiffness": "30 MN/m/m", "capacity": "2.5 M
 @pytest.mark.parametrize("model", [rigid, flexible])
 def test_a_dowel_is_judged_by_tension_and_shear_together(model):
     changes = [*FAST, "crack.friction=0.8", "motion.pga=0.6g", {"anchors": [DOWELS]}]
-    found = model(read_case(BASE, changes))
-    (borne,) = found.anchors
+    result = model(read_case(BASE, changes))
+    (borne,) = result.anchors
     assert borne.peak_tension_n == 0.0
-    assert borne.peak_force_n == pytest.approx(30e6 * found.peak_slip_downstream_m, rel=1e-3)
+    assert borne.peak_force_n == pytest.approx(30e6 * result.peak_slip_downstream_m, rel=1e-3)
     assert borne.peak_force_n > 2.5e6
-    assert "anchor-overloaded" in codes(found)
-    assert "anchor-unlimited" not in codes(found)
+    assert "anchor-overloaded" in codes(result)
+    assert "anchor-unlimited" not in codes(result)
 
 
 def test_an_anchor_without_a_capacity_is_said_to_be_judged_by_nothing():
     changes = [*FAST, {"anchors": [{key: DOWELS[key] for key in ("distance", "shear_stiffness")}]}]
-    found = rigid(read_case(BASE, changes))
-    assert "anchor-unlimited" in codes(found)
+    response = rigid(read_case(BASE, changes))
+    assert "anchor-unlimited" in codes(response)
 
 
 def test_a_slip_that_few_tendons_bear_is_said_in_the_run():
     anchors = {"anchors": [{"distance": "5 m", "prestress": "1 MN/m", "capacity": "2 MN/m"}]}
     for strength, crossed in (("0.8g", True), ("0.1g", False)):
-        found = rigid(read_case(BASE, [anchors, f"motion.pga={strength}"]))
-        assert (found.peak_slip_downstream_m > 0.01) == crossed
-        assert ("anchors-cross-slip" in codes(found)) == crossed
+        response = rigid(read_case(BASE, [anchors, f"motion.pga={strength}"]))
+        assert (response.peak_slip_downstream_m > 0.01) == crossed
+        assert ("anchors-cross-slip" in codes(response)) == crossed
 
 
 def test_anchors_that_a_slip_has_crossed_are_counted_with_and_without():
     anchors = {"anchors": [{"distance": "5 m", "prestress": "3 MN/m"}]}
     case = read_case(BASE, [anchors, "crack.friction=1.2"])
-    (notice,) = [each for each in heeltoe.statics(case, 0.113).warnings if each.code == "anchors-after-slip"]
+    (notice,) = [warning for warning in heeltoe.statics(case, 0.113).warnings if warning.code == "anchors-after-slip"]
     bare = heeltoe.statics(read_case(BASE, ["crack.friction=1.2"]), 0.113)
     quantities = dict(notice.quantities)
     assert quantities["bare_factor"] == bare.cases[-1].sliding_factor
@@ -126,10 +126,10 @@ def test_a_kinked_crack_at_rest_makes_no_energy():
 
 def test_what_a_chain_owes_to_its_restitution_is_said_with_both_slips():
     changes = ["flexible.elements_across=3", "motion.duration=8s"]
-    found = heeltoe.decoupled(example("koyna-top", *changes))
+    response = heeltoe.decoupled(example("koyna-top", *changes))
     dead = heeltoe.decoupled(example("koyna-top", *changes, "crack.restitution=0"))
-    decides = abs(found.residual_slip_m - dead.residual_slip_m) > max(0.25 * abs(found.residual_slip_m), 1e-3)
-    notices = [each for each in found.warnings if each.code == "restitution-decides"]
+    decides = abs(response.residual_slip_m - dead.residual_slip_m) > max(0.25 * abs(response.residual_slip_m), 1e-3)
+    notices = [warning for warning in response.warnings if warning.code == "restitution-decides"]
     assert bool(notices) == decides
     assert decides
     assert dict(notices[0].quantities)["dead_slip_m"] == pytest.approx(dead.residual_slip_m, rel=1e-12)
@@ -138,7 +138,7 @@ def test_what_a_chain_owes_to_its_restitution_is_said_with_both_slips():
 
 def test_a_dam_that_slides_on_is_not_told_to_wait_longer():
     weak = ["crack.static_friction=1.0", "crack.kinetic_friction=0.6", "motion.pga=0.5g", "motion.duration=5s"]
-    (notice,) = [each for each in rigid(read_case(BASE, weak)).warnings if each.code == "block-still-moves"]
+    (notice,) = [warning for warning in rigid(read_case(BASE, weak)).warnings if warning.code == "block-still-moves"]
     assert "does not slow down" in str(notice)
 
 
@@ -146,12 +146,14 @@ def test_warnings_come_by_gravity_and_those_of_fields_last():
     case = read_case(BASE, [*FAST, "motion.pga=0.8g", "analysis.event_limit=100", "statics.criteria=FERC"])
     for response in (flexible(case), rigid(case)):
         rank = ["grave", "caution", "note"]
-        of_fields = [each.code.startswith("fields-") for each in response.warnings]
+        of_fields = [warning.code.startswith("fields-") for warning in response.warnings]
         assert of_fields == sorted(of_fields)
-        ranks = [rank.index(each.severity) for each in response.warnings if not each.code.startswith("fields-")]
+        ranks = [
+            rank.index(warning.severity) for warning in response.warnings if not warning.code.startswith("fields-")
+        ]
         assert ranks == sorted(ranks)
         # What the static checks read is no field without an effect.
-        assert not any("statics.criteria" in str(each) for each in response.warnings)
+        assert not any("statics.criteria" in str(warning) for warning in response.warnings)
 
 
 def test_periods_name_the_part_between_two_cracks():
@@ -165,6 +167,6 @@ def test_periods_name_the_part_between_two_cracks():
 
 
 def test_a_later_motion_has_no_peak_upstream_that_is_downstream():
-    found = heeltoe.rigid(example("aftershocks"))
-    assert found.sequence[0].residual_slip_m > 0.0
-    assert all(stage.peak_slip_upstream_m <= 0.0 for stage in found.sequence)
+    response = heeltoe.rigid(example("aftershocks"))
+    assert response.sequence[0].residual_slip_m > 0.0
+    assert all(stage.peak_slip_upstream_m <= 0.0 for stage in response.sequence)

@@ -20,7 +20,7 @@ from shared.dams import FAST, example
 
 
 def codes(said):
-    return {each.code for each in said}
+    return {item.code for item in said}
 
 
 @pytest.mark.parametrize(
@@ -44,10 +44,10 @@ def test_impacts_of_a_rigid_block():
     assert not both & codes(warnings_of(case, block, run))
     summary = SimpleNamespace(**{**run.summary.by_name(), "energy_limited_impacts": 2.0, "jams": 1.0})
     changed = SimpleNamespace(summary=summary, outcome=run.outcome, exact=run.exact, anchors=run.anchors)
-    said = {each.code: str(each) for each in warnings_of(case, block, changed)}
-    assert both <= set(said)
-    assert said["restitution-lowered"].startswith("2 ")
-    assert said["paradox-jammed"].startswith("1 ")
+    message = {item.code: str(item) for item in warnings_of(case, block, changed)}
+    assert both <= set(message)
+    assert message["restitution-lowered"].startswith("2 ")
+    assert message["paradox-jammed"].startswith("1 ")
 
 
 @pytest.mark.parametrize(
@@ -90,8 +90,8 @@ def test_sampling_of_the_motion_at_the_crack(warned):
     coarser = 0.2 if warned else 0.1
     level = run(example("koyna-top", "motion.duration=1s"), "decoupled").crack_level
     convergence = replace(level.convergence, coarser_residual_slip_m=coarser, change=decoupled._change(0.1, coarser))
-    said = decoupled._warnings(replace(level, convergence=convergence))
-    assert codes(said) == ({"sampling-matters"} if warned else set())
+    message = decoupled._warnings(replace(level, convergence=convergence))
+    assert codes(message) == ({"sampling-matters"} if warned else set())
 
 
 def test_a_dam_without_a_state_of_rest():

@@ -30,17 +30,17 @@ def alone(points, reverse=False, *changes):
 
 
 def test_a_block_slides_as_far_as_in_each_motion_alone():
-    found = heeltoe.rigid(sequence())
+    response = heeltoe.rigid(sequence())
     each = [alone(POINTS), alone(OTHER), alone(POINTS, True)]
     slips = [run.residual_slip_m for run in each]
-    assert [stage.slip_m for stage in found.sequence] == pytest.approx(slips, abs=1e-12)
+    assert [stage.slip_m for stage in response.sequence] == pytest.approx(slips, abs=1e-12)
     assert max(map(abs, slips)) > 0.01
-    assert found.residual_slip_m == pytest.approx(sum(slips), abs=1e-12)
-    assert all(stage.at_rest for stage in found.sequence)
-    assert found.energy.residual < 1e-12
-    assert [stage.begins_s for stage in found.sequence] == pytest.approx([0.0, 2.5, 13.1])
-    assert found.sequence[1].peak_slip_upstream_m <= found.sequence[1].residual_slip_m
-    assert "Motion by motion it slides" in found.to_json()["verdict"]
+    assert response.residual_slip_m == pytest.approx(sum(slips), abs=1e-12)
+    assert all(stage.at_rest for stage in response.sequence)
+    assert response.energy.residual < 1e-12
+    assert [stage.begins_s for stage in response.sequence] == pytest.approx([0.0, 2.5, 13.1])
+    assert response.sequence[1].peak_slip_upstream_m <= response.sequence[1].residual_slip_m
+    assert "Motion by motion it slides" in response.to_json()["verdict"]
 
 
 def test_the_mirrored_sequence_slides_as_the_others_did():
@@ -54,16 +54,16 @@ def test_the_mirrored_sequence_slides_as_the_others_did():
 
 
 def test_an_elastic_dam_goes_through_all_of_it():
-    found = heeltoe.flexible(sequence(*FAST, "flexible.evidence=none"))
+    response = heeltoe.flexible(sequence(*FAST, "flexible.evidence=none"))
     first = heeltoe.flexible(
         read_case(
             BASE, [{"motion": {"points": POINTS, "pga": None, "duration": None}}, *FAST, "flexible.evidence=none"]
         )
     )
-    assert found.sequence[0].residual_slip_m == pytest.approx(first.residual_slip_m, rel=0.01)
-    assert found.sequence[-1].residual_slip_m == found.residual_slip_m
-    assert sum(stage.slip_m for stage in found.sequence) == pytest.approx(found.residual_slip_m)
-    assert len(found.sequence) == 3
+    assert response.sequence[0].residual_slip_m == pytest.approx(first.residual_slip_m, rel=0.01)
+    assert response.sequence[-1].residual_slip_m == response.residual_slip_m
+    assert sum(stage.slip_m for stage in response.sequence) == pytest.approx(response.residual_slip_m)
+    assert len(response.sequence) == 3
 
 
 def test_a_file_may_have_all_motions_in_one_list(tmp_path):
@@ -83,59 +83,59 @@ def test_a_file_may_have_all_motions_in_one_list(tmp_path):
 
 def test_what_one_motion_leaves_is_judged_before_the_next():
     case = sequence({**DRAINS, "statics.drain_diameter": "50 mm"}, "crack.friction=0.8")
-    found = heeltoe.rigid(case)
-    said = {each.code: dict(each.quantities) for each in found.warnings}
-    slip = found.sequence[1].residual_slip_m
-    assert said["sequence-drains-close"]["share"] == pytest.approx(max(0.0, 1.0 - abs(slip) / 0.05))
-    assert found.sequence[1].static["drainage"] == said["sequence-drains-close"]["share"]
-    assert "sliding factor" in said["sequence-statics"]["missed"]
+    response = heeltoe.rigid(case)
+    message = {warning.code: dict(warning.quantities) for warning in response.warnings}
+    slip = response.sequence[1].residual_slip_m
+    assert message["sequence-drains-close"]["share"] == pytest.approx(max(0.0, 1.0 - abs(slip) / 0.05))
+    assert response.sequence[1].static["drainage"] == message["sequence-drains-close"]["share"]
+    assert "sliding factor" in message["sequence-statics"]["missed"]
     # What the checks ask for stands in the result, and is of use to it.
-    assert not any("statics" in str(each) for each in found.warnings if each.code == "fields-unused")
+    assert not any("statics" in str(warning) for warning in response.warnings if warning.code == "fields-unused")
     own = heeltoe.rigid(case.with_("statics.residual_slip=1 m"))
-    assert own.sequence[0].static == found.sequence[0].static
+    assert own.sequence[0].static == response.sequence[0].static
 
 
 def test_a_dam_that_still_moves_is_told():
-    found = heeltoe.rigid(sequence(aftershocks=[{"points": PULSE, "pause": "1 ms"}]))
-    assert not found.sequence[0].at_rest
-    assert "sequence-moves" in [each.code for each in found.warnings]
+    response = heeltoe.rigid(sequence(aftershocks=[{"points": PULSE, "pause": "1 ms"}]))
+    assert not response.sequence[0].at_rest
+    assert "sequence-moves" in [warning.code for warning in response.warnings]
 
 
 def test_a_motion_beside_the_case_comes_alone():
     case = sequence()
     motion = heeltoe.rigid(case).motion
     other = heeltoe.GroundMotion.from_points([0.0, 0.1, 0.3], [0.0, 6.0, 0.0])
-    found = heeltoe.rigid(case, other)
-    assert "aftershocks-left-out" in [each.code for each in found.warnings]
-    assert found.sequence == ()
+    response = heeltoe.rigid(case, other)
+    assert "aftershocks-left-out" in [warning.code for warning in response.warnings]
+    assert response.sequence == ()
     # The sequence itself may be handed in again.
     again = heeltoe.rigid(case, motion)
     assert again.residual_slip_m == heeltoe.rigid(case).residual_slip_m
-    assert "aftershocks-left-out" not in [each.code for each in again.warnings]
+    assert "aftershocks-left-out" not in [warning.code for warning in again.warnings]
 
 
 def test_a_spread_is_that_of_the_whole_sequence():
     case = sequence()
-    found = heeltoe.with_spread(heeltoe.rigid(case), case, 3)
-    assert found.spread["residual_slips_m"][1] == pytest.approx(found.residual_slip_m, rel=1e-9)
+    response = heeltoe.with_spread(heeltoe.rigid(case), case, 3)
+    assert response.spread["residual_slips_m"][1] == pytest.approx(response.residual_slip_m, rel=1e-9)
 
 
 def test_a_run_that_ends_early_tells_of_what_it_has_met():
     steep = {"points": [["0 s", "0 g"], ["0.5 s", "3 g"], ["1.2 s", "3 g"], ["1.3 s", "0 g"]]}
     case = read_case("examples/slender.toml", [{"motion": {**steep, "pga": None}, "aftershocks": [{"points": POINTS}]}])
-    found = heeltoe.rigid(case)
-    assert found.outcome != "ok"
-    assert len(found.sequence) <= 1
-    assert np.isfinite([stage.slip_m for stage in found.sequence]).all()
+    response = heeltoe.rigid(case)
+    assert response.outcome != "ok"
+    assert len(response.sequence) <= 1
+    assert np.isfinite([stage.slip_m for stage in response.sequence]).all()
 
 
 def test_the_table_is_in_terminal_and_report(tmp_path):
     fields = sequence().model_dump(mode="json", exclude_unset=True)
     place = tmp_path / "case.json"
     place.write_text(json.dumps(fields))
-    told = command("run", str(place), "--model", "rigid", "--details")
-    assert "static checks" in " ".join(told.stdout.split())
-    assert "2 (2.5 s)" in told.stdout
+    process = command("run", str(place), "--model", "rigid", "--details")
+    assert "static checks" in " ".join(process.stdout.split())
+    assert "2 (2.5 s)" in process.stdout
 
 
 def test_a_study_runs_the_sequence_of_its_case_or_motions_of_its_own(tmp_path):
@@ -143,8 +143,8 @@ def test_a_study_runs_the_sequence_of_its_case_or_motions_of_its_own(tmp_path):
     (tmp_path / "case.json").write_text(json.dumps(fields))
     study = 'case = "case.json"\nmodel = "rigid"\n[vary]\n"crack.friction" = [0.9, 1.0]\n'
     (tmp_path / "study.toml").write_text(study)
-    told = command("study", str(tmp_path / "study.toml"), "--json", "-", "--out", str(tmp_path / "out"))
-    assert told.returncode == 0, told.stderr
+    process = command("study", str(tmp_path / "study.toml"), "--json", "-", "--out", str(tmp_path / "out"))
+    assert process.returncode == 0, process.stderr
     (tmp_path / "other.toml").write_text(f'{study}[motions]\nboth_signs = false\nfiles = ["elcentro-1940-180-nga"]\n')
     refused = command("study", str(tmp_path / "other.toml"), "--out", str(tmp_path / "out2"))
     assert refused.returncode == 2

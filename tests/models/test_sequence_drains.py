@@ -52,9 +52,9 @@ def alone(case, points, share, *changes):
 @pytest.mark.parametrize("kind", [kind for kind in CHANGES if kind != "by a law"])
 def test_a_block_at_rest_goes_on_as_one_with_the_drains_that_are_left(kind):
     case = sequence(CHANGES[kind])
-    found = heeltoe.rigid(case)
+    response = heeltoe.rigid(case)
     slip, shares = 0.0, []
-    for stage, points in zip(found.sequence[:2], (POINTS, OTHER), strict=True):
+    for stage, points in zip(response.sequence[:2], (POINTS, OTHER), strict=True):
         shares.append(max(0.0, 1.0 - abs(slip) / DIAMETER))
         assert stage.at_rest
         expected = alone(case, points, shares[-1]).residual_slip_m
@@ -62,35 +62,35 @@ def test_a_block_at_rest_goes_on_as_one_with_the_drains_that_are_left(kind):
         slip += expected
     # Some of the drainage is left, so that how much of it counts.
     assert 0.2 < shares[1] < 0.8
-    assert found.summary["drainage_by_motion"][:2] == pytest.approx(shares, rel=1e-10)
-    assert found.energy.residual < 1e-12
-    assert abs(found.sequence[1].slip_m / alone(case, OTHER, 1.0).residual_slip_m - 1.0) > 0.02
+    assert response.summary["drainage_by_motion"][:2] == pytest.approx(shares, rel=1e-10)
+    assert response.energy.residual < 1e-12
+    assert abs(response.sequence[1].slip_m / alone(case, OTHER, 1.0).residual_slip_m - 1.0) > 0.02
 
 
 def test_what_slip_has_worn_is_carried_over():
     """A law that has lost all it can in the first motion is its residual friction in the next."""
     worn, constant = sequence(WEAKENING), sequence()
-    found = heeltoe.rigid(worn)
-    share = found.summary["drainage_by_motion"][1]
-    assert found.sequence[0].slip_m > 0.05
-    assert found.sequence[0].slip_m < heeltoe.rigid(constant).sequence[0].slip_m
-    assert found.sequence[1].slip_m == pytest.approx(alone(constant, OTHER, share).residual_slip_m, rel=1e-9)
-    path = found.histories["slip_path_m"]
+    response = heeltoe.rigid(worn)
+    share = response.summary["drainage_by_motion"][1]
+    assert response.sequence[0].slip_m > 0.05
+    assert response.sequence[0].slip_m < heeltoe.rigid(constant).sequence[0].slip_m
+    assert response.sequence[1].slip_m == pytest.approx(alone(constant, OTHER, share).residual_slip_m, rel=1e-9)
+    path = response.histories["slip_path_m"]
     assert np.all(np.diff(path) >= 0.0)
-    assert path[-1] == found.summary["friction_law"]["slip_path_m"]
+    assert path[-1] == response.summary["friction_law"]["slip_path_m"]
 
 
 def test_ledger_histories_and_events_are_those_of_the_whole():
-    found = heeltoe.rigid(sequence())
-    time, slip = found.histories["time_s"], found.histories["slip_m"]
+    response = heeltoe.rigid(sequence())
+    time, slip = response.histories["time_s"], response.histories["slip_m"]
     assert np.all(np.diff(time) >= 0.0)
-    assert {each.size for each in found.histories.values()} == {time.size}
-    assert len(found.mode) == time.size
-    assert np.all(np.diff(found.event_log["time_s"]) >= 0.0)
-    assert found.summary["events"] == len(found.event_log["kind"])
-    assert slip[-1] == found.residual_slip_m
-    assert sum(found.summary["time_by_mode_s"].values()) == pytest.approx(found.end_time_s)
-    assert sum(found.summary["slip_by_mode_m"].values()) == pytest.approx(found.residual_slip_m)
+    assert {history.size for history in response.histories.values()} == {time.size}
+    assert len(response.mode) == time.size
+    assert np.all(np.diff(response.event_log["time_s"]) >= 0.0)
+    assert response.summary["events"] == len(response.event_log["kind"])
+    assert slip[-1] == response.residual_slip_m
+    assert sum(response.summary["time_by_mode_s"].values()) == pytest.approx(response.end_time_s)
+    assert sum(response.summary["slip_by_mode_m"].values()) == pytest.approx(response.residual_slip_m)
 
 
 def test_drains_that_stay_open_change_nothing():
@@ -98,37 +98,37 @@ def test_drains_that_stay_open_change_nothing():
     weak = [["0 s", "0 g"], ["0.15 s", "-0.1 g"], ["0.4 s", "0.05 g"], ["0.6 s", "0 g"]]
     aftershocks = [{"points": weak, "pause": "5 s"}, {"points": weak, "reverse": True}]
     strong = sequence({"motion.points": weak, "aftershocks": aftershocks}, "crack.friction=1.5")
-    found = heeltoe.rigid(strong)
+    response = heeltoe.rigid(strong)
     plain = heeltoe.rigid(strong.with_({"statics.drain_diameter": None}))
-    assert found.summary["drainage_by_motion"] == [1.0, 1.0, 1.0]
+    assert response.summary["drainage_by_motion"] == [1.0, 1.0, 1.0]
     assert plain.summary["drainage_by_motion"] is None
     for name, values in plain.histories.items():
-        assert np.array_equal(values, found.histories[name])
+        assert np.array_equal(values, response.histories[name])
 
 
 def test_the_chain_follows_its_drains_too():
     case = sequence({"crack.elevation": "40 m", "statics.drain_diameter": "50 mm"}, base="examples/typical-base.toml")
-    found = heeltoe.decoupled(case)
-    assert found.summary["drainage_by_motion"][1] < 1.0
-    assert found.summary["drainage_by_motion"][1] == pytest.approx(found.sequence[0].static["drainage"], abs=1e-3)
-    assert found.energy.residual < 1e-12
+    response = heeltoe.decoupled(case)
+    assert response.summary["drainage_by_motion"][1] < 1.0
+    assert response.summary["drainage_by_motion"][1] == pytest.approx(response.sequence[0].static["drainage"], abs=1e-3)
+    assert response.energy.residual < 1e-12
 
 
 def test_many_runs_and_spreads_follow_them_too():
     case = sequence()
-    found = heeltoe.rigid(case)
-    spread = heeltoe.with_spread(found, case, 3).spread["residual_slips_m"]
-    assert spread[1] == pytest.approx(found.residual_slip_m, rel=1e-12)
-    slips = rigid_many([case], [found.motion])["slip"]
-    assert slips[0] == pytest.approx(found.residual_slip_m, rel=1e-12)
+    response = heeltoe.rigid(case)
+    spread = heeltoe.with_spread(response, case, 3).spread["residual_slips_m"]
+    assert spread[1] == pytest.approx(response.residual_slip_m, rel=1e-12)
+    slips = rigid_many([case], [response.motion])["slip"]
+    assert slips[0] == pytest.approx(response.residual_slip_m, rel=1e-12)
 
 
 def test_a_run_that_ends_early_tells_of_the_motions_it_has_met():
     steep = [["0 s", "0 g"], ["0.5 s", "3 g"], ["1.2 s", "3 g"], ["1.3 s", "0 g"]]
     water = {"reservoir": {"depth": "1 m"}, "motion.points": steep}
-    found = heeltoe.rigid(sequence(water, "crack.friction=3", base="examples/slender.toml"))
-    assert found.outcome != "ok"
-    assert found.summary["drainage_by_motion"] == [1.0]
+    response = heeltoe.rigid(sequence(water, "crack.friction=3", base="examples/slender.toml"))
+    assert response.outcome != "ok"
+    assert response.summary["drainage_by_motion"] == [1.0]
 
 
 def elastic(points, *changes):
@@ -141,32 +141,32 @@ def test_the_water_rises_under_an_elastic_dam_while_the_ground_stands_still():
     weak = [["0 s", "0 g"], ["0.1 s", "0.01 g"], ["0.2 s", "0 g"]]
     case = elastic(weak, "crack.friction=1.5")
     shaken = earthquake(case)
-    found = run_flexible(case, replace(shaken, drainage=((1.0, 3.0, 0.0),)))
+    result = run_flexible(case, replace(shaken, drainage=((1.0, 3.0, 0.0),)))
     closed = case.with_("uplift.drain_efficiency=0")
     beside = run_flexible(closed, shaken)
-    before, after = np.searchsorted(found.histories["time_s"], [0.9, 5.0])
-    pressed = found.histories["normal_force_n"]
+    before, after = np.searchsorted(result.histories["time_s"], [0.9, 5.0])
+    pressed = result.histories["normal_force_n"]
     assert pressed[after] == pytest.approx(beside.histories["normal_force_n"][after], rel=2e-4)
     by_hand = build_block(case).normal_force - build_block(closed).normal_force
     assert pressed[before] - pressed[after] == pytest.approx(by_hand, rel=1e-3)
-    assert found.energy.residual < 1e-12
+    assert result.energy.residual < 1e-12
 
 
 def test_an_elastic_dam_is_run_again_with_the_drains_that_are_left():
     case = elastic(POINTS, "statics.drain_diameter=2 m", "crack.friction=1")
-    found = heeltoe.flexible(case)
-    shares = found.summary["drainage_by_motion"]
+    response = heeltoe.flexible(case)
+    shares = response.summary["drainage_by_motion"]
     assert shares[0] == 1.0
     assert 0.1 < shares[2] < shares[1] < 0.95
-    for stage, share in zip(found.sequence[:2], shares[1:], strict=True):
+    for stage, share in zip(response.sequence[:2], shares[1:], strict=True):
         assert stage.static["drainage"] == pytest.approx(share, abs=1e-3)
-    assert {"sequence-drains-close"} <= {each.code for each in found.warnings}
+    assert {"sequence-drains-close"} <= {warning.code for warning in response.warnings}
     open_ = heeltoe.flexible(case.with_({"statics.drain_diameter": None}))
     # One that goes on longer in silence has slightly other steps.
-    assert open_.sequence[0].slip_m == pytest.approx(found.sequence[0].slip_m, rel=0.01)
-    assert abs(found.sequence[1].slip_m / open_.sequence[1].slip_m - 1.0) > 0.02
-    spread = heeltoe.with_spread(found, case, 3).spread
-    assert spread["residual_slips_m"][1] == pytest.approx(found.residual_slip_m, rel=1e-9)
+    assert open_.sequence[0].slip_m == pytest.approx(response.sequence[0].slip_m, rel=0.01)
+    assert abs(response.sequence[1].slip_m / open_.sequence[1].slip_m - 1.0) > 0.02
+    spread = heeltoe.with_spread(response, case, 3).spread
+    assert spread["residual_slips_m"][1] == pytest.approx(response.residual_slip_m, rel=1e-9)
     # Each of its runs finds the drains that its own slips leave.
     ground = earthquake(case)
     motion = replace(ground.motion, acceleration=spread["scales"][2] * ground.motion.acceleration)
@@ -180,17 +180,17 @@ def test_a_study_of_elastic_dams_follows_the_drains_of_each_run(tmp_path):
     fields = case.model_dump(mode="json", exclude_unset=True)
     text = 'case = "case.toml"\nmodel = "flexible"\n[vary]\n"crack.friction" = [0.9, 1.0]\n'
     plan = plan_of(read_study(study_file(tmp_path, text, case=case_text(fields))))
-    found = parts.run_part(plan, 0, plan.count).to_pylist()
-    assert len(found) == 2
-    for row in found:
+    result = parts.run_part(plan, 0, plan.count).to_pylist()
+    assert len(result) == 2
+    for row in result:
         by_hand = heeltoe.flexible(case.with_({"crack.friction": row["crack.friction"]}))
         assert by_hand.summary["drainage_by_motion"][2] < 0.95
         assert row["residual_slip_m"] == by_hand.residual_slip_m
     again = parts.run_part(plan, 0, plan.count, threads=2).to_pylist()
-    assert [row["residual_slip_m"] for row in again] == [row["residual_slip_m"] for row in found]
+    assert [row["residual_slip_m"] for row in again] == [row["residual_slip_m"] for row in result]
 
 
 def test_water_that_follows_the_opening_keeps_its_drains_and_says_so():
-    found = heeltoe.flexible(elastic(POINTS, {"uplift.during_shaking": "zero while open"}))
-    assert found.summary["drainage_by_motion"] is None
-    assert "sequence-drains" in {each.code for each in found.warnings}
+    response = heeltoe.flexible(elastic(POINTS, {"uplift.during_shaking": "zero while open"}))
+    assert response.summary["drainage_by_motion"] is None
+    assert "sequence-drains" in {warning.code for warning in response.warnings}

@@ -47,7 +47,7 @@ def padded(motion: GroundMotion, seconds: float) -> GroundMotion:
 
 
 def codes(response) -> list[str]:
-    return [each.code for each in response.warnings]
+    return [warning.code for warning in response.warnings]
 
 
 def same(one, other) -> bool:
@@ -57,12 +57,12 @@ def same(one, other) -> bool:
 
 def numbers(response):
     """Return what a run is, but for what it warns of and which motion it names."""
-    found = response.to_json()
+    result = response.to_json()
     for name in ("warnings", "motion", "silence_s", "verdict", "chosen"):
-        found.pop(name)
+        result.pop(name)
     # It holds the spectrum of the ground, which swings on in zeros.
-    found.pop("crack_level", None)
-    return found
+    result.pop("crack_level", None)
+    return result
 
 
 def approximately(summary):
@@ -77,16 +77,16 @@ def approximately(summary):
 @pytest.mark.parametrize("model", MODELS)
 def test_a_dam_that_still_slides_when_the_record_ends_goes_on_as_with_zeros_behind_it(model):
     function, path, changes = MODELS[model]
-    found = function(read_case(path, changes))
-    assert found.silence_s > 0.0
-    assert found.end_time_s == pytest.approx(2.1 + found.silence_s)
-    longer = read_case(path, [*changes, ENDS, f"motion.duration={2.1 + found.silence_s!r}s"])
-    again = function(longer, padded(found.motion, found.silence_s))
+    result = function(read_case(path, changes))
+    assert result.silence_s > 0.0
+    assert result.end_time_s == pytest.approx(2.1 + result.silence_s)
+    longer = read_case(path, [*changes, ENDS, f"motion.duration={2.1 + result.silence_s!r}s"])
+    again = function(longer, padded(result.motion, result.silence_s))
     # The steps of an elastic dam differ in their last digit, as its record is longer.
-    assert same(found, again) or (model == "flexible" and numbers(again) == approximately(numbers(found)))
+    assert same(result, again) or (model == "flexible" and numbers(again) == approximately(numbers(result)))
     cut = function(read_case(path, [*changes, ENDS]))
     assert cut.silence_s == 0.0
-    assert abs(cut.residual_slip_m) < 0.97 * abs(found.residual_slip_m)
+    assert abs(cut.residual_slip_m) < 0.97 * abs(result.residual_slip_m)
 
 
 points = st.lists(st.tuples(st.floats(0.05, 0.4), st.floats(-12.0, 12.0)), min_size=2, max_size=8).map(
@@ -98,17 +98,17 @@ points = st.lists(st.tuples(st.floats(0.05, 0.4), st.floats(-12.0, 12.0)), min_s
 def test_any_block_goes_on_as_with_zeros_behind_its_motion(motion, friction, vertical):
     case = read_case(SLENDER, [f"crack.friction={friction}", "analysis.event_limit=2000"])
     up = motion.scaled(0.4) if vertical else None
-    found = rigid(case, motion, up)
+    response = rigid(case, motion, up)
     quiet = case.with_({"analysis.silence": "0 s"})
-    if found.silence_s == 0.0:
-        assert same(found, rigid(quiet, motion, up))
+    if response.silence_s == 0.0:
+        assert same(response, rigid(quiet, motion, up))
     else:
-        after = [None if each is None else padded(each, found.silence_s) for each in (motion, up)]
+        after = [None if item is None else padded(item, response.silence_s) for item in (motion, up)]
         again = rigid(quiet, *after)
-        assert again.summary == found.summary
-        assert again.energy == found.energy
-        assert all(np.array_equal(again.event_log[name], found.event_log[name]) for name in found.event_log)
-    assert found.final_mode == "rest" or found.silence_s == 10.0 or found.outcome != "ok"
+        assert again.summary == response.summary
+        assert again.energy == response.energy
+        assert all(np.array_equal(again.event_log[name], response.event_log[name]) for name in response.event_log)
+    assert response.final_mode == "rest" or response.silence_s == 10.0 or response.outcome != "ok"
 
 
 def test_the_silence_is_as_long_as_it_takes():
@@ -142,19 +142,19 @@ def test_a_dam_at_rest_costs_one_run(monkeypatch):
     assert flexible(read_case(BASE, quiet)).silence_s == 0.0
     assert runs == [3.0]
     runs.clear()
-    found = flexible(read_case(BASE, [*COARSE, "motion.duration=3s"]))
+    response = flexible(read_case(BASE, [*COARSE, "motion.duration=3s"]))
     # One more for the damping.
-    assert runs == [3.0, 3.0 + found.silence_s]
-    assert 0.0 < found.silence_s < 10.0
+    assert runs == [3.0, 3.0 + response.silence_s]
+    assert 0.0 < response.silence_s < 10.0
 
 
 def test_without_silence_a_run_ends_with_the_motion_and_says_so():
     response = rigid(read_case(BASE, [*SLIDING, ENDS]))
     assert (response.silence_s, response.end_time_s) == (0.0, 2.1)
-    said = next(each for each in response.warnings if each.code == "block-still-moves")
-    assert said.field == "analysis.silence"
-    assert "still moves when the ground motion ends (slide downstream, slip velocity" in str(said)
-    assert "a longer analysis.silence may let it come to rest" in str(said)
+    message = next(warning for warning in response.warnings if warning.code == "block-still-moves")
+    assert message.field == "analysis.silence"
+    assert "still moves when the ground motion ends (slide downstream, slip velocity" in str(message)
+    assert "a longer analysis.silence may let it come to rest" in str(message)
     assert "It still moves when the run ends (slide downstream)" in verdict(response)
 
 
@@ -164,16 +164,16 @@ def test_what_never_comes_to_rest_is_told(model):
     response = MODELS[model][0](read_case(BASE, [*changes, "analysis.silence=1s"]))
     assert response.outcome == "ok"
     assert response.silence_s == 1.0
-    said = next(str(each) for each in response.warnings if each.code.endswith("still-moves"))
-    assert "still moves 1 s after the ground motion has ended" in said
+    message = next(str(warning) for warning in response.warnings if warning.code.endswith("still-moves"))
+    assert "still moves 1 s after the ground motion has ended" in message
     assert "when the run ends, 1 s after the ground motion" in verdict(response)
 
 
 def test_models_side_by_side_end_together():
-    found = run(read_case(BASE, [*COARSE, "motion.duration=2.1s"]), "both")
-    assert found.silence_s > found.beside.silence_s - 1e-9 > 0.0
-    assert found.beside.end_time_s == pytest.approx(found.end_time_s)
-    assert found.silence_s == found.beside.silence_s
+    response = run(read_case(BASE, [*COARSE, "motion.duration=2.1s"]), "both")
+    assert response.silence_s > response.beside.silence_s - 1e-9 > 0.0
+    assert response.beside.end_time_s == pytest.approx(response.end_time_s)
+    assert response.silence_s == response.beside.silence_s
     # The block needs the silence, the dam has it.
     slow = ["crack.static_friction=1.0", "crack.kinetic_friction=0.8", "motion.duration=3s"]
     both = run(read_case(BASE, [*slow, *COARSE]), "both")
@@ -203,16 +203,16 @@ def test_a_spread_ends_where_its_run_does(model):
 
 def test_many_runs_end_where_each_of_them_does():
     changes = [["crack.friction=0.9"], ["crack.friction=1.3"], SLIPPERY[:2], ["analysis.rotation=p-delta"], [ENDS]]
-    cases = [read_case(BASE, ["motion.duration=2.1s", *each]) for each in changes]
+    cases = [read_case(BASE, ["motion.duration=2.1s", *change]) for change in changes]
     alone = [rigid(case) for case in cases]
-    found = rigid_many(cases, [alone[0].motion])
-    assert found["slip"].tolist() == [each.residual_slip_m for each in alone]
-    assert found["end_time"].tolist() == [each.end_time_s for each in alone]
-    assert len({each.silence_s for each in alone}) == 3
+    batch = rigid_many(cases, [alone[0].motion])
+    assert batch["slip"].tolist() == [item.residual_slip_m for item in alone]
+    assert batch["end_time"].tolist() == [item.end_time_s for item in alone]
+    assert len({item.silence_s for item in alone}) == 3
     quiet = rigid_many(cases, [alone[0].motion], limits=Limits(silence=0.0))
     assert (quiet["end_time"] == 2.1).all()
     numbers = np.array([case.cut and rigid_many([case], [alone[0].motion])["slip"][0] for case in cases[:2]])
-    assert found["slip"][:2].tolist() == numbers.tolist()
+    assert batch["slip"][:2].tolist() == numbers.tolist()
     with pytest.raises(InputError, match=r"^limits\.silence: nan is out of range; give 0 to 600 s$"):
         rigid_many(cases, [alone[0].motion], limits=Limits(silence=math.nan))
 
@@ -229,13 +229,13 @@ def test_a_block_may_overturn_in_silence():
 def test_a_silence_that_nobody_needs_is_told():
     quiet = ["motion.pga=0.05g", "reservoir.depth=20m", "motion.duration=3s"]
     assert "fields-idle" not in codes(rigid(read_case(BASE, quiet)))
-    told = Notice(
+    notice = Notice(
         "fields-idle",
         field="analysis.silence",
         fields="analysis.silence",
         why="nothing moves when the ground motion ends",
     )
-    assert told in rigid(read_case(BASE, [*quiet, "analysis.silence=5s"])).warnings
+    assert notice in rigid(read_case(BASE, [*quiet, "analysis.silence=5s"])).warnings
     for value in ("-1s", "601s"):
         with pytest.raises(InputError, match=r"analysis\.silence"):
             example("block", f"analysis.silence={value}")

@@ -27,10 +27,10 @@ def test_every_model_says_so(model):
     assert response.outcome == "ok"
     slid = response.peak_slip_downstream_m > case.cut.crack_width
     assert slid
-    (said,) = [each for each in response.warnings if each.code == "slid-off"]
-    assert said.severity == "grave"
+    (message,) = [warning for warning in response.warnings if warning.code == "slid-off"]
+    assert message.severity == "grave"
     weaker = run(read_case(DAM, ["motion.pga=0.3 g"]), model)
-    assert not any(each.code == "slid-off" for each in weaker.warnings)
+    assert not any(warning.code == "slid-off" for warning in weaker.warnings)
 
 
 def test_a_study_counts_them(tmp_path):
@@ -38,10 +38,10 @@ def test_a_study_counts_them(tmp_path):
         'case = "case.toml"\n[vary]\n"crack.friction" = [0.3, 0.5]\n[motions]\nboth_signs = false\nfolder = "quakes"\n'
     )
     file = study_file(tmp_path, text + 'scale = { measure = "pga", values = ["0.3 g", "60 g"] }\n')
-    found = run_study(file, tmp_path / "out")
-    table = found.to_table(["slid_off", "peak_slip_downstream_m", "peak_slip_upstream_m", "outcome"]).to_pylist()
+    study = run_study(file, tmp_path / "out")
+    table = study.to_table(["slid_off", "peak_slip_downstream_m", "peak_slip_upstream_m", "outcome"]).to_pylist()
     known = [run for run in table if run["outcome"] == "ok"]
     far = [max(run["peak_slip_downstream_m"], -run["peak_slip_upstream_m"]) > 4.0 for run in known]
     assert [run["slid_off"] for run in known] == far
     assert 0 < sum(far) < len(far)
-    assert found.summary[0]["slid_off"] == sum(run["slid_off"] for run in table)
+    assert study.summary[0]["slid_off"] == sum(run["slid_off"] for run in table)

@@ -60,11 +60,11 @@ def test_no_scaling_or_filter_hides_damage(values, unit, code, changes, tmp_path
 
 def test_a_doubtful_value_is_pointed_at_and_a_sound_record_is_not(tmp_path):
     doubted = run(record(tmp_path / "a.txt", damaged(0.75)), "motion.pga=0.3 g")
-    (said,) = (each for each in doubted.warnings if each.code == "motion-spike")
-    assert said.time_s == pytest.approx(1.5)
-    assert dict(said.quantities)["peak_g"] == pytest.approx(0.75)
+    (message,) = (warning for warning in doubted.warnings if warning.code == "motion-spike")
+    assert message.time_s == pytest.approx(1.5)
+    assert dict(message.quantities)["peak_g"] == pytest.approx(0.75)
     sound = run(record(tmp_path / "b.txt"), "motion.pga=0.3 g")
-    assert not {"motion-spike", "motion-coarse", "component-vertical"} & {each.code for each in sound.warnings}
+    assert not {"motion-spike", "motion-coarse", "component-vertical"} & {warning.code for warning in sound.warnings}
 
 
 def test_nines_that_were_measured_are_no_marker(tmp_path):
@@ -76,14 +76,14 @@ def test_nines_that_were_measured_are_no_marker(tmp_path):
 def test_clipping_shows_before_a_filter_rounds_it_off(tmp_path):
     file = record(tmp_path / "a.txt", np.clip(WAVE, -0.15, 0.15))
     for changes in HIDING:
-        assert "motion-clipped" in {each.code for each in run(file, *changes).warnings}
+        assert "motion-clipped" in {warning.code for warning in run(file, *changes).warnings}
 
 
 def test_real_records_have_no_spikes(records):
     doubted = set()
     for path in sorted((records / "ensemble").iterdir()):
         for motion in read_channels(path) if path.suffix else []:
-            doubted |= {path.stem for each in check_record(motion, G) if each.code == "motion-spike"}
+            doubted |= {path.stem for item in check_record(motion, G) if item.code == "motion-spike"}
     assert all("cape-mendocino" in name for name in doubted), doubted
 
 
@@ -96,12 +96,12 @@ def test_a_step_of_seconds_is_no_record(step, tmp_path):
     columns.write_text("# units: [g]\n" + "\n".join(f"{k * seconds} {value:.6g}" for k, value in enumerate(WAVE)))
     for file, changes in ((record(tmp_path / "a.txt", step=step), []), (columns, []), (bare, [f"time_step={step}"])):
         with pytest.raises(InputError, match="is not that of a record"):
-            run(file, *(f"motion.{each}" for each in changes))
+            run(file, *(f"motion.{change}" for change in changes))
 
 
 def test_a_step_that_is_too_long_for_a_dam_is_told(tmp_path):
-    said = run(record(tmp_path / "a.txt", step="0.2 s")).warnings
-    assert any(each.code == "motion-coarse" and "every 0.2 s" in str(each) for each in said)
+    warnings = run(record(tmp_path / "a.txt", step="0.2 s")).warnings
+    assert any(item.code == "motion-coarse" and "every 0.2 s" in str(item) for item in warnings)
 
 
 @pytest.mark.parametrize("component", ["UP", "Up", "vertical UP", "DWN", "U-D", "HNZ", "Vert."])
@@ -110,8 +110,8 @@ def test_a_vertical_component_that_shakes_horizontally_is_told(component, tmp_pa
     file.write_text(csmip({component: GAL}))
     for other, code in (("", "component-vertical"), ("vertical.", None)):
         changes = [f"motion.{other}file={file}"] + ([f"motion.file={record(tmp_path / 'b.txt')}"] if other else [])
-        said = {each.code for each in rigid(read_case(BLOCK, changes)).warnings}
-        assert {each for each in said if each.startswith("component-")} == ({code} if code else set())
+        codes = {warning.code for warning in rigid(read_case(BLOCK, changes)).warnings}
+        assert {item for item in codes if item.startswith("component-")} == ({code} if code else set())
 
 
 @pytest.mark.parametrize("component", ["90 DEG", "S69E", "N-S", "EW", "164 (S16E)", "HNN", "360"])
@@ -119,23 +119,23 @@ def test_a_horizontal_component_that_shakes_vertically_is_told(component, tmp_pa
     file = tmp_path / "a.V2"
     file.write_text(csmip({component: GAL}))
     case = read_case(BLOCK, [f"motion.file={file}", f"motion.vertical.file={file}"])
-    said = {each.code for each in rigid(case).warnings}
-    assert {each for each in said if each.startswith("component-")} == {"component-horizontal"}
+    codes = {warning.code for warning in rigid(case).warnings}
+    assert {item for item in codes if item.startswith("component-")} == {"component-horizontal"}
 
 
 def test_a_name_tells_where_a_file_does_not(tmp_path):
-    said = run(record(tmp_path / "quake_up.txt")).warnings
-    assert "component-vertical" in {each.code for each in said}
+    warnings = run(record(tmp_path / "quake_up.txt")).warnings
+    assert "component-vertical" in {item.code for item in warnings}
 
 
 def test_components_of_two_earthquakes_are_told(tmp_path):
     one, other = tmp_path / "a.V2", tmp_path / "b.V2"
     one.write_text(cosmos())
-    for event, told in (("Nowhere Earthquake of Tue Jan 1, 1980 20:00 UTC", False), ("Elsewhere in 1999", True)):
+    for event, answer in (("Nowhere Earthquake of Tue Jan 1, 1980 20:00 UTC", False), ("Elsewhere in 1999", True)):
         other.write_text(cosmos(direction="Up", event=event))
         case = read_case(BLOCK, [f"motion.file={one}", f"motion.vertical.file={other}"])
-        said = [each for each in rigid(case).warnings if each.code == "components-differ"]
-        assert bool(said) is told
+        warnings = [warning for warning in rigid(case).warnings if warning.code == "components-differ"]
+        assert bool(warnings) is answer
 
 
 def columns(path, values=WAVE, step=0.01, **about):
@@ -185,9 +185,9 @@ def test_the_first_of_two_channels_is_not_taken_for_the_record():
 
 def test_a_look_at_a_record_says_what_an_analysis_would_refuse(tmp_path):
     file = record(tmp_path / "up.txt", damaged(9.99))
-    said = " ".join(command("motion", file, cwd=tmp_path).stdout.split())
-    assert "jumps to 9.99 g at 1.5 s and back" in said
-    assert "shakes the dam" not in said
+    text = " ".join(command("motion", file, cwd=tmp_path).stdout.split())
+    assert "jumps to 9.99 g at 1.5 s and back" in text
+    assert "shakes the dam" not in text
 
 
 @pytest.mark.parametrize(
@@ -203,10 +203,10 @@ def test_a_file_of_two_channels_that_is_cut_anywhere_says_so(whole):
     silent = []
     for k in range(2, len(lines)):
         try:
-            found = read("".join(lines[:k]))
+            result = read("".join(lines[:k]))
         except InputError:
             continue
-        if not found.warnings:
+        if not result.warnings:
             silent.append(k)
     # Between two channels nothing is missing, as far as the file tells.
     assert set(silent) <= {*ends, *(k + 1 for k in ends)}

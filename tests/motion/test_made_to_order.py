@@ -80,9 +80,9 @@ def test_median_parameters():
     assert scores[0] == pytest.approx(-2.2962 + 2.9440)
     assert scores[1] == pytest.approx(-6.1946 + 6.7921 + 0.2175 - 0.525)
     assert scores[3] == pytest.approx(2.2525 - 1.8102 - 0.21)
-    found = scenario_parameters(7.0, 25.0, 750.0)
+    result = scenario_parameters(7.0, 25.0, 750.0)
     # exp(-4.8255 + 1.4318 * 0.6478) = 0.02028 s g2, times pi / 2 and g.
-    assert found.arias == pytest.approx(0.02028 * np.pi / 2.0 * G, rel=1e-3)
+    assert result.arias == pytest.approx(0.02028 * np.pi / 2.0 * G, rel=1e-3)
     reverse = normal_scores(7.0, 25.0, 750.0, reverse=True) - scores
     assert reverse == pytest.approx([-0.0707, -0.7034, -0.3450, -0.0808, 0.0441, -0.4772])
 
@@ -112,7 +112,7 @@ def test_the_spectrum_is_that_of_the_source():
     f = np.geomspace(1e-3, 40.0, 200)
     parts = [(1.0 - source.share, source.lower), (source.share, source.upper)]
     wanted = sum(share * f**2 / (1.0 + (f / corner) ** 2) for share, corner in parts)
-    made = np.prod([np.abs(freqs(*each, 2.0 * np.pi * f)[1]) for each in _two_corners(source)], axis=0)
+    made = np.prod([np.abs(freqs(*item, 2.0 * np.pi * f)[1]) for item in _two_corners(source)], axis=0)
     assert made == pytest.approx(wanted / sum(share * corner**2 for share, corner in parts), rel=1e-9)
     for seed in (None, 3):
         assert scenario_parameters(6.5, 20.0, seed=seed).source == source
@@ -144,11 +144,11 @@ def test_rate_of_frequency_is_a_distribution():
 
 def test_scatter():
     drawn = [scenario_parameters(7.0, 25.0, seed=seed) for seed in range(300)]
-    intensity = np.log([each.arias for each in drawn])
+    intensity = np.log([item.arias for item in drawn])
     # 1.4318 * hypot(0.5937, 0.2738) = 0.936.
     assert np.std(intensity) == pytest.approx(0.936, rel=0.1)
     assert np.median(intensity) == pytest.approx(np.log(scenario_parameters(7.0, 25.0).arias), abs=0.15)
-    durations, middles = [each.duration for each in drawn], [each.middle for each in drawn]
+    durations, middles = [item.duration for item in drawn], [item.middle for item in drawn]
     assert np.corrcoef(durations, middles)[0, 1] > 0.4
     assert np.corrcoef(durations, intensity)[0, 1] < -0.15
     assert drawn[5] == scenario_parameters(7.0, 25.0, seed=5)
@@ -210,9 +210,9 @@ def test_in_a_case_and_on_the_command_line(tmp_path, monkeypatch):
     motion = {"file": "synthetic:M6.5,20km,seed=3", "pga": "0.3 g"}
     case = read_case(DAM | {"motion": motion})
     assert case.motion is not None
-    found, _ = resolve(case.motion, case.gravity, tmp_path)
-    assert found.pga == pytest.approx(0.3 * case.gravity)
-    assert found.name == "synthetic-M6.5-20km-seed3"
+    result, _ = resolve(case.motion, case.gravity, tmp_path)
+    assert result.pga == pytest.approx(0.3 * case.gravity)
+    assert result.name == "synthetic-M6.5-20km-seed3"
     wrong = read_case(DAM | {"motion": motion | {"unit": "g"}}).motion
     assert wrong is not None
     with pytest.raises(InputError, match=r"motion.unit: has no effect on a synthetic motion; remove it"):

@@ -63,8 +63,8 @@ def test_refining_scaling_and_reversing_keep_what_they_should(values, factor, pa
 def test_every_change_is_recorded():
     m = motion([0.0, 1.0, -2.0, 0.5]).scaled_to(4.0).reversed().cut(0.025).resampled(0.0025)
     assert len(m.processing) == 4
-    for words, said in zip(("peak of 4", "reversed", "cut to 0.025", "refined"), m.processing, strict=True):
-        assert words in said
+    for words, message in zip(("peak of 4", "reversed", "cut to 0.025", "refined"), m.processing, strict=True):
+        assert words in message
 
 
 def test_cut_ends_with_a_sample_right_there_and_says_if_it_loses_the_peak():
@@ -98,18 +98,18 @@ def test_peaks_and_cuts_agree_with_plain_sampling(points, share):
     if steps.sum() == 0.0:
         return
     m = GroundMotion.from_points(np.r_[0.0, np.cumsum(steps)], [value for _, value in points])
-    for each in (m, m.cut(share * m.duration), m.cut(m.time[m.time.size // 2] or m.duration)):
+    for item in (m, m.cut(share * m.duration), m.cut(m.time[m.time.size // 2] or m.duration)):
         v = d = pgv = pgd = 0.0
-        end = each.duration
+        end = item.duration
         for t, h, a, b in zip(m.time, steps, m.acceleration, m.acceleration[1:], strict=False):
             s = np.linspace(0.0, min(h, max(end - t, 0.0)), 801)
             c = (b - a) / (2.0 * h) if h else 0.0
             speed, way = v + s * (a + s * c), d + s * (v + s * (a / 2.0 + s * c / 3.0))
             pgv, pgd = max(pgv, abs(speed).max()), max(pgd, abs(way).max())
             v, d = speed[-1], way[-1]
-        assert each.pgv == pytest.approx(pgv, rel=1e-4, abs=1e-4)
-        assert each.pgd == pytest.approx(pgd, rel=1e-4, abs=1e-4)
-        assert each.end_velocity == pytest.approx(v, rel=1e-9, abs=1e-9)
+        assert item.pgv == pytest.approx(pgv, rel=1e-4, abs=1e-4)
+        assert item.pgd == pytest.approx(pgd, rel=1e-4, abs=1e-4)
+        assert item.end_velocity == pytest.approx(v, rel=1e-9, abs=1e-9)
 
 
 def test_refining_has_a_limit():
@@ -163,7 +163,7 @@ def test_checks():
         check(motion(30.0 * G * wave), G)
 
     def codes(series):
-        return [said.code for said in (*check_record(series, G), *check(series, G))]
+        return [message.code for message in (*check_record(series, G), *check(series, G))]
 
     assert codes(motion(4.0 * G * wave)) == ["motion-strong"]
     assert codes(motion(1e-4 * G * wave)) == ["motion-weak"]
@@ -175,9 +175,9 @@ def test_checks():
     (jump,) = check_record(motion(wave[::-1]), G)
     assert str(jump).startswith("m ends at -0.4 g")
     gap = GroundMotion.from_points(np.r_[np.arange(30), np.arange(60, 90)] * 0.01, np.tile(wave[:60:2], 2))
-    (said,) = (said for said in check_record(gap, G) if said.code == "motion-gap")
-    assert said.time_s == pytest.approx(0.29)
-    assert str(said) == "points has a gap of 0.31 s at 0.29 s"
+    (message,) = (message for message in check_record(gap, G) if message.code == "motion-gap")
+    assert message.time_s == pytest.approx(0.29)
+    assert str(message) == "points has a gap of 0.31 s at 0.29 s"
 
 
 def _case(motion, **more):
@@ -199,7 +199,7 @@ def test_resolve_scales_the_whole_record_then_reverses_then_cuts(tmp_path):
     assert vertical is None
     assert horizontal.acceleration == pytest.approx(np.array([0.0, -0.2, 0.1]) * G)
     assert horizontal.name == "r"
-    assert any("peak" in said for said in map(str, horizontal.warnings))
+    assert any("peak" in message for message in map(str, horizontal.warnings))
 
 
 def test_the_vertical_takes_the_horizontal_factor_unless_it_has_its_own_peak(tmp_path):
@@ -208,7 +208,7 @@ def test_the_vertical_takes_the_horizontal_factor_unless_it_has_its_own_peak(tmp
     case = _case({"points": points, "pga": "0.4 g", "vertical": {"points": up}})
     _, vertical = resolve(case.motion, case.gravity, case.base_directory)
     assert vertical.pga == pytest.approx(0.2 * G)
-    assert any("like the horizontal" in said for said in vertical.processing)
+    assert any("like the horizontal" in message for message in vertical.processing)
     case = _case({"points": points, "pga": "0.4 g", "vertical": {"points": up, "pga": "0.3 g"}})
     assert resolve(case.motion, case.gravity, case.base_directory)[1].pga == pytest.approx(0.3 * G)
 
@@ -217,7 +217,7 @@ def test_the_vertical_takes_the_horizontal_factor_unless_it_has_its_own_peak(tmp
 def test_a_vertical_that_counts_down_is_turned():
     case = _case({"file": "pacoima-1971-164-nga", "vertical": {"file": "pacoima-1971-down-nga"}})
     _, vertical = resolve(case.motion, case.gravity, case.base_directory)
-    assert any("turned to up" in said for said in vertical.processing)
+    assert any("turned to up" in message for message in vertical.processing)
 
 
 def test_gravity_of_the_case_is_the_g_of_records_and_points():

@@ -101,11 +101,11 @@ def test_uneven_steps_are_refined_exactly():
 
 
 def test_all_measures():
-    found = measures(sine(), G)
-    assert all(name.rsplit("_", 1)[1] in ("s", "s2", "m") for name in found)
-    assert len(found) == 10
+    result = measures(sine(), G)
+    assert all(name.rsplit("_", 1)[1] in ("s", "s2", "m") for name in result)
+    assert len(result) == 10
     # No samples, no Fourier transform; no shaking, no duration of it.
-    assert set(found) - set(measures(BOX, G)) == {"mean_period_s"}
+    assert set(result) - set(measures(BOX, G)) == {"mean_period_s"}
     still = measures(points((0.0, 0.0), (1.0, 0.0)))
     assert "significant_duration_s" not in still
     assert measures(BOX)["end_velocity_m_s"] == pytest.approx(4.0)
@@ -286,8 +286,17 @@ def test_a_case_processes_before_it_scales(tmp_path):
     assert case.motion is not None
     motion, _ = resolve(case.motion, case.gravity, tmp_path)
     assert motion.pga == pytest.approx(0.3 * case.gravity, rel=1e-12)
-    said = ["baseline", "bandpass", "cosine taper", "cut to", "an Arias", "pseudo-acc", "time stretched", "to a peak"]
-    assert [part in line for part, line in zip(said, motion.processing, strict=True)] == [True] * 8
+    message = [
+        "baseline",
+        "bandpass",
+        "cosine taper",
+        "cut to",
+        "an Arias",
+        "pseudo-acc",
+        "time stretched",
+        "to a peak",
+    ]
+    assert [part in line for part, line in zip(message, motion.processing, strict=True)] == [True] * 8
     # A case written out is a case that can be read.
     again = read_case(case.model_dump(mode="json", exclude_none=True))
     assert again.motion == case.motion

@@ -12,27 +12,29 @@ UP = GroundMotion.from_points([0.0, 0.2, 0.6], [0.0, 0.5, 0.0], name="up")
 
 
 def test_each_motion_is_what_it_was():
-    found, up = joined([(A, None, 0.3), (B, None, 0.5), (A, None, 0.2)], [1.0, 0.5])
+    result, up = joined([(A, None, 0.3), (B, None, 0.5), (A, None, 0.2)], [1.0, 0.5])
     assert up is None
-    assert found.name == "a and 2 aftershocks"
-    assert [(each.name, each.begins, each.ends) for each in found.parts] == [
+    assert result.name == "a and 2 aftershocks"
+    assert [(part.name, part.begins, part.ends) for part in result.parts] == [
         ("a", 0.0, 0.3),
         ("b", pytest.approx(1.3), pytest.approx(1.8)),
         ("a", pytest.approx(2.3), pytest.approx(2.5)),
     ]
-    assert found.duration == found.parts[-1].ends
+    assert result.duration == result.parts[-1].ends
     inside = np.linspace(0.0, 0.3, 50)
-    assert np.interp(inside, found.time, found.acceleration) == pytest.approx(np.interp(inside, A.time, A.acceleration))
+    assert np.interp(inside, result.time, result.acceleration) == pytest.approx(
+        np.interp(inside, A.time, A.acceleration)
+    )
     # At its jumps b is not zero beside them.
     inside = np.linspace(1e-6, 0.5 - 1e-6, 50)
-    there = np.interp(1.3 + inside, found.time, found.acceleration)
+    there = np.interp(1.3 + inside, result.time, result.acceleration)
     assert there == pytest.approx(np.interp(inside, B.time, B.acceleration), abs=1e-9)
-    assert np.interp([0.5, 1.2999, 1.8001, 2.0], found.time, found.acceleration) == pytest.approx([0.0] * 4, abs=1e-9)
-    velocity = sum(integrals(each.time, each.acceleration)[0][-1] for each in (A, B, A.cut(0.2)))
-    assert integrals(found.time, found.acceleration)[0][-1] == pytest.approx(velocity, rel=1e-12)
+    assert np.interp([0.5, 1.2999, 1.8001, 2.0], result.time, result.acceleration) == pytest.approx([0.0] * 4, abs=1e-9)
+    velocity = sum(integrals(item.time, item.acceleration)[0][-1] for item in (A, B, A.cut(0.2)))
+    assert integrals(result.time, result.acceleration)[0][-1] == pytest.approx(velocity, rel=1e-12)
     # What the ground moves is that of each earthquake from rest, whatever it leaves.
-    assert (found.pgv, found.pgd) == pytest.approx((B.pgv, B.pgd), rel=1e-12)
-    assert found.end_velocity == pytest.approx(A.cut(0.2).end_velocity, rel=1e-12)
+    assert (result.pgv, result.pgd) == pytest.approx((B.pgv, B.pgd), rel=1e-12)
+    assert result.end_velocity == pytest.approx(A.cut(0.2).end_velocity, rel=1e-12)
 
 
 def test_a_vertical_motion_shakes_with_its_own_horizontal_one():
@@ -44,5 +46,5 @@ def test_a_vertical_motion_shakes_with_its_own_horizontal_one():
     across, up = joined([(B, UP, 0.5), (A, None, 0.3)], [1.0])
     assert np.interp([0.2, 0.6, 1.6], up.time, up.acceleration) == pytest.approx([0.5, 0.0, 0.0])
     assert up.duration == across.duration == pytest.approx(1.8)
-    assert [each.name for each in up.parts] == ["up"]
+    assert [part.name for part in up.parts] == ["up"]
     assert (up.pgv, up.pgd) == pytest.approx((UP.cut(0.5).pgv, UP.cut(0.5).pgd))

@@ -33,8 +33,8 @@ def test_only_one_file_is_where_it_is_changed():
 
 @pytest.mark.parametrize("name", NAMED)
 def test_a_file_that_is_forgotten_is_told(name, tmp_path):
-    for each in NAMED:
-        shutil.copy(ROOT / each, tmp_path / each)
+    for item in NAMED:
+        shutil.copy(ROOT / item, tmp_path / item)
     assert problems(tmp_path) == []
     text = (tmp_path / name).read_text(encoding="utf-8")
     (tmp_path / name).write_text(text.replace(VERSION, "9.9.9"), encoding="utf-8")
@@ -42,8 +42,8 @@ def test_a_file_that_is_forgotten_is_told(name, tmp_path):
 
 
 def test_a_tag_is_the_version_and_its_date_stands_in_both_places(tmp_path):
-    for each in NAMED:
-        shutil.copy(ROOT / each, tmp_path / each)
+    for item in NAMED:
+        shutil.copy(ROOT / item, tmp_path / item)
     assert problems(tmp_path, "v9.9.9")[0] == f"the tag is v9.9.9, the version {VERSION}"
     log = (tmp_path / "CHANGELOG.md").read_text(encoding="utf-8")
     cited = (tmp_path / "CITATION.cff").read_text(encoding="utf-8")

@@ -18,8 +18,8 @@ def test_actions_are_pinned(name):
     assert len(used) == sum("uses" in step for job in jobs.values() for step in job["steps"])
     version, action = r"v\d+\.\d+\.\d+", r"[\w.-]+/[\w.-]+"
     pinned = rf"{action}@(?:{version}|[0-9a-f]{{40}}  # {version})"
-    assert [each for each in used if not re.fullmatch(pinned, each)] == []
-    assert sum("#" in each for each in used) >= len(used) - 1
+    assert [item for item in used if not re.fullmatch(pinned, item)] == []
+    assert sum("#" in item for item in used) >= len(used) - 1
 
 
 def test_wheels_are_built_with_the_tools_of_the_makefile_and_of_the_lock_file():

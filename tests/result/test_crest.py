@@ -15,22 +15,22 @@ SHAKES = GroundMotion.from_points(TIME, 6.0 * np.sin(2.0 * np.pi * 2.0 * TIME))
 
 def test_a_parabola_has_its_own_acceleration_and_the_ground():
     time = np.array([0.0, 0.1, 0.15, 0.3, 0.4])
-    found = crest_histories(time, 7.0 + 1.5 * time**2, np.full(5, 2.0))
-    assert found[DISPLACEMENT][0] == 0.0
-    assert found[ACCELERATION][1:-1] == pytest.approx(5.0)
-    assert found[ACCELERATION][[0, -1]] == pytest.approx(2.0)
+    result = crest_histories(time, 7.0 + 1.5 * time**2, np.full(5, 2.0))
+    assert result[DISPLACEMENT][0] == 0.0
+    assert result[ACCELERATION][1:-1] == pytest.approx(5.0)
+    assert result[ACCELERATION][[0, -1]] == pytest.approx(2.0)
 
 
 def test_the_crest_of_a_block_goes_with_its_slip_and_turn():
     case = read_case(BASE)
-    found = rigid(case, SHAKES)
-    h, height = found.histories, case.cut.height
+    response = rigid(case, SHAKES)
+    h, height = response.histories, case.cut.height
     assert h["rotation_rad"].min() < 0.0 < h["slip_m"].max()
     assert h[DISPLACEMENT] == pytest.approx(h["slip_m"] - h["rotation_rad"] * height, abs=1e-12)
-    assert found.crest.residual_displacement_m == pytest.approx(found.residual_slip_m, abs=1e-9)
+    assert response.crest.residual_displacement_m == pytest.approx(response.residual_slip_m, abs=1e-9)
     # While a block slides without turning, its crest has the acceleration of slip and ground.
     inner = np.flatnonzero((h["rotation_rad"] == 0.0) & (np.arange(h["time_s"].size) % 2 == 0))[1:-1]
-    smooth = [k for k in inner if len({found.mode[j] for j in (k - 1, k, k + 1)}) == 1]
+    smooth = [k for k in inner if len({response.mode[j] for j in (k - 1, k, k + 1)}) == 1]
     both = (h["slip_acceleration_m_s2"] + h["ground_acceleration_m_s2"])[smooth]
     assert len(smooth) > 50
     assert np.median(np.abs(h[ACCELERATION][smooth] - both)) < 0.02
@@ -40,9 +40,9 @@ def test_the_crest_of_a_stiff_elastic_dam_that_sticks_shakes_as_the_ground():
     stiff = read_case(BASE, ["concrete.modulus=2000 GPa", "crack.friction=3", "flexible.evidence=none"])
     # One that begins at once would let the dam swing in its own period, too.
     gentle = GroundMotion.from_points(TIME, 0.6 * np.sin(2.0 * np.pi * TIME) * np.sin(np.pi * TIME / TIME[-1]) ** 2)
-    found = flexible(stiff, gentle)
-    assert found.crest.amplification == pytest.approx(1.0, abs=0.02)
-    assert found.crest.displacement_m < 1e-3
+    response = flexible(stiff, gentle)
+    assert response.crest.amplification == pytest.approx(1.0, abs=0.02)
+    assert response.crest.displacement_m < 1e-3
 
 
 def test_the_peak_of_the_crest_does_not_hang_on_where_a_motion_has_its_points():
@@ -51,8 +51,8 @@ def test_the_peak_of_the_crest_does_not_hang_on_where_a_motion_has_its_points():
     case = read_case(BASE, "crack.friction=3")
     coarse = rigid(case, GroundMotion.from_points(corners, values)).crest.displacement_m
     fine = np.unique(np.concatenate([corners, np.arange(0.0, 2.0, 1e-3)]))
-    found = rigid(case, GroundMotion.from_points(fine, np.interp(fine, corners, values)))
-    peak = found.crest.displacement_m
-    at_corners = np.interp(corners, found.histories["time_s"], found.histories[DISPLACEMENT])
+    response = rigid(case, GroundMotion.from_points(fine, np.interp(fine, corners, values)))
+    peak = response.crest.displacement_m
+    at_corners = np.interp(corners, response.histories["time_s"], response.histories[DISPLACEMENT])
     assert peak > 1.2 * np.abs(at_corners).max()
     assert coarse == pytest.approx(peak, rel=2e-3)

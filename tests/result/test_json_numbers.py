@@ -38,7 +38,7 @@ def numberless(found, path=""):
 
 
 def faults(found):
-    return [each for each in numberless(found) if not NONE.fullmatch(each.removesuffix(" is None"))]
+    return [item for item in numberless(found) if not NONE.fullmatch(item.removesuffix(" is None"))]
 
 
 @pytest.mark.parametrize("path", ALL_EXAMPLES, ids=lambda path: f"{path.parent.name}-{path.stem}")
@@ -77,4 +77,4 @@ def test_the_static_checks_leave_out_what_no_acceleration_does():
     data = statics(read_case(HEIGHT, STEEP)).to_json()
     assert "sliding_downstream" not in data["critical_acceleration_g"]
     assert list(data["left_out"]) == ["critical_acceleration_g.sliding_downstream"]
-    assert all(math.isfinite(each) for each in data["critical_acceleration_g"].values())
+    assert all(math.isfinite(item) for item in data["critical_acceleration_g"].values())

@@ -31,9 +31,9 @@ def test_a_crack_that_rocks_is_said_to_rock_whichever_leads(two_cracks):
 def test_the_numbers_of_the_response_are_those_of_the_worst_crack(two_cracks):
     slips = [abs(crack.residual_slip_m) for crack in two_cracks.cracks]
     assert abs(two_cracks.residual_slip_m) == max(slips)
-    told = two_cracks.to_json()
-    assert abs(told["residual_slip_m"]) == max(slips)
-    assert told["governing_crack"] == slips.index(max(slips))
+    answer = two_cracks.to_json()
+    assert abs(answer["residual_slip_m"]) == max(slips)
+    assert answer["governing_crack"] == slips.index(max(slips))
 
 
 def test_a_sign_without_a_result_does_not_hide_what_the_other_does(two_cracks):

@@ -39,11 +39,11 @@ def response() -> Response:
 
 
 def judged(response: Response, limit: str, *, evidence: bool = True):
-    found = with_numbers(response, **NUMBERS)
-    worth = found.evidence.residual_slip_m
-    told = {name: replace(worth, value=value, uncertainty=0.011) for name, value in NUMBERS.items()}
-    found = with_numbers(found, evidence=replace(found.evidence, **told) if evidence else None)
-    return check_limits(Limits(residual_slip=limit, peak_slip="100 mm"), found)
+    result = with_numbers(response, **NUMBERS)
+    worth = result.evidence.residual_slip_m
+    answer = {name: replace(worth, value=value, uncertainty=0.011) for name, value in NUMBERS.items()}
+    result = with_numbers(result, evidence=replace(result.evidence, **answer) if evidence else None)
+    return check_limits(Limits(residual_slip=limit, peak_slip="100 mm"), result)
 
 
 @pytest.mark.parametrize(
@@ -76,10 +76,10 @@ def test_a_limit_within_the_uncertainty_is_not_met_or_missed_for_certain(respons
     slip, peak = judged(response, limit)
     assert (slip.met, slip.certain) == (met, certain)
     assert (peak.value, peak.met, peak.certain) == (0.070, True, True)
-    found = replace(response, limits=(slip, peak))
-    assert verdict(found).endswith(words)
-    (said, _) = found.to_json()["limits"]
-    assert (said["met"], said["certain"], said["uncertainty"]) == (met, certain, 0.011)
+    result = replace(response, limits=(slip, peak))
+    assert verdict(result).endswith(words)
+    (message, _) = result.to_json()["limits"]
+    assert (message["met"], message["certain"], message["uncertainty"]) == (met, certain, 0.011)
 
 
 def test_without_evidence_nothing_is_said_of_certainty(response):
@@ -90,21 +90,21 @@ def test_without_evidence_nothing_is_said_of_certainty(response):
 def test_where_single_runs_scatter_the_mean_is_judged():
     time = np.linspace(0.0, 2.0, 201)
     motion = GroundMotion.from_points(time, 5.0 * np.sin(2.0 * np.pi * 2.0 * time))
-    found = flexible(read_case(SCATTERS), motion)
-    worth = found.evidence["residual_slip_m"]
-    assert found.evidence["value_is"] == "mean"
-    (check,) = found.limits
+    result = flexible(read_case(SCATTERS), motion)
+    worth = result.evidence["residual_slip_m"]
+    assert result.evidence["value_is"] == "mean"
+    (check,) = result.limits
     assert check.value == abs(worth["value"]) != abs(worth["run"])
     assert check.uncertainty == worth["uncertainty"] > 0.0
 
 
 def test_rotation_and_crest_have_limits_with_units_and_utilisation():
     limits = {"rotation": "0.05 mrad", "crest_displacement": "1 m", "crest_acceleration": "0.2 g"}
-    found = flexible(read_case({**tomllib.loads(BASE.read_text()), "limits": limits}, FAST[:-1]))
-    turn, far, hard = found.limits
-    assert [check.unit for check in found.limits] == ["rad", "m", "g"]
-    assert turn.value == max(found.rocking_downstream_rad, found.rocking_upstream_rad)
-    assert (far.value, hard.value) == (found.crest.displacement_m, found.crest.acceleration_g)
+    result = flexible(read_case({**tomllib.loads(BASE.read_text()), "limits": limits}, FAST[:-1]))
+    turn, far, hard = result.limits
+    assert [check.unit for check in result.limits] == ["rad", "m", "g"]
+    assert turn.value == max(result.rocking_downstream_rad, result.rocking_upstream_rad)
+    assert (far.value, hard.value) == (result.crest.displacement_m, result.crest.acceleration_g)
     assert hard.utilisation == pytest.approx(hard.value / 0.2)
     assert (hard.met, far.met) == (False, True)
-    assert "its crest acceleration of" in verdict(found)
+    assert "its crest acceleration of" in verdict(result)

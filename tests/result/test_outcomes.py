@@ -74,8 +74,8 @@ def test_rotations_beyond_the_elastic_model(typical_elastic, rotation, outcome):
     numbers = {"rotation_max": 0.0, "rotation_min": -rotation}
     raw = SimpleNamespace(by_name=lambda: numbers)
     run = SimpleNamespace(summary=raw, summaries=(raw,), outcome="ok")
-    found, advice = judge_outcome(typical_elastic.crack.dam, block, run)
-    assert found == outcome
+    result, advice = judge_outcome(typical_elastic.crack.dam, block, run)
+    assert result == outcome
     assert (advice is None) == (outcome == "ok")
     assert advice is None or "no setting of it has a result here" in str(advice)
 

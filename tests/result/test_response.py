@@ -103,9 +103,9 @@ def test_exports_agree(rocking, tmp_path):
 
 
 def test_references_are_those_of_the_options_used(rocking):
-    assert any("Westergaard" in each for each in rocking.citation())
+    assert any("Westergaard" in item for item in rocking.citation())
     dry = rigid(read_case(BLOCK))
-    assert not any("Westergaard" in each for each in dry.citation())
+    assert not any("Westergaard" in item for item in dry.citation())
 
 
 def test_gravity_of_the_case_scales_the_slip():
@@ -124,7 +124,7 @@ def test_a_reversed_record_on_a_symmetric_block_mirrors_the_result():
 def test_still_moving_in_the_end_is_a_warning():
     response = rigid(read_case(BASE, ["motion.duration=2.1s", ENDS]))
     assert response.final_mode == "slide downstream"
-    assert any("still moves when the ground motion ends" in each for each in map(str, response.warnings))
+    assert any("still moves when the ground motion ends" in item for item in map(str, response.warnings))
     assert "still moves" in verdict(response)
 
 
@@ -193,8 +193,8 @@ def test_a_block_that_leaves_its_place_is_a_warning(friction, words):
     )
     response = rigid(case)
     starts = ("the block slides", "the part above the crack slides")
-    said = [text for text in map(str, response.warnings) if text.startswith(starts)]
-    assert (words is None and not said) or words in said[0]
+    message = [text for text in map(str, response.warnings) if text.startswith(starts)]
+    assert (words is None and not message) or words in message[0]
     # To 10 % of the width nothing is said.
     assert (response.peak_slip_downstream_m <= 0.1) == (words is None)
 

@@ -59,7 +59,7 @@ def results():
     height = read_case(HEIGHT, FAST)
     law = {"name": "slip weakening", "peak_friction": 0.9, "residual_friction": 0.6, "slip": "20 mm"}
     full = read_case(KOYNA, [*FAST, "concrete.tensile_strength=1MPa", "motion.duration=1s"])
-    found = {
+    result = {
         "block": rigid(example("block")),
         "both": run(full.with_("flexible.evidence=step"), "both"),
         "cracks": run(example("two-cracks", *FAST, "limits.residual_slip=1mm"), "flexible"),
@@ -71,7 +71,7 @@ def results():
         "spread": with_spread(run(height, "rigid"), height, 2),
         "unstable": rigid(example("typical-base", "crack.friction=0.2")),
     }
-    return {name: json.loads(json_text(response.to_json())) for name, response in found.items()}
+    return {name: json.loads(json_text(response.to_json())) for name, response in result.items()}
 
 
 def test_every_kind_of_result_is_as_the_schema_says(results):

@@ -43,28 +43,28 @@ def capacities(seed, events, dams, record=RECORD, other=OTHER):
 
 
 def test_a_known_curve_and_its_parts_come_out():
-    found = curve("residual_slip", 0.01, "pga", *capacities(12, 300, 20), **OPTIONS)
-    assert found.median == pytest.approx(MEDIAN, rel=0.04)
-    assert found.dispersion == pytest.approx(np.hypot(RECORD, OTHER), rel=0.05)
-    assert found.record == pytest.approx(RECORD, rel=0.08)
-    assert found.other == pytest.approx(OTHER, rel=0.05)
-    assert found.median_interval[0] < MEDIAN < found.median_interval[1]
-    assert found.reached
-    assert found.probability(np.array([found.median])) == pytest.approx(0.5)
+    fragility_curve = curve("residual_slip", 0.01, "pga", *capacities(12, 300, 20), **OPTIONS)
+    assert fragility_curve.median == pytest.approx(MEDIAN, rel=0.04)
+    assert fragility_curve.dispersion == pytest.approx(np.hypot(RECORD, OTHER), rel=0.05)
+    assert fragility_curve.record == pytest.approx(RECORD, rel=0.08)
+    assert fragility_curve.other == pytest.approx(OTHER, rel=0.05)
+    assert fragility_curve.median_interval[0] < MEDIAN < fragility_curve.median_interval[1]
+    assert fragility_curve.reached
+    assert fragility_curve.probability(np.array([fragility_curve.median])) == pytest.approx(0.5)
 
 
 def test_what_does_not_vary_within_an_event_is_of_the_records():
-    found = curve("residual_slip", 0.01, "pga", *capacities(2, 60, 4, other=0.0), **OPTIONS)
-    assert found.other == 0.0
-    assert found.record == found.dispersion
+    fragility_curve = curve("residual_slip", 0.01, "pga", *capacities(2, 60, 4, other=0.0), **OPTIONS)
+    assert fragility_curve.other == 0.0
+    assert fragility_curve.record == fragility_curve.dispersion
 
 
 def test_one_event_has_no_interval():
     strength, exceeds, event = capacities(3, 1, 50)
-    found = curve("residual_slip", 0.01, "pga", strength, exceeds, event, **OPTIONS)
-    assert found.median is not None
-    assert found.median_interval is None
-    assert found.record is None
+    fragility_curve = curve("residual_slip", 0.01, "pga", strength, exceeds, event, **OPTIONS)
+    assert fragility_curve.median is not None
+    assert fragility_curve.median_interval is None
+    assert fragility_curve.record is None
 
 
 def test_the_fit_is_that_of_greatest_likelihood():
@@ -89,10 +89,10 @@ def test_many_strengths_are_put_together_without_moving_the_curve():
     together = witnesses(strength, exceeds, event)
     assert together.runs.size < 0.6 * strength.size
     assert together.runs.sum() == strength.size
-    found = np.exp(fit(together, np.ones((1, together.runs.size)))[0, 0])
+    result = np.exp(fit(together, np.ones((1, together.runs.size)))[0, 0])
     # One event, none of it put together, in pieces that are few enough.
     alone = [fit(witnesses(strength[i::4], exceeds[i::4], event[i::4]), np.ones((1, 15_000)))[0, 0] for i in range(4)]
-    assert found == pytest.approx(np.exp(np.mean(alone)), rel=2e-3)
+    assert result == pytest.approx(np.exp(np.mean(alone)), rel=2e-3)
     assert within(together, 0.5) == pytest.approx(0.4, rel=0.05)
 
 
@@ -125,25 +125,25 @@ def test_no_curve_where_none_can_be():
 def test_a_median_beyond_the_motions_is_said():
     strength, exceeds, event = capacities(7, 40, 5)
     weak = strength < 0.35
-    found = curve("residual_slip", 0.01, "pga", strength[weak], exceeds[weak], event[weak], **OPTIONS)
-    assert not found.reached
+    fragility_curve = curve("residual_slip", 0.01, "pga", strength[weak], exceeds[weak], event[weak], **OPTIONS)
+    assert not fragility_curve.reached
 
 
 def test_failures_exceed_every_limit_and_what_is_not_known_is_counted():
     table = {"residual_slip_m": np.array([0.02, -0.02, 0.0, np.nan, np.nan, np.nan])}
     outcome = np.array(["ok", "ok", "ok", "overturned", "unstable", "cycling"])
-    found = exceeding(table, outcome, "residual_slip", 0.01)
-    assert found.tolist()[:5] == [1.0, 1.0, 0.0, 1.0, 1.0]
-    assert np.isnan(found[5])
+    result = exceeding(table, outcome, "residual_slip", 0.01)
+    assert result.tolist()[:5] == [1.0, 1.0, 0.0, 1.0, 1.0]
+    assert np.isnan(result[5])
 
 
 def test_a_band_counts_what_is_not_known_as_the_worst():
     one = np.zeros(20, dtype=np.int64)
-    (found,) = bands(lambda: [(one, np.repeat([1.0, 2.0], 10), np.array([*np.arange(1.0, 10.0), np.nan] * 2))])
-    assert found["strength"] == pytest.approx([1.0, 2.0])
-    assert found["runs"] == [10, 10]
-    assert found["median"] == [5.0, 5.0]
-    assert found["high"] == [9.0, 9.0]
+    (result,) = bands(lambda: [(one, np.repeat([1.0, 2.0], 10), np.array([*np.arange(1.0, 10.0), np.nan] * 2))])
+    assert result["strength"] == pytest.approx([1.0, 2.0])
+    assert result["runs"] == [10, 10]
+    assert result["median"] == [5.0, 5.0]
+    assert result["high"] == [9.0, 9.0]
     many, strength = np.zeros(1200, dtype=np.int64), np.linspace(1.0, 2.0, 1200)
     (drawn,) = bands(lambda: [(many, strength, strength**2)])
     assert len(drawn["runs"]) == 12
@@ -157,10 +157,10 @@ def test_intervals_hold_about_as_often_as_they_say(events):
     # Of 100 trials chance makes three more or fewer: there are as many as tell 85 and 95 of 100 from 90.
     held, trials = np.zeros(2), 500
     for seed in range(trials):
-        found = curve("residual_slip", 0.01, "pga", *capacities([events, seed], events, 8), **OPTIONS)
+        fragility_curve = curve("residual_slip", 0.01, "pga", *capacities([events, seed], events, 8), **OPTIONS)
         held += [
-            found.median_interval[0] <= MEDIAN <= found.median_interval[1],
-            found.dispersion_interval[0] <= np.hypot(RECORD, OTHER) <= found.dispersion_interval[1],
+            fragility_curve.median_interval[0] <= MEDIAN <= fragility_curve.median_interval[1],
+            fragility_curve.dispersion_interval[0] <= np.hypot(RECORD, OTHER) <= fragility_curve.dispersion_interval[1],
         ]
     # Neither too narrow nor too wide.
     assert (held >= 0.85 * trials).all(), held
@@ -169,21 +169,23 @@ def test_intervals_hold_about_as_often_as_they_say(events):
 
 def test_the_command_says_what_the_study_found(tmp_path):
     file = study_file(tmp_path, DRAWN)
-    said = command("study", file, "--out", tmp_path / "out", "--json", tmp_path / "study.json", "--details", columns=80)
-    assert said.returncode == 0, said.stderr
-    assert "60 runs (60 dams; of 10 motions, one each)" in said.stderr
+    process = command(
+        "study", file, "--out", tmp_path / "out", "--json", tmp_path / "study.json", "--details", columns=80
+    )
+    assert process.returncode == 0, process.stderr
+    assert "60 runs (60 dams; of 10 motions, one each)" in process.stderr
     for text in ("A block (study)", "residual slip: half stay below", "exceed", "median", "rotation 0.01 rad"):
-        assert text in " ".join(said.stdout.split())
-    assert max(len(line) for line in said.stdout.splitlines() if "wrote" not in line) <= 80
+        assert text in " ".join(process.stdout.split())
+    assert max(len(line) for line in process.stdout.splitlines() if "wrote" not in line) <= 80
     assert (tmp_path / "study.json").read_text().count('"limit"') == 3
-    assert "all runs are of rigid blocks" in " ".join(said.stdout.split())
+    assert "all runs are of rigid blocks" in " ".join(process.stdout.split())
     assert "all runs are of rigid blocks" in (tmp_path / "study.json").read_text()
 
 
 def test_a_dry_run_says_what_there_would_be(tmp_path):
-    said = command("study", study_file(tmp_path, GRID), "--dry-run", "--out", tmp_path / "out")
-    assert said.returncode == 0
-    assert "60 runs (6 dams x 5 motions x 2 strengths)" in said.stderr
+    process = command("study", study_file(tmp_path, GRID), "--dry-run", "--out", tmp_path / "out")
+    assert process.returncode == 0
+    assert "60 runs (6 dams x 5 motions x 2 strengths)" in process.stderr
     assert not (tmp_path / "out").exists()
 
 
@@ -192,36 +194,36 @@ def test_an_interrupted_command_says_how_to_go_on(tmp_path, monkeypatch):
         raise KeyboardInterrupt
 
     monkeypatch.setattr("heeltoe.study.run.run._run", stop)
-    said = command("study", study_file(tmp_path, GRID), "--out", tmp_path / "out")
-    assert said.returncode == 130
-    assert f"--out {tmp_path / 'out'} --resume" in said.stderr
+    process = command("study", study_file(tmp_path, GRID), "--out", tmp_path / "out")
+    assert process.returncode == 130
+    assert f"--out {tmp_path / 'out'} --resume" in process.stderr
 
 
 def test_the_tables_of_an_opened_study(tmp_path):
-    found = run_study(study_file(tmp_path, GRID), tmp_path / "out")
-    frame = found.to_pandas()
+    study = run_study(study_file(tmp_path, GRID), tmp_path / "out")
+    frame = study.to_pandas()
     assert len(frame) == 60
-    count, most = found.duckdb().execute("select count(*), max(abs(residual_slip_m)) from runs").fetchone()
+    count, most = study.duckdb().execute("select count(*), max(abs(residual_slip_m)) from runs").fetchone()
     assert count == 60
     assert most == frame["residual_slip_m"].abs().max()
-    cube = found.to_xarray()
+    cube = study.to_xarray()
     assert dict(cube.sizes) == {"crack.friction": 2, "crack.restitution": 3, "motion": 5, "strength": 2}
     one = frame.iloc[37]
     place = {name: one[name] for name in ("crack.friction", "crack.restitution", "motion")}
     there = cube["residual_slip_m"].sel(place).isel(strength=37 % 2)
     assert float(there) == one["residual_slip_m"]
-    assert found.dataset.count_rows() == 60
+    assert study.dataset.count_rows() == 60
     # All motions are scaled to these.
-    assert found.strength("pga") == pytest.approx(np.tile([0.3 * 9.80665, 0.9 * 9.80665], 30))
-    assert found.strength("arias")[1] == pytest.approx(9.0 * found.strength("arias")[0])
+    assert study.strength("pga") == pytest.approx(np.tile([0.3 * 9.80665, 0.9 * 9.80665], 30))
+    assert study.strength("arias")[1] == pytest.approx(9.0 * study.strength("arias")[0])
     with pytest.raises(InputError) as refused:
-        found.strength("magnitude")
+        study.strength("magnitude")
     assert refused.value.code == "study-measure"
     with pytest.raises(InputError) as refused:
-        _ = found.fragility
+        _ = study.fragility
     assert refused.value.code == "study-no-fragility"
-    assert found.bands()["rigid"]["runs"] == [30, 30]
-    assert found.summary[0]["outcomes"] == {"ok": 60}
+    assert study.bands()["rigid"]["runs"] == [30, 30]
+    assert study.summary[0]["outcomes"] == {"ok": 60}
     drawn = run_study(study_file(tmp_path, DRAWN, "drawn.toml"), tmp_path / "drawn")
     with pytest.raises(InputError) as refused:
         drawn.to_xarray()
@@ -229,8 +231,8 @@ def test_the_tables_of_an_opened_study(tmp_path):
 
 
 def test_what_is_not_installed_is_said(tmp_path, monkeypatch):
-    found = run_study(study_file(tmp_path, GRID), tmp_path / "out")
-    for package, call in (("duckdb", found.duckdb), ("xarray", found.to_xarray), ("pandas", found.to_pandas)):
+    study = run_study(study_file(tmp_path, GRID), tmp_path / "out")
+    for package, call in (("duckdb", study.duckdb), ("xarray", study.to_xarray), ("pandas", study.to_pandas)):
         with monkeypatch.context() as patch:
             patch.setitem(__import__("sys").modules, package, None)
             with pytest.raises(InputError, match="pip install"):
@@ -238,5 +240,5 @@ def test_what_is_not_installed_is_said(tmp_path, monkeypatch):
 
 
 def test_what_a_field_that_varies_makes_suspicious_is_said(tmp_path):
-    found = run_study(study_file(tmp_path, GRID.replace("[0.3, 0.5]", "[0.5, 3.0]")), tmp_path / "out")
-    assert any("friction of 3 is higher" in text for text in found.told["warnings"])
+    study = run_study(study_file(tmp_path, GRID.replace("[0.3, 0.5]", "[0.5, 3.0]")), tmp_path / "out")
+    assert any("friction of 3 is higher" in text for text in study.told["warnings"])

@@ -50,13 +50,13 @@ def power_law(k0, k, strengths):
 @pytest.mark.parametrize(("k0", "k", "median", "dispersion"), [(1e-4, 2.0, 3.0, 0.4), (2e-3, 3.3, 0.7, 0.25)])
 @pytest.mark.parametrize("strengths", [(0.5, 5.0), (1.0, 2.0, 2.5, 9.0)])
 def test_a_power_law_has_its_closed_form(k0, k, median, dispersion, strengths):
-    told = annual(curve(median, dispersion), power_law(k0, k, strengths))
+    rates = annual(curve(median, dispersion), power_law(k0, k, strengths))
     rate = k0 * median**-k * math.exp(k**2 * dispersion**2 / 2.0)
-    assert told["annual_rate"] == pytest.approx(rate, rel=1e-12)
-    assert told["annual_probability"] == pytest.approx(1.0 - math.exp(-rate), rel=1e-9)
-    assert told["return_period_years"] == pytest.approx(1.0 / rate)
-    shares = sum(part["share"] for part in told["contribution"])
-    assert shares + told["extrapolated"] == pytest.approx(1.0, rel=1e-12)
+    assert rates["annual_rate"] == pytest.approx(rate, rel=1e-12)
+    assert rates["annual_probability"] == pytest.approx(1.0 - math.exp(-rate), rel=1e-9)
+    assert rates["return_period_years"] == pytest.approx(1.0 / rate)
+    shares = sum(part["share"] for part in rates["contribution"])
+    assert shares + rates["extrapolated"] == pytest.approx(1.0, rel=1e-12)
     ends = [math.log(strengths[0]), math.log(strengths[-1])]
     made = quad(lambda u: norm.cdf((u - math.log(median)) / dispersion) * k * k0 * math.exp(-k * u), *ends)[0]
     assert shares == pytest.approx(made / rate, rel=1e-7)
@@ -65,7 +65,7 @@ def test_a_power_law_has_its_closed_form(k0, k, median, dispersion, strengths):
 def test_a_hazard_of_several_slopes_is_its_plain_integral():
     strength, rate = np.array([0.3, 0.8, 2.0, 6.0]), np.array([0.1, 0.02, 0.001, 0.00002])
     fragility = curve(1.4, 0.5)
-    told = annual(fragility, {"strength": strength.tolist(), "annual_rate": rate.tolist()})
+    rates = annual(fragility, {"strength": strength.tolist(), "annual_rate": rate.tolist()})
     slopes = -np.diff(np.log(rate)) / np.diff(np.log(strength))
     total = 0.0
     bounds = [math.log(1e-4), *np.log(strength[1:-1]), math.log(1e4)]
@@ -73,34 +73,34 @@ def test_a_hazard_of_several_slopes_is_its_plain_integral():
         total += quad(
             lambda u, k=k, x=x, h=h: norm.cdf((u - math.log(1.4)) / 0.5) * k * h * (math.exp(u) / x) ** -k, low, high
         )[0]
-    assert told["annual_rate"] == pytest.approx(total, rel=1e-7)
-    assert [row["probability"] for row in told["at"]] == pytest.approx(fragility.probability(strength).tolist())
+    assert rates["annual_rate"] == pytest.approx(total, rel=1e-7)
+    assert [row["probability"] for row in rates["at"]] == pytest.approx(fragility.probability(strength).tolist())
 
 
 def test_the_interval_of_a_power_law_is_that_of_its_exponent():
     k, dispersion, deviation = 2.5, 0.3, 0.1
-    told = annual(curve(2.0, dispersion, (deviation**2, 0.0, 0.0)), power_law(1e-3, k, (0.5, 8.0)))
+    rates = annual(curve(2.0, dispersion, (deviation**2, 0.0, 0.0)), power_law(1e-3, k, (0.5, 8.0)))
     from scipy.stats import t
 
     reach = t.ppf(0.95, 9) * k * deviation
-    low, high = told["annual_rate_interval"]
+    low, high = rates["annual_rate_interval"]
     assert math.log(high / low) / 2.0 == pytest.approx(reach, rel=1e-6)
     # An uncertain dispersion counts by k^2 dispersion^2.
-    told = annual(curve(2.0, dispersion, (0.0, 0.0, deviation**2)), power_law(1e-3, k, (0.5, 8.0)))
-    low, high = told["annual_rate_interval"]
+    rates = annual(curve(2.0, dispersion, (0.0, 0.0, deviation**2)), power_law(1e-3, k, (0.5, 8.0)))
+    low, high = rates["annual_rate_interval"]
     assert math.log(high / low) / 2.0 == pytest.approx(t.ppf(0.95, 9) * (k * dispersion) ** 2 * deviation, rel=1e-3)
 
 
 def test_the_fractiles_of_a_power_law_lie_as_those_of_its_median():
     k, deviation = 2.5, 0.1
-    told = annual(curve(2.0, 0.3, (deviation**2, 0.0, 0.0)), power_law(1e-3, k, (0.5, 8.0)))
-    fractiles = told["annual_probability_fractiles"]
-    assert fractiles["50%"] == pytest.approx(told["annual_probability"], rel=1e-12)
+    answer = annual(curve(2.0, 0.3, (deviation**2, 0.0, 0.0)), power_law(1e-3, k, (0.5, 8.0)))
+    fractiles = answer["annual_probability_fractiles"]
+    assert fractiles["50%"] == pytest.approx(answer["annual_probability"], rel=1e-12)
     from scipy.stats import t
 
     rates = [-math.log1p(-fractiles[name]) for name in ("5%", "16%", "84%", "95%")]
     expected = [k * deviation * t.ppf(share, 9) for share in (0.05, 0.16, 0.84, 0.95)]
-    assert [math.log(rate / told["annual_rate"]) for rate in rates] == pytest.approx(expected, rel=1e-6)
+    assert [math.log(rate / answer["annual_rate"]) for rate in rates] == pytest.approx(expected, rel=1e-6)
     assert annual(curve(2.0, 0.3), power_law(1e-3, k, (0.5, 8.0)))["annual_probability_fractiles"] is None
 
 
@@ -115,15 +115,15 @@ def test_a_strength_that_is_asked_of_has_its_probability_and_its_rate():
 
 def test_a_study_with_a_hazard_says_how_often_a_year(tmp_path):
     file = study_file(tmp_path, STUDY.format(hazard=INLINE), case=BLOCK)
-    found = heeltoe.run_study(file, tmp_path / "out")
-    assert [row["value"] for row in found.hazard] == [0.02, 0.1]
-    assert [point["strength"] / 9.80665 for point in found.hazard[0]["at"]] == pytest.approx([0.1, 0.3, 0.5, 1.0, 2.0])
-    weak, strong = found.hazard
+    study = heeltoe.run_study(file, tmp_path / "out")
+    assert [row["value"] for row in study.hazard] == [0.02, 0.1]
+    assert [point["strength"] / 9.80665 for point in study.hazard[0]["at"]] == pytest.approx([0.1, 0.3, 0.5, 1.0, 2.0])
+    weak, strong = study.hazard
     assert weak["annual_rate"] > strong["annual_rate"] > 0.0
-    by_hand = annual(found.curves[0][1], found.told["hazard"])
+    by_hand = annual(study.curves[0][1], study.told["hazard"])
     assert weak["annual_rate"] == by_hand["annual_rate"]
-    assert found.told["hazard"]["strength"][1] == pytest.approx(0.5 * found.told["hazard"]["strength"][2])
-    assert json.loads(json.dumps(found.to_json(), allow_nan=False))
+    assert study.told["hazard"]["strength"][1] == pytest.approx(0.5 * study.told["hazard"]["strength"][2])
+    assert json.loads(json.dumps(study.to_json(), allow_nan=False))
     # Another hazard is another question to the same runs.
     (tmp_path / "hazard.csv").write_text("pga [g], annual rate\n0.1, 0.04\n0.5, 0.004\n1, 0.0006\n2, 0.00008\n")
     file.write_text(STUDY.format(hazard='file = "hazard.csv"'))
@@ -133,18 +133,18 @@ def test_a_study_with_a_hazard_says_how_often_a_year(tmp_path):
 
 def test_the_command_says_it_and_draws_it(tmp_path):
     study_file(tmp_path, STUDY.format(hazard=INLINE), case=BLOCK)
-    said = command("study", "study.toml", "--out", "out", "--report", cwd=tmp_path)
-    assert said.returncode == 0, said.stderr
-    assert "With the hazard of the site a residual slip of 20.0 mm is exceeded with" in " ".join(said.stdout.split())
+    process = command("study", "study.toml", "--out", "out", "--report", cwd=tmp_path)
+    assert process.returncode == 0, process.stderr
+    assert "With the hazard of the site a residual slip of 20.0 mm is exceeded with" in " ".join(process.stdout.split())
     assert (tmp_path / "out/figures/hazard.png").is_file()
     assert "Annual probability" in (tmp_path / "out/report.html").read_text()
 
 
 def test_a_limit_without_a_curve_has_no_rate(tmp_path):
     text = STUDY.format(hazard=INLINE).replace('"100 mm"', '"100 m"')
-    found = heeltoe.run_study(study_file(tmp_path, text, case=BLOCK), tmp_path / "out")
-    assert found.hazard[1]["annual_rate"] is None
-    assert found.hazard[1]["why"] == "no run exceeds it"
+    study = heeltoe.run_study(study_file(tmp_path, text, case=BLOCK), tmp_path / "out")
+    assert study.hazard[1]["annual_rate"] is None
+    assert study.hazard[1]["why"] == "no run exceeds it"
 
 
 @pytest.mark.parametrize(

@@ -33,14 +33,14 @@ def test_they_are_those_of_numpy(kind, between):
     values, group = numbers(kind, random), random.integers(0, 4, 5000)
     group[group == 2] = 3
     pieces = np.array_split(np.arange(5000), 11)
-    found = quantiles(lambda: ((group[each], values[each]) for each in pieces), 5, SHARES, between=between)
+    result = quantiles(lambda: ((group[piece], values[piece]) for piece in pieces), 5, SHARES, between=between)
     for place in range(5):
         here = values[group == place]
         if not here.size:
-            assert np.isnan(found[place]).all()
+            assert np.isnan(result[place]).all()
             continue
         method = "linear" if between else "inverted_cdf"
-        assert found[place].tolist() == np.quantile(here, SHARES, method=method).tolist()
+        assert result[place].tolist() == np.quantile(here, SHARES, method=method).tolist()
 
 
 def test_what_is_infinite_is_the_largest():

@@ -22,8 +22,8 @@ def test_the_branch_without_impact_and_the_safe_gap_below_it():
     # Frequency of w/p = 5 and least amplitude 7.16813 alpha g, alpha = B / H = 1/4, p by the linearised block.
     rate = np.sqrt(9.81 * 2.0 / (17.0 / 12.0 + 4.25))
     amplitudes = 0.25 * np.array([2.0, 4.0, 6.0, 7.0, 7.15, 7.19, 8.0])
-    found = overturning_map(case, frequencies_hz=np.array([5.0 * rate / (2.0 * np.pi)]), amplitudes_g=amplitudes)
-    assert [ENDS[k] for k in found.end[0]] == [
+    overturning = overturning_map(case, frequencies_hz=np.array([5.0 * rate / (2.0 * np.pi)]), amplitudes_g=amplitudes)
+    assert [ENDS[k] for k in overturning.end[0]] == [
         "rocks and stands",
         "overturns after an impact",
         "overturns after an impact",
@@ -32,23 +32,23 @@ def test_the_branch_without_impact_and_the_safe_gap_below_it():
         "overturns without impact",
         "overturns without impact",
     ]
-    ((_, low, high),) = found.safe_gap()
+    ((_, low, high),) = overturning.safe_gap()
     assert (low, high) == (pytest.approx(1.75), pytest.approx(1.7875))
-    assert found.least_g() == [1.0]
+    assert overturning.least_g() == [1.0]
 
 
 def test_small_rotations_are_taken_as_finite():
-    found = overturning_map(read_case(SLENDER), "half-sine", count=6)
+    overturning = overturning_map(read_case(SLENDER), "half-sine", count=6)
     again = overturning_map(read_case(SLENDER | {"analysis": {"rotation": "finite"}}), "half-sine", count=6)
-    assert (found.end == again.end).all()
-    assert (found.end >= 2).any()
+    assert (overturning.end == again.end).all()
+    assert (overturning.end >= 2).any()
 
 
 def test_weak_pulses_do_nothing():
-    found = overturning_map(read_case(SLENDER), "cosine", count=3, amplitudes_g=np.array([0.1, 0.2]))
-    assert (found.end == 0).all()
-    assert found.least_g() == [None, None, None]
-    assert found.safe_gap() == []
+    overturning = overturning_map(read_case(SLENDER), "cosine", count=3, amplitudes_g=np.array([0.1, 0.2]))
+    assert (overturning.end == 0).all()
+    assert overturning.least_g() == [None, None, None]
+    assert overturning.safe_gap() == []
 
 
 @pytest.mark.parametrize(

@@ -83,9 +83,9 @@ def test_a_row_is_the_single_run_of_its_dam(tmp_path, model):
 
 
 def test_dams_are_ranked_by_probability_and_slip(tmp_path):
-    found = heeltoe.run_study(study(tmp_path), tmp_path / "out")
-    (answer,) = found.portfolio
-    table = found.to_pandas()
+    result = heeltoe.run_study(study(tmp_path), tmp_path / "out")
+    (answer,) = result.portfolio
+    table = result.to_pandas()
     slips = table.assign(slip=table.residual_slip_m.abs(), strength=table.run % 2)
     worse = slips.groupby(["sample", "motion", "strength"], observed=True).slip.max()
     for dam in answer["dams"]:
@@ -99,38 +99,38 @@ def test_dams_are_ranked_by_probability_and_slip(tmp_path):
     assert keys == sorted(keys, reverse=True)
     assert keys[0] > keys[-1]
     assert [dam["rank"] for dam in answer["dams"]] == [1, 2, 3]
-    assert found.portfolio_table().num_rows == 3
-    assert not any("above the crest" in text for text in found.told["warnings"])
+    assert result.portfolio_table().num_rows == 3
+    assert not any("above the crest" in text for text in result.told["warnings"])
 
 
 def test_a_dam_that_fails_comes_first_and_warnings_name_their_dam(tmp_path):
     table = "name, crack.friction, reservoir.depth [m]\nGood, 1.2, 36\nBad, 0.2, 41\n"
-    found = heeltoe.run_study(study(tmp_path, table), tmp_path / "out")
-    first, second = found.portfolio[0]["dams"]
+    answer = heeltoe.run_study(study(tmp_path, table), tmp_path / "out")
+    first, second = answer.portfolio[0]["dams"]
     assert (first["name"], first["exceeds"], first["residual_slip_m"]["mean"]) == ("Bad", [1.0], None)
     assert second["residual_slip_m"]["mean"] is not None
-    assert json.loads(json.dumps(found.to_json(), allow_nan=False))
-    assert any(text.startswith("Bad: reservoir.depth") for text in found.told["warnings"])
+    assert json.loads(json.dumps(answer.to_json(), allow_nan=False))
+    assert any(text.startswith("Bad: reservoir.depth") for text in answer.told["warnings"])
     with pytest.raises(InputError) as error:
-        found.to_xarray()
+        answer.to_xarray()
     assert error.value.code == "study-no-grid"
 
 
 def test_the_command_prints_the_ranks_and_writes_them(tmp_path):
     study(tmp_path)
-    said = command("study", "study.toml", "--out", "out", "--report", cwd=tmp_path)
-    assert said.returncode == 0, said.stderr
-    assert said.stdout.index("Lower") < said.stdout.index("Side")
+    process = command("study", "study.toml", "--out", "out", "--report", cwd=tmp_path)
+    assert process.returncode == 0, process.stderr
+    assert process.stdout.index("Lower") < process.stdout.index("Side")
     for name in ("portfolio.csv", "report.pdf", "figures/ranks.png"):
         assert (tmp_path / "out" / name).is_file()
     assert "The portfolio" in (tmp_path / "out/report.html").read_text()
 
 
 def test_a_study_without_a_table_has_no_ranks(tmp_path):
-    found = heeltoe.run_study(study_file(tmp_path, 'case = "case.toml"\n', case=DAM), tmp_path / "out")
-    assert found.portfolio is None
+    answer = heeltoe.run_study(study_file(tmp_path, 'case = "case.toml"\n', case=DAM), tmp_path / "out")
+    assert answer.portfolio is None
     with pytest.raises(InputError) as error:
-        found.portfolio_table()
+        answer.portfolio_table()
     assert error.value.code == "study-no-dams"
 
 

@@ -213,15 +213,15 @@ def test_a_row_whose_bounces_amplify_the_last_digit_is_counted(tmp_path, name, c
     study = read_study(study_file(tmp_path, f'case = "case.toml"\nmodel = "rigid"\n{more}', case=text))
     plan = plan_of(study)
     ran = run_part(plan, 0, plan.count).to_pylist()
-    found = [
+    result = [
         any(notice.code == "not-determined" for notice in MODELS["rigid"](one, earthquake(one), None).warnings)
         for one in (plan.case.with_({"crack.restitution": row["crack.restitution"]}) for row in ran)
     ]
-    assert [row["undetermined"] for row in ran] == found
-    assert any(found)
-    assert name == "two-cracks" or not all(found)
+    assert [row["undetermined"] for row in ran] == result
+    assert any(result)
+    assert name == "two-cracks" or not all(result)
     run_study(study, tmp_path / "out")
-    assert open_study(tmp_path / "out").summary[0]["undetermined"] == sum(found)
+    assert open_study(tmp_path / "out").summary[0]["undetermined"] == sum(result)
 
 
 @pytest.mark.parametrize("model", DAMS)

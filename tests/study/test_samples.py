@@ -30,17 +30,17 @@ def shares(found, count):
 
 
 def test_a_latin_hypercube_has_one_dam_in_each_stretch():
-    found = shares(Samples(axes(), "latin hypercube", 50, 3, more=1), 50)
-    assert (np.sort((found * 50).astype(int), axis=0) == np.arange(50)[:, None]).all()
+    fractions = shares(Samples(axes(), "latin hypercube", 50, 3, more=1), 50)
+    assert (np.sort((fractions * 50).astype(int), axis=0) == np.arange(50)[:, None]).all()
 
 
 def test_a_hypercube_of_several_pieces_is_one_in_each(monkeypatch):
     monkeypatch.setattr(module, "BLOCK", 16)
-    found = shares(Samples(axes(), "latin hypercube", 48, 3), 48)
+    fractions = shares(Samples(axes(), "latin hypercube", 48, 3), 48)
     for start in (0, 16, 32):
-        piece = found[start : start + 16]
+        piece = fractions[start : start + 16]
         assert (np.sort((piece * 16).astype(int), axis=0) == np.arange(16)[:, None]).all()
-    assert not (found[:16] == found[16:32]).any()
+    assert not (fractions[:16] == fractions[16:32]).any()
 
 
 @pytest.mark.parametrize("method", ["latin hypercube", "sobol", "sensitivity"])
@@ -51,8 +51,8 @@ def test_a_dam_is_the_same_whatever_was_drawn_before(method, monkeypatch):
     whole = shares(one, count)
     for numbers in (np.arange(20, 45), np.array([61, 3, 17]), np.array([count - 1])):
         values, beside = Samples(axes(), method, 64, 5, more=1).at(numbers)
-        found = np.column_stack([*((column - 0.1) / 0.8 for column in values.values()), beside])
-        assert (found == whole[numbers]).all()
+        result = np.column_stack([*((column - 0.1) / 0.8 for column in values.values()), beside])
+        assert (result == whole[numbers]).all()
 
 
 def test_another_seed_draws_other_dams():
@@ -61,18 +61,18 @@ def test_another_seed_draws_other_dams():
 
 
 def test_sobol_is_more_even_than_chance():
-    found = shares(Samples(axes(), "sobol", 256, 1), 256)
-    assert stats.qmc.discrepancy(found) < 0.2 * stats.qmc.discrepancy(np.random.default_rng(1).random((256, 3)))
+    fractions = shares(Samples(axes(), "sobol", 256, 1), 256)
+    assert stats.qmc.discrepancy(fractions) < 0.2 * stats.qmc.discrepancy(np.random.default_rng(1).random((256, 3)))
 
 
 def test_the_scheme_of_the_sensitivity_indices_exchanges_one_coordinate_at_a_time():
-    found = shares(Samples(axes(), "sensitivity", 8, 1), 8 * 5).reshape(8, 5, 3)
-    one, other = found[:, 0], found[:, 1]
+    result = shares(Samples(axes(), "sensitivity", 8, 1), 8 * 5).reshape(8, 5, 3)
+    one, other = result[:, 0], result[:, 1]
     assert not (one == other).any()
     for coordinate in range(3):
-        row = found[:, 2 + coordinate]
+        row = result[:, 2 + coordinate]
         assert (row[:, coordinate] == other[:, coordinate]).all()
-        rest = [each for each in range(3) if each != coordinate]
+        rest = [item for item in range(3) if item != coordinate]
         assert (row[:, rest] == one[:, rest]).all()
 
 

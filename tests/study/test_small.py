@@ -33,31 +33,31 @@ def grid(path, texts, changes=(), run=rigid, **options):
 def test_each_run_is_the_one_by_hand(kind):
     path, text, changes = KINDS[kind]
     common = [*SHORT, *(VERTICAL if "vertical" in text else [])]
-    found = grid(path, [text], common)
+    table = grid(path, [text], common)
     by_hand = rigid(read_case(path, [*SHORT, *changes]))
-    assert len(found.responses) == 2
-    assert found.responses[1].to_json()["residual_slip_m"] == by_hand.residual_slip_m
-    assert found.responses[0].residual_slip_m != found.responses[1].residual_slip_m
+    assert len(table.responses) == 2
+    assert table.responses[1].to_json()["residual_slip_m"] == by_hand.residual_slip_m
+    assert table.responses[0].residual_slip_m != table.responses[1].residual_slip_m
 
 
 def test_every_combination_the_last_varies_fastest():
-    found = grid(BLOCK, ["crack.friction = 0.2 , 0.3", "motion.reverse=true,false", "gravity=9.81 m/s^2"])
-    assert (found.axes[0].path, found.axes[0].values) == ("crack.friction", ("0.2", "0.3"))
-    assert found.cells == (
+    table = grid(BLOCK, ["crack.friction = 0.2 , 0.3", "motion.reverse=true,false", "gravity=9.81 m/s^2"])
+    assert (table.axes[0].path, table.axes[0].values) == ("crack.friction", ("0.2", "0.3"))
+    assert table.cells == (
         ("0.2", "true", "9.81 m/s^2"),
         ("0.2", "false", "9.81 m/s^2"),
         ("0.3", "true", "9.81 m/s^2"),
         ("0.3", "false", "9.81 m/s^2"),
     )
     # Pushed the other way, a block slides the other way.
-    slips = [each.residual_slip_m for each in found.responses]
+    slips = [item.residual_slip_m for item in table.responses]
     assert slips[0] == pytest.approx(-slips[1], rel=1e-12)
     assert slips[2] == pytest.approx(-slips[3], rel=1e-12)
 
 
 def test_what_varies_wins_over_what_is_set():
-    (found,) = grid(BLOCK, ["crack.friction=0.3"], ["crack.friction=0.2"]).responses
-    assert found.residual_slip_m == rigid(read_case(BLOCK, ["crack.friction=0.3"])).residual_slip_m
+    (response,) = grid(BLOCK, ["crack.friction=0.3"], ["crack.friction=0.2"]).responses
+    assert response.residual_slip_m == rigid(read_case(BLOCK, ["crack.friction=0.3"])).residual_slip_m
 
 
 def test_a_value_may_hold_an_equals_sign():
@@ -66,10 +66,10 @@ def test_a_value_may_hold_an_equals_sign():
 
 
 def test_what_varies_may_be_spread_as_in_a_study_file():
-    found = grid(KOYNA, ['reservoir.depth={ from = "80 m", to = "100 m", count = 3 }'], SHORT)
-    assert found.cells == (("80 m",), ("90 m",), ("100 m",))
+    table = grid(KOYNA, ['reservoir.depth={ from = "80 m", to = "100 m", count = 3 }'], SHORT)
+    assert table.cells == (("80 m",), ("90 m",), ("100 m",))
     assert (
-        found.responses[1].residual_slip_m == rigid(read_case(KOYNA, [*SHORT, "reservoir.depth=90 m"])).residual_slip_m
+        table.responses[1].residual_slip_m == rigid(read_case(KOYNA, [*SHORT, "reservoir.depth=90 m"])).residual_slip_m
     )
     (axis,) = parse_axes(['crack.friction={distribution="lognormal",median=1,dispersion=0.2,count=3}'])
     assert axis.values == ("0.824083", "1", "1.21347")  # exp(0.2 z), z a sixth from either end
@@ -93,12 +93,12 @@ def test_spreads_that_are_none(text, code):
 
 
 def test_the_table_has_the_numbers_of_the_runs():
-    found = grid(KOYNA, ["crack.friction=0.1,1.0"], SHORT)
-    table = found.to_table().to_pylist()
-    assert table == found.rows()
+    grid_table = grid(KOYNA, ["crack.friction=0.1,1.0"], SHORT)
+    table = grid_table.to_table().to_pylist()
+    assert table == grid_table.rows()
     first, *_, last = table[0]
     assert (first, last) == ("crack.friction", "outcome")
-    response, row = found.responses[1], table[1]
+    response, row = grid_table.responses[1], table[1]
     for name in (
         "residual_slip_m",
         "peak_slip_downstream_m",
@@ -115,15 +115,15 @@ def test_the_table_has_the_numbers_of_the_runs():
 
 
 def test_json():
-    found = grid(KOYNA, ["crack.friction=0.1,1.0", "motion.reverse=true"], SHORT)
-    data = json.loads(json_text(found.to_json()), parse_constant=pytest.fail)
+    table = grid(KOYNA, ["crack.friction=0.1,1.0", "motion.reverse=true"], SHORT)
+    data = json.loads(json_text(table.to_json()), parse_constant=pytest.fail)
     assert data["model"] == "rigid"
     assert data["varied"] == {"crack.friction": ["0.1", "1.0"], "motion.reverse": ["true"]}
     assert [run["varied"] for run in data["runs"]] == [
         {"crack.friction": "0.1", "motion.reverse": "true"},
         {"crack.friction": "1.0", "motion.reverse": "true"},
     ]
-    one = json.loads(json_text(found.responses[1].to_json()))
+    one = json.loads(json_text(table.responses[1].to_json()))
     assert {**one, "varied": data["runs"][1]["varied"]} == data["runs"][1]
     assert data["build"]
 
@@ -151,16 +151,16 @@ def test_all_cases_are_read_before_the_first_one_runs(text, code):
 
 
 def test_one_says_how_far_it_is():
-    said = []
-    grid(BLOCK, ["crack.friction=0.2,0.3,0.4"], progress=lambda done, of: said.append((done, of)))
-    assert said == [(0, 3), (1, 3), (2, 3)]
+    message = []
+    grid(BLOCK, ["crack.friction=0.2,0.3,0.4"], progress=lambda done, of: message.append((done, of)))
+    assert message == [(0, 3), (1, 3), (2, 3)]
 
 
 def test_the_fields_themselves_can_vary():
     pulse = {"points": [["0 s", "0.8 g"], ["0.4 s", "0 g"]]}
     fields = {"section": polygon(TRIANGLE), "crack": {"friction": 0.5}, "motion": pulse}
-    found = grid(fields, ["crack.friction=0.5,0.6"])
-    assert abs(found.responses[0].residual_slip_m) > abs(found.responses[1].residual_slip_m) > 0.0
+    table = grid(fields, ["crack.friction=0.5,0.6"])
+    assert abs(table.responses[0].residual_slip_m) > abs(table.responses[1].residual_slip_m) > 0.0
     assert fields["crack"] == {"friction": 0.5}
 
 

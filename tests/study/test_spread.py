@@ -31,9 +31,9 @@ def test_rigid_runs_are_those_of_the_scaled_motion(changes):
     ]
     spread = response.spread
     assert spread["scales"] == pytest.approx([0.99, 1.0, 1.01])
-    assert spread["residual_slips_m"] == pytest.approx([each.residual_slip_m for each in by_hand], rel=1e-9)
-    for name in (each.key for each in HEADLINES):
-        values = [each.summary[name] for each in by_hand]
+    assert spread["residual_slips_m"] == pytest.approx([item.residual_slip_m for item in by_hand], rel=1e-9)
+    for name in (item.key for item in HEADLINES):
+        values = [item.summary[name] for item in by_hand]
         assert spread[name]["mean"] == pytest.approx(np.mean(values), rel=1e-9, abs=1e-15), name
         assert spread[name]["std"] == pytest.approx(np.std(values, ddof=1), rel=1e-6, abs=1e-12), name
         assert (spread[name]["min"], spread[name]["max"]) == pytest.approx((min(values), max(values)), abs=1e-12), name

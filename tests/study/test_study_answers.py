@@ -14,15 +14,15 @@ from shared.studies import DRAWN, GRID, study_file
 
 def compared(strengths, demand, event, traits, pieces=1):
     """Compare measures, the runs taken in at once or in pieces."""
-    found = Comparison(int(event.max()) + 1)
+    result = Comparison(int(event.max()) + 1)
     for here in np.array_split(np.arange(demand.size), pieces):
-        found.add(
+        result.add(
             {name: each[here] for name, each in strengths.items()},
             demand[here],
             event[here],
             {name: each[here] for name, each in traits.items()},
         )
-    return found.told()
+    return result.told()
 
 
 def saltelli(function, dimensions, count):
@@ -42,15 +42,15 @@ def ishigami(points):
 
 
 def test_the_indices_of_ishigami_are_the_exact_ones():
-    found = sobol_indices(saltelli(ishigami, 3, 4096), ("x1", "x2", "x3"))
-    assert (found["rows"], found["left_out"]) == (4096, 0)
+    indices = sobol_indices(saltelli(ishigami, 3, 4096), ("x1", "x2", "x3"))
+    assert (indices["rows"], indices["left_out"]) == (4096, 0)
     # With a = 7 and b = 0.1 (Ishigami and Homma 1990).
     exact = {"x1": (0.3139, 0.5576), "x2": (0.4424, 0.4424), "x3": (0.0, 0.2437)}
-    assert [each["name"] for each in found["indices"]] == ["x1", "x2", "x3"]
-    for each in found["indices"]:
-        for kind, value in zip(("first", "total"), exact[each["name"]], strict=True):
-            assert each[kind] == pytest.approx(value, abs=0.015)
-            low, high = each[f"{kind}_interval"]
+    assert [index["name"] for index in indices["indices"]] == ["x1", "x2", "x3"]
+    for item in indices["indices"]:
+        for kind, value in zip(("first", "total"), exact[item["name"]], strict=True):
+            assert item[kind] == pytest.approx(value, abs=0.015)
+            low, high = item[f"{kind}_interval"]
             assert low < value < high
             assert high - low < 0.1
 
@@ -58,9 +58,9 @@ def test_the_indices_of_ishigami_are_the_exact_ones():
 def test_rows_with_a_failure_are_left_out_whole():
     values = saltelli(lambda x: 3.0 * x[:, 0] + x[:, 1], 2, 1024)
     values[5, 3] = np.nan
-    found = sobol_indices(values, ("much", "little"))
-    assert (found["rows"], found["left_out"]) == (1023, 1)
-    assert [each["first"] for each in found["indices"]] == pytest.approx([0.9, 0.1], abs=0.02)
+    indices = sobol_indices(values, ("much", "little"))
+    assert (indices["rows"], indices["left_out"]) == (1023, 1)
+    assert [index["first"] for index in indices["indices"]] == pytest.approx([0.9, 0.1], abs=0.02)
 
 
 def test_what_does_not_vary_has_no_indices():
@@ -69,9 +69,9 @@ def test_what_does_not_vary_has_no_indices():
 
 def test_a_tornado_holds_like_against_like():
     values = np.array([[1.0, 2.0, 9.0], [1.0, 2.0, np.nan], [4.0, 5.0, 9.0], [0.5, 1.5, 9.0]])
-    found = tornado(values, [("little", ["a"]), ("much", ["b", "c"])])
-    assert (found["motions"], found["left_out"], found["base"]) == (2, 1, 1.5)
-    assert [(each["name"], each["span"]) for each in found["fields"]] == [("much", 3.5), ("little", 0.0)]
+    result = tornado(values, [("little", ["a"]), ("much", ["b", "c"])])
+    assert (result["motions"], result["left_out"], result["base"]) == (2, 1, 1.5)
+    assert [(field["name"], field["span"]) for field in result["fields"]] == [("much", 3.5), ("little", 0.0)]
 
 
 def test_the_measure_that_makes_the_slip_is_the_most_efficient():
@@ -84,15 +84,15 @@ def test_the_measure_that_makes_the_slip_is_the_most_efficient():
     demand = 0.01 * good**1.5 * np.exp(0.3 * random.standard_normal(event.size))
     demand[:10] = np.nan
     demand[10:30] = 5e-5
-    found = compared({"other": other, "good": good}, demand, event, {"period": np.log(period)})
-    first, second = found["measures"]
+    result = compared({"other": other, "good": good}, demand, event, {"period": np.log(period)})
+    first, second = result["measures"]
     pieces = compared({"other": other, "good": good}, demand, event, {"period": np.log(period)}, pieces=7)
     assert pieces["measures"][0]["efficiency"] == pytest.approx(first["efficiency"], rel=1e-12)
     assert pieces["measures"][1]["sufficiency"]["period"]["p"] == pytest.approx(
         second["sufficiency"]["period"]["p"], rel=1e-9
     )
-    assert found["unknown"] == 10
-    assert found["at_rest"] == 20 + int((demand[30:] <= 1e-4).sum())
+    assert result["unknown"] == 10
+    assert result["at_rest"] == 20 + int((demand[30:] <= 1e-4).sum())
     assert (first["measure"], second["measure"]) == ("good", "other")
     assert first["efficiency"] == pytest.approx(0.3, abs=0.02)
     assert first["slope"] == pytest.approx(1.5, abs=0.05)
@@ -103,38 +103,38 @@ def test_the_measure_that_makes_the_slip_is_the_most_efficient():
 
 def test_a_strength_that_does_not_vary_has_the_scatter_of_the_slip():
     demand = np.array([0.01, 0.02, 0.04])
-    found = compared({"pga": np.ones(3)}, demand, np.arange(3), {})["measures"][0]
-    assert found["slope"] is None
-    assert found["efficiency"] == pytest.approx(np.log(demand).std(ddof=1))
+    result = compared({"pga": np.ones(3)}, demand, np.arange(3), {})["measures"][0]
+    assert result["slope"] is None
+    assert result["efficiency"] == pytest.approx(np.log(demand).std(ddof=1))
 
 
 def test_the_indices_of_a_study(tmp_path):
     text = DRAWN.replace('"latin hypercube"\nsamples = 60', '"sensitivity"\nsamples = 32')
-    found = run_study(study_file(tmp_path, text), tmp_path / "out")
-    told = found.sensitivity()["rigid"]
-    names = {each["name"] for each in told["indices"]}
+    study = run_study(study_file(tmp_path, text), tmp_path / "out")
+    rigid = study.sensitivity()["rigid"]
+    names = {index["name"] for index in rigid["indices"]}
     assert names == {"crack.friction", "concrete.density", "crack.restitution", "motion", "strength"}
-    assert (told["rows"], told["left_out"]) == (32, 0)
+    assert (rigid["rows"], rigid["left_out"]) == (32, 0)
     # The same rows by hand, from the table.
-    slip = np.abs(found.to_table(["residual_slip_m"])["residual_slip_m"].to_numpy()).reshape(32, 7)
-    again = sobol_indices(slip, [*found.told["study"]["vary"], "motion", "strength"])
-    assert again == told
-    json.dumps(found.to_json(), allow_nan=False)
+    slip = np.abs(study.to_table(["residual_slip_m"])["residual_slip_m"].to_numpy()).reshape(32, 7)
+    again = sobol_indices(slip, [*study.told["study"]["vary"], "motion", "strength"])
+    assert again == rigid
+    json.dumps(study.to_json(), allow_nan=False)
     with pytest.raises(InputError, match="method: a study by sensitivity has no such answer"):
-        found.tornado()
+        study.tornado()
 
 
 def test_the_tornado_of_a_study(tmp_path):
     text = GRID.replace('"case.toml"\n', '"case.toml"\nmethod = "one at a time"\n', 1)
-    found = run_study(study_file(tmp_path, text), tmp_path / "out")
-    told = found.tornado()["rigid"]
-    assert {each["name"]: [end["value"] for end in each["values"]] for each in told["fields"]} == {
+    study = run_study(study_file(tmp_path, text), tmp_path / "out")
+    rigid = study.tornado()["rigid"]
+    assert {field["name"]: [end["value"] for end in field["values"]] for field in rigid["fields"]} == {
         "crack.friction": ["0.3", "0.5"],
         "crack.restitution": ["0.2", "0.5", "0.8"],
     }
-    runs = found.to_table(["sample", "residual_slip_m"]).to_pylist()
+    runs = study.to_table(["sample", "residual_slip_m"]).to_pylist()
     mean = np.mean([abs(run["residual_slip_m"]) for run in runs if run["sample"] == 1])
-    assert told["fields"][0]["values"][0]["demand"] == pytest.approx(mean)
+    assert rigid["fields"][0]["values"][0]["demand"] == pytest.approx(mean)
 
 
 def test_magnitude_and_distance_of_events_are_looked_at(tmp_path):
@@ -146,8 +146,8 @@ def test_magnitude_and_distance_of_events_are_looked_at(tmp_path):
     text = f'case = "case.toml"\n[vary]\n"crack.friction" = [0.2, 0.3]\n{events}{scale}'
     file = study_file(tmp_path, text)
     assert read_study(file).motions.events[2].distance == 40e3
-    told = run_study(file, tmp_path / "out").compared()["rigid"]
-    assert len(told["measures"]) == 6
-    for each in told["measures"]:
-        assert each["sufficiency"]["magnitude"]["events"] == 3
-        assert 0.0 <= each["sufficiency"]["distance_m"]["p"] <= 1.0
+    rigid = run_study(file, tmp_path / "out").compared()["rigid"]
+    assert len(rigid["measures"]) == 6
+    for measure in rigid["measures"]:
+        assert measure["sufficiency"]["magnitude"]["events"] == 3
+        assert 0.0 <= measure["sufficiency"]["distance_m"]["p"] <= 1.0

@@ -49,9 +49,9 @@ def test_ten_kills_change_nothing(tmp_path):
         for path in sorted((out / "runs").glob("part-*.parquet"))[1::2]:
             path.unlink()
     assert kills == 10
-    found = open_study(out)
-    assert found.complete
-    assert found.to_table().equals(whole)
+    study = open_study(out)
+    assert study.complete
+    assert study.to_table().equals(whole)
     assert not [path for path in out.rglob(".heeltoe-*") if path.is_dir()]
 
 
@@ -71,18 +71,18 @@ def cluster(tmp_path):
     log = start("scheduler", "--port", "0", "--no-dashboard")
     address = None
     for _ in range(300):
-        found = re.search(r"Scheduler at:\s+(tcp://\S+)", log.read_text())
-        if found:
-            address = found[1]
+        match = re.search(r"Scheduler at:\s+(tcp://\S+)", log.read_text())
+        if match:
+            address = match[1]
             break
         time.sleep(0.1)
     assert address, log.read_text()
     for _ in range(2):
         start("worker", address, "--nthreads", "1", "--no-dashboard")
     yield address, started
-    for each in started:
-        each.kill()
-        each.wait()
+    for item in started:
+        item.kill()
+        item.wait()
 
 
 @pytest.mark.parametrize("kill", [False, True], ids=["two workers", "one of them killed"])
@@ -91,16 +91,16 @@ def test_workers_started_by_hand_give_the_same_table(tmp_path, cluster, kill, mo
     monkeypatch.setattr("heeltoe.study.run.run._MOST", 500)
     file = study_file(tmp_path, DRAWN.replace("samples = 60", "samples = 12000"))
     here = rows(run_study(file, tmp_path / "here"))
-    told = []
+    answer = []
 
     def progress(each):
-        told.append(each)
-        if kill and len(told) == 4:
+        answer.append(each)
+        if kill and len(answer) == 4:
             started[2].kill()
 
     there = run_study(file, tmp_path / "there", scheduler=address, progress=progress)
     assert rows(there) == here
-    assert told[-1].done == 12000
+    assert answer[-1].done == 12000
 
 
 def test_a_scheduler_that_is_lost_is_one_sentence_and_exit_3(tmp_path, cluster):

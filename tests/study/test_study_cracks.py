@@ -80,16 +80,16 @@ def test_the_same_bits_whatever_the_parts_and_the_threads(tmp_path):
 
 
 def test_the_crack_that_exceeds_a_limit_is_the_one_that_counts(tmp_path):
-    found = run_study(
+    answer = run_study(
         study(tmp_path, '"rigid"', DAM.replace("80 m", "70 m"), neck="{ from = 0.2, to = 0.25, count = 2 }"),
         tmp_path / "out",
     )
-    slips = np.abs([[run[f"cracks[{place}].residual_slip_m"] for place in (0, 1)] for run in rows(found)])
+    slips = np.abs([[run[f"cracks[{place}].residual_slip_m"] for place in (0, 1)] for run in rows(answer)])
     exceeds = slips > 3e-3
-    assert found.fragility[0]["exceeding"] == exceeds.any(axis=1).sum() > exceeds.sum(axis=0).max()
-    both = found.summary[0]["cracks"]
+    assert answer.fragility[0]["exceeding"] == exceeds.any(axis=1).sum() > exceeds.sum(axis=0).max()
+    both = answer.summary[0]["cracks"]
     assert both[1]["residual_slip_m"] != both[0]["residual_slip_m"]
-    leads = [run["residual_slip_m"] for run in rows(found)]
+    leads = [run["residual_slip_m"] for run in rows(answer)]
     assert np.abs(leads) == pytest.approx(slips.max(axis=1), abs=1e-4)
 
 
@@ -102,6 +102,6 @@ def test_the_crack_that_exceeds_a_limit_is_the_one_that_counts(tmp_path):
     ],
 )
 def test_what_a_model_does_not_know_is_refused_before_anything_runs(tmp_path, model, more, code):
-    with pytest.raises(InputError) as found:
+    with pytest.raises(InputError) as result:
         plan_of(read_study(study(tmp_path, model, f"{DAM}{more}\n")))
-    assert found.value.code == code
+    assert result.value.code == code

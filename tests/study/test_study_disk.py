@@ -33,10 +33,10 @@ def test_a_disk_that_fills(tmp_path, small_disk):
     disk, grow = small_disk
     file = study_file(tmp_path, DRAWN.replace("samples = 60", "samples = 12000"))
     whole = run_study(file, tmp_path / "whole").to_table()
-    said = process("study", file, "--out", disk / "out")
-    assert said.returncode == 2
-    assert said.stderr.splitlines()[-1].endswith("(No space left on device); give a place where you may write")
-    assert "Traceback" not in said.stderr
+    message = process("study", file, "--out", disk / "out")
+    assert message.returncode == 2
+    assert message.stderr.splitlines()[-1].endswith("(No space left on device); give a place where you may write")
+    assert "Traceback" not in message.stderr
     assert not open_study(disk / "out").complete
     before = {path: path.stat().st_mtime_ns for path in (disk / "out" / "runs").glob("part-*")}
     assert grow()

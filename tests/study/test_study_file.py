@@ -163,21 +163,21 @@ REFUSED = {
 @pytest.mark.parametrize("what", REFUSED)
 def test_a_bad_study_gets_one_line_before_anything_runs(what, tmp_path):
     text, field, word = REFUSED[what]
-    said = command("study", study_file(tmp_path, text), "--out", tmp_path / "out")
-    assert said.returncode == 2
-    assert said.stderr.count("\n") == 1
-    assert said.stderr.startswith("heeltoe: ")
-    assert field in said.stderr
-    assert word in said.stderr
+    process = command("study", study_file(tmp_path, text), "--out", tmp_path / "out")
+    assert process.returncode == 2
+    assert process.stderr.count("\n") == 1
+    assert process.stderr.startswith("heeltoe: ")
+    assert field in process.stderr
+    assert word in process.stderr
     assert not (tmp_path / "out").exists()
 
 
 def wrongs(folder, text):
     """All that is said of a study, one line each."""
-    said = command("study", study_file(folder, text), "--out", folder / "out")
-    assert said.returncode == 2
+    process = command("study", study_file(folder, text), "--out", folder / "out")
+    assert process.returncode == 2
     assert not (folder / "out").exists()
-    return [line.removeprefix("heeltoe: ") for line in said.stderr.splitlines()]
+    return [line.removeprefix("heeltoe: ") for line in process.stderr.splitlines()]
 
 
 def test_all_that_is_wrong_is_told_at_once(tmp_path):
@@ -237,35 +237,35 @@ def test_a_key_that_a_range_has_not_gets_those_that_it_has(old, new, path, tmp_p
 
 
 def test_no_study_file(tmp_path):
-    said = command("study", tmp_path / "none.toml")
-    assert said.returncode == 2
-    assert "study file" in said.stderr
+    process = command("study", tmp_path / "none.toml")
+    assert process.returncode == 2
+    assert "study file" in process.stderr
 
 
 def test_a_grid_counts_all_combinations(tmp_path):
-    found = plan(tmp_path, GRID)
+    study_plan = plan(tmp_path, GRID)
     # Two frictions, three restitutions; five horizontal components, two strengths.
-    assert found.sizes == (6, 5, 2, 1)
-    assert found.count == 60
-    runs = found.runs(0, 60)
-    assert len({tuple(each) for each in zip(*runs.values.values(), runs.motion, runs.strength, strict=True)}) == 60
+    assert study_plan.sizes == (6, 5, 2, 1)
+    assert study_plan.count == 60
+    runs = study_plan.runs(0, 60)
+    assert len({tuple(item) for item in zip(*runs.values.values(), runs.motion, runs.strength, strict=True)}) == 60
     assert sorted(set(runs.values["crack.restitution"].tolist())) == pytest.approx([0.2, 0.5, 0.8])
 
 
 def test_one_at_a_time_keeps_the_others_as_they_are(tmp_path):
-    found = plan(tmp_path, changed(GRID, "[vary]", 'method = "one at a time"\n[vary]'))
-    assert found.sizes[0] == 1 + 2 + 3
-    values = found.runs(0, found.count).values
-    base = (found.case.crack.mu_static, found.case.crack.restitution)
+    study_plan = plan(tmp_path, changed(GRID, "[vary]", 'method = "one at a time"\n[vary]'))
+    assert study_plan.sizes[0] == 1 + 2 + 3
+    values = study_plan.runs(0, study_plan.count).values
+    base = (study_plan.case.crack.mu_static, study_plan.case.crack.restitution)
     seen = set(zip(*values.values(), strict=True))
     assert base in seen
     assert all(friction == base[0] or bounce == base[1] for friction, bounce in seen)
 
 
 def test_a_case_keeps_its_own_motion_where_the_study_has_none(tmp_path):
-    found = plan(tmp_path, GRID.split("[motions]")[0])
-    assert found.count == 6
-    assert found.shakes[0].horizontal.pga == pytest.approx(found.earthquakes[0].motion.pga)
+    study_plan = plan(tmp_path, GRID.split("[motions]")[0])
+    assert study_plan.count == 6
+    assert study_plan.shakes[0].horizontal.pga == pytest.approx(study_plan.earthquakes[0].motion.pga)
 
 
 def test_a_base_value_that_is_none_is_refused(tmp_path):
@@ -277,9 +277,9 @@ def test_a_base_value_that_is_none_is_refused(tmp_path):
 
 @pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
 def test_examples_can_run(path):
-    found = plan_of(read_study(path))
-    assert found.count >= 100
-    assert parts.run_part(found, 0, 1).num_rows == 1
+    result = plan_of(read_study(path))
+    assert result.count >= 100
+    assert parts.run_part(result, 0, 1).num_rows == 1
 
 
 def test_a_case_is_no_study_and_a_study_no_case(tmp_path):

@@ -15,17 +15,17 @@ CLOCK = {"now": 0.0}
 @pytest.fixture
 def tried(monkeypatch):
     """The stretches that are tried; each run takes the longer the later its motion stands."""
-    found = []
+    result = []
     CLOCK["now"] = 0.0
 
     def timed(plan, start, stop):
-        found.append((start, stop))
+        result.append((start, stop))
         runs = plan.runs(start, stop)
         CLOCK["now"] += float((runs.motion + 2.0).sum()) / 100.0
 
     monkeypatch.setattr(run, "run_part", timed)
     monkeypatch.setattr(run, "monotonic", lambda: CLOCK["now"])
-    return found
+    return result
 
 
 def plan(tmp_path, model):

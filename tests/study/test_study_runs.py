@@ -51,10 +51,10 @@ def by_hand(folder, run, model):
 
 
 def test_each_rigid_run_is_the_one_by_hand(tmp_path):
-    found = run_study(study_file(tmp_path, GRID), tmp_path / "out")
-    table = rows(found)
+    study = run_study(study_file(tmp_path, GRID), tmp_path / "out")
+    table = rows(study)
     assert len(table) == 60
-    assert found.complete
+    assert study.complete
     assert sum(abs(run["residual_slip_m"]) > 1e-3 for run in table) > 10
     for run in table[::7]:
         response = by_hand(tmp_path, run, rigid)
@@ -75,8 +75,8 @@ def test_columns_and_single_cases_give_the_same(tmp_path, monkeypatch):
 
 def test_blocks_that_change_as_they_move_run_one_by_one(tmp_path):
     text = GRID.replace("[0.3, 0.5]", "[0.9]").replace("[vary]", '[vary]\n"analysis.rotation" = ["small", "finite"]')
-    found = run_study(study_file(tmp_path, text), tmp_path / "out")
-    run = next(run for run in rows(found) if run["analysis.rotation"] == "finite" and run["impacts"] > 0)
+    study = run_study(study_file(tmp_path, text), tmp_path / "out")
+    run = next(run for run in rows(study) if run["analysis.rotation"] == "finite" and run["impacts"] > 0)
     case = read_case(tmp_path / "case.toml", {name: run[name] for name in run if "." in name})
     motion = read_record(tmp_path / "quakes" / f"{run['motion']}.txt").scaled(run["factor"])
     assert run["residual_slip_m"] == pytest.approx(rigid(case, motion).residual_slip_m, rel=1e-9, abs=1e-12)

@@ -46,8 +46,8 @@ def test_the_records_are_the_single_runs_to_the_last_bit(dam, records, model):
 
 @pytest.mark.parametrize(("judge", "place"), [("largest", -1), ("mean", None), ("median", 2)])
 def test_the_limits_are_judged_by_what_is_asked_for(dam, records, judge, place):
-    found = heeltoe.run_suite(dam, records, model="rigid", pga="0.7 g", judge=judge)
-    (answer,) = found.suite["models"]
+    suite = heeltoe.run_suite(dam, records, model="rigid", pga="0.7 g", judge=judge)
+    (answer,) = suite.suite["models"]
     slips = sorted(record["residual_slip_m"] for record in answer["records"])
     value = np.mean(slips) if place is None else slips[place]
     slip, opening = answer["limits"]
@@ -55,7 +55,7 @@ def test_the_limits_are_judged_by_what_is_asked_for(dam, records, judge, place):
     assert slip["met"] == (value <= 0.005)
     assert slip["utilisation"] == pytest.approx(value / 0.005)
     assert opening["met"]
-    assert found.limits_met == slip["met"]
+    assert suite.limits_met == slip["met"]
     assert max(answer["records"], key=lambda record: record["residual_slip_m"])["governs"]
 
 
@@ -76,11 +76,11 @@ def test_a_dam_that_fails_in_a_record_has_no_mean_and_meets_no_limit(records):
 
 
 def test_records_scaled_at_the_first_period_agree_there(dam, records):
-    found = heeltoe.run_suite(dam, records, model="rigid", sa="0.5 g", target="en1998:0.3g,B")
-    period = found.told["study"]["motions"]["scale"]["period"]
+    suite = heeltoe.run_suite(dam, records, model="rigid", sa="0.5 g", target="en1998:0.3g,B")
+    period = suite.told["study"]["motions"]["scale"]["period"]
     first = heeltoe.dam_periods(dam, 1).intact[0]
     assert float(period.split()[0]) == pytest.approx(first, rel=1e-5)
-    spectra = suite_spectra(found.walk, found.suite["models"][0]["records"])
+    spectra = suite_spectra(suite.walk, suite.suite["models"][0]["records"])
     for row in spectra["records"]:
         at = np.exp(np.interp(np.log(first), np.log(spectra["period_s"]), np.log(row)))
         assert at == pytest.approx(0.5 * 9.81, rel=0.15)  # between the periods that are drawn
@@ -90,8 +90,8 @@ def test_records_scaled_at_the_first_period_agree_there(dam, records):
 
 
 def test_matched_records_follow_their_target(dam, records):
-    found = heeltoe.run_suite(dam, records / "quake-a-000.txt", model="rigid", match="en1998:0.3g,B")
-    spectra = suite_spectra(found.walk, found.suite["models"][0]["records"])
+    suite = heeltoe.run_suite(dam, records / "quake-a-000.txt", model="rigid", match="en1998:0.3g,B")
+    spectra = suite_spectra(suite.walk, suite.suite["models"][0]["records"])
     target = target_of("en1998:0.3g,B", "target")
     judged = (spectra["period_s"] > 0.12) & (spectra["period_s"] < 2.5)
     ratio = spectra["records"][0][judged] / target(spectra["period_s"][judged])
@@ -169,11 +169,11 @@ def test_a_study_file_with_a_suite_is_one_dam_at_one_strength(tmp_path, study, c
 def test_the_command_prints_the_records_and_writes_page_and_figures(dam, records, tmp_path):
     (tmp_path / "dam.toml").write_text(case_text(dam.model_dump(mode="json", exclude_unset=True)))
     more = ("--model", "rigid", "--pga", "0.7g", "--judge", "mean", "--out", "out", "--report", "--json", "result.json")
-    said = command("run", "dam.toml", "--motions", str(records), *more, cwd=tmp_path)
-    assert said.returncode == 0, said.stderr
+    process = command("run", "dam.toml", "--motions", str(records), *more, cwd=tmp_path)
+    assert process.returncode == 0, process.stderr
     result = json.loads((tmp_path / "result.json").read_text())
     assert result["suite"]["judge"] == "mean"
-    assert "quake-a-000" in said.stdout
+    assert "quake-a-000" in process.stdout
     for name in ("report.pdf", "report.html", "figures/suite.png", "figures/suite-spectra.svg"):
         assert (tmp_path / "out" / name).is_file()
     assert "The suite of records" in (tmp_path / "out/report.html").read_text()
@@ -190,9 +190,9 @@ def test_the_command_prints_the_records_and_writes_page_and_figures(dam, records
 def test_options_that_do_not_go_together_are_refused(dam, records, tmp_path, arguments, text):
     (tmp_path / "dam.toml").write_text(case_text(dam.model_dump(mode="json", exclude_unset=True)))
     (tmp_path / "quakes").symlink_to(records)
-    said = command("run", "dam.toml", *arguments, cwd=tmp_path)
-    assert said.returncode == 2
-    assert text in " ".join(said.stderr.split())
+    process = command("run", "dam.toml", *arguments, cwd=tmp_path)
+    assert process.returncode == 2
+    assert text in " ".join(process.stderr.split())
 
 
 def test_the_evidence_of_one_record_says_how_certain_a_limit_is(records):
@@ -203,10 +203,10 @@ def test_the_evidence_of_one_record_says_how_certain_a_limit_is(records):
     assert (slip["certain"], slip["unit"], turn["unit"]) == (True, "m", "rad")
     assert 0.0 < slip["uncertainty"] < slip["value"]
     near = dam.with_([f"limits.residual_slip={slip['value'] + 0.5 * slip['uncertainty']} m"])
-    found = heeltoe.run_suite(near, asked, model="flexible", pga="0.7 g")
-    close, _ = found.suite["models"][0]["limits"]
+    suite = heeltoe.run_suite(near, asked, model="flexible", pga="0.7 g")
+    close, _ = suite.suite["models"][0]["limits"]
     assert (close["met"], close["certain"]) == (True, False)
-    assert found.to_json()["directory"] is None
+    assert suite.to_json()["directory"] is None
 
 
 SCALED = {"suite.pga": "0.7 g", "suite.judge": "mean", "suite.target": "en1998:0.3g,B"}
@@ -280,8 +280,8 @@ def test_a_case_that_lists_motions_is_run_as_a_suite(dam, records, tmp_path):
     fields |= {"motions": [{"file": "quakes/quake-a-000.txt"}], "suite": {"pga": "0.5 g"}}
     (tmp_path / "dam.toml").write_text(case_text(fields))
     (tmp_path / "quakes").symlink_to(records)
-    said = command("run", "dam.toml", "--model", "rigid", "--pga", "0.7g", "--json", "-", cwd=tmp_path)
-    (record,) = json.loads(said.stdout)["suite"]["models"][0]["records"]
+    process = command("run", "dam.toml", "--model", "rigid", "--pga", "0.7g", "--json", "-", cwd=tmp_path)
+    (record,) = json.loads(process.stdout)["suite"]["models"][0]["records"]
     assert record["pga_g"] == pytest.approx(0.7)
     refused = command("run", "dam.toml", "--spread", "3", cwd=tmp_path)
     assert "--spread: goes with one motion" in refused.stderr

@@ -64,9 +64,9 @@ def test_drift_is_told():
     before = [store.told(Row("slip", 100.0, 104.0, 0.07, remark="print"))]
     assert store.drift(before, before) == []
     now = [store.told(Row("slip", 100.0, 109.0, 0.07, remark="print"))]
-    told = "\n".join(store.drift(before, now))
-    assert "slip, ours: '104' before, '109' now" in told
-    assert "slip, verdict: 'within' before, 'outside' now" in told
+    text = "\n".join(store.drift(before, now))
+    assert "slip, ours: '104' before, '109' now" in text
+    assert "slip, verdict: 'within' before, 'outside' now" in text
     assert store.drift(before, [*now, *now]) == ["1 rows before, 2 now"]
     assert store.drift(before, [now[0] | {"verdict": "within"}], steady=math.inf) == []
     assert "verdict" in store.drift(before, now, steady=math.inf)[0]

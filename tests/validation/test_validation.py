@@ -54,8 +54,8 @@ def test_the_matrix_is_made_of_the_stored_rows():
 
 
 def test_the_book_has_no_other_pages():
-    found = {path.stem for path in BOOK.glob("*.md")}
-    assert found == {pages.file_of(name) for name in CASES} | {"index", "independent-codes"}
+    stems = {path.stem for path in BOOK.glob("*.md")}
+    assert stems == {pages.file_of(name) for name in CASES} | {"index", "independent-codes"}
 
 
 def test_nothing_in_the_book_is_outside_and_each_row_has_a_verdict():

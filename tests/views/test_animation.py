@@ -87,7 +87,9 @@ def test_an_elastic_dam_moves_as_its_record_says(elastic):
     case, response = elastic
     record = response.crack
     scene = build_scene(case, response, record.time, 10.0)
-    largest = max(np.abs(each).max() for k in range(len(record.time)) for each in record.displacements(k))
+    largest = max(
+        np.abs(displacement).max() for k in range(len(record.time)) for displacement in record.displacements(k)
+    )
     assert scene.parts[0].amplitudes.shape[1] < record.modes[0].shape[1]
     for frame in range(0, len(record.time), 9):
         for part, body, moved in zip(scene.parts, record.dam.bodies, record.displacements(frame), strict=True):

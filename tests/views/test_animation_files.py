@@ -149,22 +149,22 @@ def test_the_page_draws_where_the_scene_says(elastic, tmp_path):
         check=True,
         timeout=60,
     )
-    found = json.loads(result.stdout)
+    answer = json.loads(result.stdout)
     expected = build_scene(case, response, np.array([0.0, 0.50, 0.51]), 20.0)
-    for drawn, part in zip(found["drawn"], expected.parts, strict=True):
+    for drawn, part in zip(answer["drawn"], expected.parts, strict=True):
         # Between its moments, 10 ms apart, the page goes straight.
         middle = (part.drawn(1, 20.0) + part.drawn(2, 20.0)) / 2.0
         assert np.array(drawn).reshape(-1, 2) == pytest.approx(middle, abs=1e-3)
-    assert np.hypot(*np.array(found["arrows"]).T).max() <= page_scene(path)["cut"] + 1e-9
-    assert np.array(found["arrow"]) == pytest.approx(
+    assert np.hypot(*np.array(answer["arrows"]).T).max() <= page_scene(path)["cut"] + 1e-9
+    assert np.array(answer["arrow"]) == pytest.approx(
         arrow_outlines(np.array([[5.0, 1.0]]), np.array([[0.0, 2.0]]), 0.1).vertices[:7]
     )
-    assert found["ticks"] == pytest.approx([-0.4, -0.2, 0.0, 0.2])
-    assert 20 in found["choices"]
-    assert found["choices"] == sorted(set(found["choices"]))
-    assert 7 in found["odd"]
-    assert found["hash"] == [6.5, None, None]
-    assert found["level"] == [1, 2]
+    assert answer["ticks"] == pytest.approx([-0.4, -0.2, 0.0, 0.2])
+    assert 20 in answer["choices"]
+    assert answer["choices"] == sorted(set(answer["choices"]))
+    assert 7 in answer["odd"]
+    assert answer["hash"] == [6.5, None, None]
+    assert answer["level"] == [1, 2]
 
 
 # Refusals

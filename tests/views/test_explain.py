@@ -53,8 +53,8 @@ def keys(found, path=""):
             yield f"{path}.{name}" if path else name
             yield from keys(each, f"{path}.{name}" if path else name)
     elif isinstance(found, list | tuple):
-        for each in found:
-            yield from keys(each, path)
+        for item in found:
+            yield from keys(item, path)
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +72,7 @@ def results(tmp_path_factory, study):
     koyna = read_case(KOYNA, [*FAST, "concrete.tensile_strength=1MPa"])
     full = koyna.with_("flexible.evidence=full", "motion.duration=1s", "decoupled.rotation=true")
     block = run(read_case(HEIGHT, FAST), "rigid")
-    said = command("motion", "record.txt", "--json", "-", cwd=_record(tmp_path_factory.mktemp("record")))
+    process = command("motion", "record.txt", "--json", "-", cwd=_record(tmp_path_factory.mktemp("record")))
     return {
         "rigid": run(anchored, "rigid").to_json(),
         "flexible": run(full, "both").to_json(),
@@ -92,7 +92,7 @@ def results(tmp_path_factory, study):
         "sections": statics_of_sections(koyna.with_({"statics.sections": ["0 m", "30 m"]})).to_json(),
         "periods": dam_periods(koyna, 2, response=True).to_json(),
         "overturning": overturning_map(read_case(SLENDER), count=12).to_json(),
-        "motion": json.loads(said.stdout),
+        "motion": json.loads(process.stdout),
         "study": study.to_json(),
         "solve": solve(read_case(HEIGHT, FAST), "crack.friction", "residual_slip = 1 mm", model="rigid").to_json(),
         "portfolio": run_study(_portfolio(tmp_path_factory.mktemp("dams")), tmp_path_factory.mktemp("out")).to_json(),
@@ -117,7 +117,7 @@ def test_every_key_of_the_json_is_explained(results):
     unknown = set()
     for data in results.values():
         for path in set(keys(data)):
-            if not UNTOLD.fullmatch(path) and not any(_is_key(each) for each in _explained(path)):
+            if not UNTOLD.fullmatch(path) and not any(_is_key(item) for item in _explained(path)):
                 unknown.add(path)
     assert sorted(unknown) == []
 
@@ -126,12 +126,12 @@ def test_every_key_that_is_explained_is_there(results):
     there = {
         re.sub(r"^(beside|motions|sections\.statics)\.", "", path) for data in results.values() for path in keys(data)
     }
-    met = {each.name for path in there for each in _explained(path)}
+    met = {item.name for path in there for item in _explained(path)}
     # What only a run that is turned by hand, a match, a shelf of runs or a study of several cracks has.
     seldom = {"misfit.rms", "misfit.largest", "varied", "spread.time_step_s", "safe_gap[].frequency_hz"}
     seldom |= {"safe_gap[].from_g", "safe_gap[].to_g", "warnings[].quantities.*", "summary[].cracks"}
-    told = {each.name for each in everything() if _is_key(each) and not each.name.endswith("[]")}
-    assert sorted(told - met - seldom) == []
+    names = {item.name for item in everything() if _is_key(item) and not item.name.endswith("[]")}
+    assert sorted(names - met - seldom) == []
 
 
 def _is_key(meaning):
@@ -148,9 +148,9 @@ def _explained(path):
 @pytest.mark.parametrize("model", ["rigid", "flexible"])
 def test_every_column_of_a_run_is_explained(model):
     response = run(read_case(HEIGHT, [*FAST, "concrete.modulus=20GPa"]), model)
-    told = {kind: {each.name for each in everything() if each.kind == kind} for kind in KINDS}
-    assert set(response.to_table().column_names) <= told["column of the histories"]
-    assert set(response.events_table().column_names) <= told["column of the events"] or model == "flexible"
+    answer = {kind: {item.name for item in everything() if item.kind == kind} for kind in KINDS}
+    assert set(response.to_table().column_names) <= answer["column of the histories"]
+    assert set(response.events_table().column_names) <= answer["column of the events"] or model == "flexible"
 
 
 def test_every_column_of_a_study_is_explained(study):
@@ -159,11 +159,11 @@ def test_every_column_of_a_study_is_explained(study):
 
 
 def test_every_field_is_explained_with_a_sentence():
-    names = {each.name.replace("[]", "[0]") for each in everything() if each.kind == "field of a case"}
+    names = {item.name.replace("[]", "[0]") for item in everything() if item.kind == "field of a case"}
     assert {path for path, _ in leaves() if "processing" not in path} <= names
     assert {f"motion.processing[{step}].{name}" for step, name in (("taper", "share"), ("window", "end"))} <= names
     assert set(case_schema()["properties"]) <= names
-    assert set(Study.model_fields) <= {each.name for each in everything() if each.kind == "field of a study"}
+    assert set(Study.model_fields) <= {item.name for item in everything() if item.kind == "field of a study"}
     for each in everything():
         assert each.meaning.endswith("."), each.name
         assert len(each.meaning) > 8, each.name
@@ -186,17 +186,17 @@ def test_every_field_is_explained_with_a_sentence():
     ],
 )
 def test_what_is_said_of_a_name(name, holds):
-    said = " | ".join(str(vars(each)) for each in explain(name))
+    text = " | ".join(str(vars(item)) for item in explain(name))
     for each in holds:
-        assert each in said
+        assert each in text
 
 
 def test_a_name_may_be_written_in_several_ways():
     assert explain("anchors[0].capacity") == explain("anchors.capacity") == explain("anchors[].capacity")
     assert explain("beside.energy.input_j") == explain("energy.input_j") == explain(" input_j ")
-    assert {each.kind for each in explain("friction")} == {"field of a case", "key of the JSON"}
+    assert {item.kind for item in explain("friction")} == {"field of a case", "key of the JSON"}
     assert explain("band-pass")[0].parts[1].endswith(".low")
-    assert [each.name for each in explain("evidence.residual_slip_m.step")] == ["evidence.residual_slip_m.step"]
+    assert [item.name for item in explain("evidence.residual_slip_m.step")] == ["evidence.residual_slip_m.step"]
 
 
 @pytest.mark.parametrize("name", ["", ".", "*", "crack.frction", "x" * 100_000, "a.b.c", "[", "\0"])
@@ -207,13 +207,13 @@ def test_what_is_not_there_is_refused(name):
 
 
 def test_the_command(tmp_path):
-    said = command("explain", "uplift.pattern", "--json", "-", cwd=tmp_path)
-    (found,) = json.loads(said.stdout)["names"]
-    assert found["default"] == "triangular"
-    assert "uplift.pattern" in said.stderr
+    process = command("explain", "uplift.pattern", "--json", "-", cwd=tmp_path)
+    (name,) = json.loads(process.stdout)["names"]
+    assert name["default"] == "triangular"
+    assert "uplift.pattern" in process.stderr
     listed = command("explain", cwd=tmp_path).stdout
-    for each in everything():
-        assert re.search(rf"^  {re.escape(each.name)}  ", listed, re.MULTILINE), each.name
+    for item in everything():
+        assert re.search(rf"^  {re.escape(item.name)}  ", listed, re.MULTILINE), item.name
     parts = command("explain", "uplift", cwd=tmp_path).stdout
     assert "uplift.during_shaking" in parts
     assert "field of a case" in parts

@@ -199,10 +199,10 @@ def test_rows_of_the_ribbon_tell_modes_apart_without_colour(rocking):
 
 
 def test_slip_by_mode_and_losses_end_at_the_sums_of_the_run(rocking):
-    found = slip_by_kind(rocking)
-    assert found["slide"][-1] == pytest.approx(rocking.slip_by_mode_m["sliding"], rel=1e-9)
-    assert found["drift"][-1] == pytest.approx(rocking.slip_by_mode_m["drifting"], rel=1e-9)
-    assert sum(found.values()) == pytest.approx(rocking.histories["slip_m"], abs=1e-9)
+    result = slip_by_kind(rocking)
+    assert result["slide"][-1] == pytest.approx(rocking.slip_by_mode_m["sliding"], rel=1e-9)
+    assert result["drift"][-1] == pytest.approx(rocking.slip_by_mode_m["drifting"], rel=1e-9)
+    assert sum(result.values()) == pytest.approx(rocking.histories["slip_m"], abs=1e-9)
     assert friction_loss(rocking)[-1] == pytest.approx(rocking.energy.friction_j, rel=1e-3)
     curves = {line.get_label(): line.get_ydata() for line in energy_figure(rocking).axes[0].lines}
     assert curves["impacts"][-1] == pytest.approx(rocking.energy.impact_j / 1e6)
@@ -389,8 +389,8 @@ def test_what_a_crack_with_a_law_bears_stays_below_what_it_could():
     law = {"name": "slip weakening", "peak_friction": 1.0, "residual_friction": 0.7, "slip": "20 mm"}
     points = [["0 s", "0 g"], ["0.1 s", "-0.8 g"], ["0.3 s", "0.5 g"], ["0.5 s", "0 g"]]
     motion = {"points": points, "pga": None, "duration": None}
-    found = rigid(read_case(BASE, [{"crack.law": law, "motion": motion}]))
-    figures = all_figures(None, found)
+    response = rigid(read_case(BASE, [{"crack.law": law, "motion": motion}]))
+    figures = all_figures(None, response)
     assert "friction" in figures
     could, slip = (axes.lines[0] for axes in figures["friction"].axes)
     assert could.get_ydata()[0] > could.get_ydata()[-1]

@@ -83,24 +83,24 @@ def test_vertical_motion_shifts_the_limits_as_a_heavier_block_would():
 @pytest.mark.parametrize("model", [rigid, flexible])
 def test_terminal_and_figures_say_the_same_limits(model):
     response = model(example("typical-base", *FAST))
-    said = printed(response)
-    found = starts(response)
-    assert re.search(rf"Sliding downstream starts at +{re.escape(str(found['sliding', 'downstream']))}", said)
+    message = printed(response)
+    result = starts(response)
+    assert re.search(rf"Sliding downstream starts at +{re.escape(str(result['sliding', 'downstream']))}", message)
     panel = response_figure(response).axes[0]
     title = panel._right_title.get_text()
-    assert f"sliding starts at {found['sliding', 'downstream']} downstream" in title
+    assert f"sliding starts at {result['sliding', 'downstream']} downstream" in title
     assert "-0." not in title
     limit = next(line for line in panel.lines if len(line.get_xdata()) == 2)
-    assert limit.get_ydata()[0] == pytest.approx(-found["sliding", "downstream"].value)
+    assert limit.get_ydata()[0] == pytest.approx(-result["sliding", "downstream"].value)
     legend = " ".join(text.get_text() for text in spectrum_figure(response).legends[0].get_texts())
-    assert str(found["sliding", "downstream"]) in legend
+    assert str(result["sliding", "downstream"]) in legend
 
 
 def test_terminal_says_what_the_vertical_motion_does_to_the_limits(lifted):
-    found = starts(lifted)["sliding", "downstream"]
-    assert found.varied
-    assert found.varied in " ".join(printed(lifted).split())
-    assert float(found.varied.split()[0]) == pytest.approx(found.value - 0.3 * found.per_vertical, abs=1e-4)
+    result = starts(lifted)["sliding", "downstream"]
+    assert result.varied
+    assert result.varied in " ".join(printed(lifted).split())
+    assert float(result.varied.split()[0]) == pytest.approx(result.value - 0.3 * result.per_vertical, abs=1e-4)
 
 
 def test_the_report_says_it_too(lifted, tmp_path):
@@ -179,11 +179,11 @@ def test_anchors_do_not_hide_the_heel():
 
 
 def test_an_elastic_dam_that_still_swings_is_not_said_to_rest():
-    found = flexible(example("typical-base", *FAST))
-    time = found.histories["time_s"]
+    response = flexible(example("typical-base", *FAST))
+    time = response.histories["time_s"]
     end = float(time[-1])
-    swung = found.histories["slip_m"] + 1e-3 * np.sin(2.0 * np.pi * time)
-    still = found.with_crack(histories={**found.histories, "slip_m": swung}, mode=("rest",) * len(found.mode))
+    swung = response.histories["slip_m"] + 1e-3 * np.sin(2.0 * np.pi * time)
+    still = response.with_crack(histories={**response.histories, "slip_m": swung}, mode=("rest",) * len(response.mode))
     assert shown_until(still) == end
     assert "at rest" not in response_figure(still).axes[-1].get_xlabel()
 

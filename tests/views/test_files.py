@@ -78,9 +78,9 @@ def test_what_an_earlier_run_left_does_not_stay(both, typical_elastic, tmp_path)
         path.write_text("mine")
     write_all(both.beside, tmp_path)
     write_all(typical_elastic, tmp_path, suffix=".csv")
-    found = names(tmp_path)
-    assert not found & {"events.parquet", "histories.parquet", "accelerations.png", "accelerations.svg"}
-    assert {"histories.csv", "crack.csv", "energy.png"} <= found
+    keys = names(tmp_path)
+    assert not keys & {"events.parquet", "histories.parquet", "accelerations.png", "accelerations.svg"}
+    assert {"histories.csv", "crack.csv", "energy.png"} <= keys
     assert [path.read_text() for path in mine] == ["mine"] * len(mine)
 
 
@@ -113,9 +113,9 @@ def test_a_run_that_never_started_has_no_histories(tmp_path):
 def test_tables_in_either_form(both, tmp_path):
     for suffix in (".csv", ".parquet"):
         write_all(both, tmp_path, suffix=suffix, figures={})
-        found = names(tmp_path)
+        keys = names(tmp_path)
         tables = {f"rigid/histories{suffix}", f"rigid/events{suffix}", f"histories{suffix}"}
-        assert found == tables | {"result.json", "rigid/result.json", f"crack{suffix}"}
+        assert keys == tables | {"result.json", "rigid/result.json", f"crack{suffix}"}
     rows = len(both.histories["time_s"])
     assert pq.read_table(tmp_path / "histories.parquet").num_rows == rows
 
@@ -166,8 +166,8 @@ def test_a_file_is_no_directory(block, tmp_path):
 def test_a_map_of_overturning_goes_beside_a_run(block, tmp_path, monkeypatch):
     write_all(block, tmp_path, figures={})
     before = contents(tmp_path)
-    found = overturning_map(read_case(SLENDER), count=3)
-    paths = write_overturning(found, tmp_path)
+    overturning = overturning_map(read_case(SLENDER), count=3)
+    paths = write_overturning(overturning, tmp_path)
     assert [path.name for path in paths] == ["overturning.csv", "overturning.png", "overturning.svg"]
     after = contents(tmp_path)
     assert before.items() - after.items() == {(LISTED, before[LISTED])}
@@ -176,7 +176,7 @@ def test_a_map_of_overturning_goes_beside_a_run(block, tmp_path, monkeypatch):
     monkeypatch.setattr("heeltoe.views.files.write.save_all", failing)
     for place in (tmp_path, tmp_path / "new"):
         with pytest.raises(InputError, match="No space left"):
-            write_overturning(found, place)
+            write_overturning(overturning, place)
         assert contents(tmp_path) == after
 
 

@@ -26,17 +26,17 @@ def test_notebooks_show_cases_motions_and_results(block, typical_both):
         (response.motion, ("peak acceleration", "1 g", "m/s", "<polyline")),
         (response, ("residual slip", "mm", "the dam slides", "<polyline")),
     ):
-        found = shown_object._repr_html_()
-        Reader(found)
-        for each in words:
-            assert each in found
+        outcome = shown_object._repr_html_()
+        Reader(outcome)
+        for item in words:
+            assert item in outcome
         # A page of a notebook is no place for a megabyte.
-        assert len(found) < 60_000
+        assert len(outcome) < 60_000
     for result, words in (
         (typical_both, ("The dam slides", "rigid beside it", "(rigid)", "(flexible)")),
         (statics(case, 0.1), ("USACE", "checks", "not met", "sliding factor")),
     ):
-        assert all(each in result._repr_html_() for each in words)
+        assert all(word in result._repr_html_() for word in words)
     never = rigid(read_case(BASE, ["crack.friction=0.2"]))
     assert "No result to trust" in never._repr_html_()
     assert "<b>" not in replace(response, title="<b>")._repr_html_()

@@ -70,17 +70,17 @@ def file(tmp_path_factory):
 @pytest.fixture(scope="module")
 def terminal(file):
     """What `heeltoe run` leaves in its JSON, and prints."""
-    said = command("run", file, "--details", "--json", file.with_name("run.json"))
-    assert said.returncode == 0, said.stderr
-    return json.loads(file.with_name("run.json").read_text()), words(said.stdout)
+    process = command("run", file, "--details", "--json", file.with_name("run.json"))
+    assert process.returncode == 0, process.stderr
+    return json.loads(file.with_name("run.json").read_text()), words(process.stdout)
 
 
 @pytest.fixture(scope="module")
 def checks(file):
     """The same of `heeltoe statics`."""
-    said = command("statics", file, "--details", "--json", file.with_name("statics.json"))
-    assert said.returncode == 0, said.stderr
-    return json.loads(file.with_name("statics.json").read_text()), words(said.stdout)
+    process = command("statics", file, "--details", "--json", file.with_name("statics.json"))
+    assert process.returncode == 0, process.stderr
+    return json.loads(file.with_name("statics.json").read_text()), words(process.stdout)
 
 
 def slips_of(told):
@@ -98,18 +98,18 @@ def not_met(checks):
 
 
 def test_terminal_says_the_worse_sign_the_worst_crack_and_what_is_not_met(terminal):
-    told, text = terminal
-    slips = slips_of(told)
+    answer, text = terminal
+    slips = slips_of(answer)
     worst = max(slips, key=lambda at: abs(slips[at]))
-    signs = {way["sign"]: way for way in told["signs"]}
+    signs = {way["sign"]: way for way in answer["signs"]}
     (leads,) = [way for way in signs.values() if way["governs"]]
-    assert leads["residual_slip_m"] == told["residual_slip_m"] == slips[worst]
+    assert leads["residual_slip_m"] == answer["residual_slip_m"] == slips[worst]
     assert abs(leads["residual_slip_m"]) == max(abs(way["residual_slip_m"]) for way in signs.values())
     assert f"The dam above the crack at {worst:g} m slides {length(abs(slips[worst]))}" in text
     for at, slip in slips.items():
         assert length(abs(slip)) in text, at
     assert f"residual slip at the crack at {worst:g} m of {length(abs(slips[worst]))}" in text
-    (limit,) = [check for check in told["limits"] if not check["met"]]
+    (limit,) = [check for check in answer["limits"] if not check["met"]]
     assert limit["value"] == abs(slips[worst])
     # No number in the tables is without its unit.
     (table,) = re.findall(r"recorded ok 0 m (.*?) leads", text) or [""]
@@ -118,13 +118,13 @@ def test_terminal_says_the_worse_sign_the_worst_crack_and_what_is_not_met(termin
 
 @pytest.mark.usefixtures("no_figures")
 def test_page_one_says_what_the_terminal_and_the_static_checks_say(file, terminal, checks):
-    told, text = terminal
+    answer, text = terminal
     case = read_case(file)
     page = words(Reader(html(build_report(case, run(case)))).text)
     page, _, _ = page.partition("What it leaves to the program")
-    assert told["verdict"] in page
-    assert told["verdict"] in text
-    for at, slip in slips_of(told).items():
+    assert answer["verdict"] in page
+    assert answer["verdict"] in text
+    for at, slip in slips_of(answer).items():
         assert length(slip) in page, at
     assert not_met(checks)
     for at, sentence in not_met(checks):
@@ -132,45 +132,45 @@ def test_page_one_says_what_the_terminal_and_the_static_checks_say(file, termina
 
 
 def test_static_checks_take_the_slips_of_the_run(terminal, checks):
-    slips, (told, text) = slips_of(terminal[0]), checks
-    assert {section["elevation_m"]: section["statics"]["slip_m"] for section in told["sections"]} == slips
-    assert all(section["statics"]["slip_source"].startswith("flexible model") for section in told["sections"])
+    slips, (answer, text) = slips_of(terminal[0]), checks
+    assert {section["elevation_m"]: section["statics"]["slip_m"] for section in answer["sections"]} == slips
+    assert all(section["statics"]["slip_source"].startswith("flexible model") for section in answer["sections"])
     worst = max(slips, key=lambda at: abs(slips[at]))
     assert f"Residual slip {length(slips[worst])}: flexible model" in text
 
 
 def test_the_app_says_the_same_of_run_and_static_checks(file, terminal, checks):
-    told, case = terminal[0], read_case(file)
+    reply, case = terminal[0], read_case(file)
     answer = flexible(lambda text: None, case, {}, "si")
     # The app shows the verdict of the short screen, without what a reader may ask for.
     assert answer["verdict"] in words(command("run", file).stdout)
     (cracks,) = [table for table in answer["tables"] if table["label"].startswith("Each crack")]
-    assert [row[1] for row in cracks["rows"]] == [length(slip) for slip in slips_of(told).values()]
+    assert [row[1] for row in cracks["rows"]] == [length(slip) for slip in slips_of(reply).values()]
     judged = checked(case, {}, "si", [answer["left"]])
     assert judged["failed"] == [f"{at:g} m, {sentence}" for at, sentence in not_met(checks)]
-    assert dict(judged["basis"])["residual slip"].startswith(length(told["residual_slip_m"]))
+    assert dict(judged["basis"])["residual slip"].startswith(length(reply["residual_slip_m"]))
 
 
 def test_a_study_of_the_dam_has_the_run_as_its_row(file, terminal):
-    told = terminal[0]
-    (leads,) = [way["sign"] for way in told["signs"] if way["governs"]]
+    answer = terminal[0]
+    (leads,) = [way["sign"] for way in answer["signs"] if way["governs"]]
     study = file.with_name("study.toml")
     study.write_text('case = "dam.toml"\nmodel = "flexible"\n', encoding="utf-8")
-    said = command("study", study, "--out", file.with_name("study"), "--no-figures")
-    assert said.returncode == 0, said.stderr
-    found = open_study(file.with_name("study"))
-    by_sign = {row["reversed"]: row for row in rows(found)}
+    process = command("study", study, "--out", file.with_name("study"), "--no-figures")
+    assert process.returncode == 0, process.stderr
+    result = open_study(file.with_name("study"))
+    by_sign = {row["reversed"]: row for row in rows(result)}
     row = by_sign[leads == "reversed"]
-    assert row["residual_slip_m"] == told["residual_slip_m"]
-    assert row["opening_upstream_m"] == told["opening_upstream_m"]
+    assert row["residual_slip_m"] == answer["residual_slip_m"]
+    assert row["opening_upstream_m"] == answer["opening_upstream_m"]
     at_cracks = [row[f"cracks[{place}].residual_slip_m"] for place in range(2)]
-    assert at_cracks == list(slips_of(told).values())
-    (summary,) = found.summary
-    assert summary["residual_slip_m"]["largest"] == told["residual_slip_m"]
-    broken = {check["name"]: int(not check["met"]) for check in told["limits"]}
+    assert at_cracks == list(slips_of(answer).values())
+    (summary,) = result.summary
+    assert summary["residual_slip_m"]["largest"] == answer["residual_slip_m"]
+    broken = {check["name"]: int(not check["met"]) for check in answer["limits"]}
     # The other sign slides less, and may keep within what this one does not.
     assert summary["limits_not_met"]["opening_upstream"] == broken["opening_upstream"] == 0
     assert broken["residual_slip"] <= summary["limits_not_met"]["residual_slip"] <= 2
-    text = words(said.stdout)
-    assert f"the farthest run ends at {length(told['residual_slip_m'])}" in text
+    text = words(process.stdout)
+    assert f"the farthest run ends at {length(answer['residual_slip_m'])}" in text
     assert f"of 2 runs exceed the residual slip of {length(0.05)} that the case allows" in text

@@ -82,11 +82,11 @@ def test_lengths_of_a_table():
 def test_tables_of_a_study_on_the_screen(study, units, summary, tornado, speed):
     text = printed(study[0], units)
     lines = text.splitlines()
-    found = {
+    result = {
         "summary": {line.split()[-1] for line in lines if re.match(r"(residual slip|opening).*:.*[1-9]", line)},
         "tornado": set(re.findall(r"[\d.]+ (\w+) \(", text.partition("What the slip depends on")[2])),
     }
-    assert found == {"summary": {summary}, "tornado": {tornado}}, text
+    assert result == {"summary": {summary}, "tornado": {tornado}}, text
     assert set(re.findall(r"[\d.]+ (m/s|ft/s|mm/s|in/s)", text)) == {speed}
     assert re.search(rf"; [\d.]+ {tornado} as the case is", " ".join(text.split()))
     if units == "us":
@@ -96,24 +96,24 @@ def test_tables_of_a_study_on_the_screen(study, units, summary, tornado, speed):
 
 @pytest.mark.parametrize("units", ["si", "us"])
 def test_a_study_s_figures_and_report_have_its_units(study, units):
-    found, folder = study
-    figures = study_figures(found, units)
+    result, folder = study
+    figures = study_figures(result, units)
     assert set(figures) == {"bands", "fragility", "slips", "modes", "tornado"}
-    said = {name: "\n".join(t.get_text() for t in f.findobj(Text)) for name, f in figures.items()}
+    message = {name: "\n".join(t.get_text() for t in f.findobj(Text)) for name, f in figures.items()}
     speed = "ft/s" if units == "us" else "m/s"
     for name in ("bands", "fragility", "modes"):
-        assert f"Arias intensity [{speed}]" in said[name]
-    told = study_document(study_subject(found, folder, units, "", None))
-    page = " ".join(re.sub(r"<style>.*?</style>|<svg.*?</svg>|<[^>]+>", " ", html(told), flags=re.DOTALL).split())
+        assert f"Arias intensity [{speed}]" in message[name]
+    answer = study_document(study_subject(result, folder, units, "", None))
+    page = " ".join(re.sub(r"<style>.*?</style>|<svg.*?</svg>|<[^>]+>", " ", html(answer), flags=re.DOTALL).split())
     page = page.replace("\u2060", "").replace("\xa0", " ")
     # What a field means is said as its documentation says it.
     page = page.rpartition("Appendix: the base case")[0]
     assert re.search(rf"at an Arias intensity of [\d.]+ {speed}", page)
     assert f"scaled to PGV: {'0.3281' if units == 'us' else '0.1'} {speed}" in page
     if units == "us":
-        for text in (*said.values(), page):
+        for text in (*message.values(), page):
             assert not SI.search(text), text
-    for table in tables(told.blocks):
+    for table in tables(answer.blocks):
         # Values of what varies stand in brackets behind the slips that they make.
         cells = " ".join(re.sub(r"\(.*?\)", "", str(getattr(cell, "text", cell))) for row in table.rows for cell in row)
         assert len(set(re.findall(r"\d (mm|m|in|ft)(?![\w/])", cells))) <= 1, cells

@@ -26,8 +26,8 @@ SI = unit_system("si")
 
 
 def test_friction_on_a_rough_crack_is_not_what_lifts_the_block():
-    found = rigid(example("rough-crack", "motion.duration=8s"))
-    assert friction_loss(found)[-1] == pytest.approx(found.energy.friction_j, rel=1e-9)
+    response = rigid(example("rough-crack", "motion.duration=8s"))
+    assert friction_loss(response)[-1] == pytest.approx(response.energy.friction_j, rel=1e-9)
 
 
 def test_the_law_of_a_rough_crack_has_its_asperities():
@@ -39,41 +39,41 @@ def test_the_law_of_a_rough_crack_has_its_asperities():
 
 
 def test_a_bar_that_ends_with_the_axis_says_its_number():
-    found = statics(example("typical-base"))
-    check = next(check for check in found.checks if check.value is not None)
+    result = statics(example("typical-base"))
+    check = next(check for check in result.checks if check.value is not None)
     far = replace(check, value=4.04 * check.required, at_least=True)
-    equilibrium = next(check for check in found.checks if check.value is None and check.met)
-    figure = statics_figure(replace(found, checks=(far, equilibrium)))
+    equilibrium = next(check for check in result.checks if check.value is None and check.met)
+    figure = statics_figure(replace(result, checks=(far, equilibrium)))
     assert "4.04 →" in {text.get_text() for text in texts(figure)}
     # What is met without a number has no bar; what is not met keeps its own.
     assert len(figure.axes[0].patches) == 1
-    figure = statics_figure(replace(found, checks=(far, replace(equilibrium, met=False))))
+    figure = statics_figure(replace(result, checks=(far, replace(equilibrium, met=False))))
     assert len(figure.axes[0].patches) == 2
 
 
 def test_the_spread_of_what_remains_stands_at_the_end_alone():
     case = example("typical-base", "motion.duration=4s", "motion.sign=recorded")
-    found = with_spread(rigid(case), case, 3)
+    response = with_spread(rigid(case), case, 3)
     axes = Figure().subplots()
-    draw_slip(axes, found, SI)
+    draw_slip(axes, response, SI)
     (band,) = axes.collections
     times = band.get_paths()[0].vertices[:, 0]
-    assert times.min() > 0.9 * found.end_time_s
-    assert times.max() == found.end_time_s
+    assert times.min() > 0.9 * response.end_time_s
+    assert times.max() == response.end_time_s
 
 
 def test_a_block_that_overturns_stays_within_its_axis_and_leads_with_its_rotation():
     case = example("slender", "motion.duration=8s")
-    found = run(case, "rigid")
-    assert found.outcome == "overturned"
+    response = run(case, "rigid")
+    assert response.outcome == "overturned"
     axes = Figure().subplots()
-    draw_rotation(axes, found, SI)
+    draw_rotation(axes, response, SI)
     low, high = axes.get_ylim()
     turned = axes.lines[0].get_ydata()
     assert low <= turned.min()
     assert turned.max() <= high
     assert np.abs(turned).max() == pytest.approx(np.pi / 2.0, rel=1e-3)
-    labels = [each.get_ylabel() for each in summary_figure(case, (found,)).axes]
+    labels = [axis.get_ylabel() for axis in summary_figure(case, (response,)).axes]
     assert any("rotation" in label for label in labels)
     assert not any("slip" in label for label in labels)
 
@@ -101,8 +101,8 @@ def test_colours_go_up_to_the_largest_stress():
 
 def test_page_one_has_the_slip_of_every_crack(typical_both):
     case = example("two-cracks", "motion.duration=2s", "flexible.elements_across=3", "flexible.evidence=none")
-    found = run(case, "flexible")
-    slip = summary_figure(case, (found,)).axes[-1]
+    response = run(case, "flexible")
+    slip = summary_figure(case, (response,)).axes[-1]
     labels = [line.get_label() for line in slip.lines if line.get_label().startswith("crack")]
     assert sorted(labels) == ["crack at 0 m", "crack at 90 m"]
     assert "largest tension" in deformed_figure(typical_both)._supxlabel.get_text()

@@ -30,8 +30,8 @@ def test_each_thing_has_a_main_figure(response, typical_both):
         figure = thing.plot()
         if name not in ("statics", "motion", "overturning"):
             check(figure, name)
-        said = " ".join([text.get_text() for text in texts(figure)] + [axes.get_ylabel() for axes in figure.axes])
-        assert words in said
+        message = " ".join([text.get_text() for text in texts(figure)] + [axes.get_ylabel() for axes in figure.axes])
+        assert words in message
         assert thing.plot(name).get_size_inches() == pytest.approx(figure.get_size_inches())
 
 
@@ -57,10 +57,10 @@ def test_what_cannot_be_drawn_says_so(response, tmp_path):
 
 
 def test_bars_of_the_static_checks_reach_one_where_they_are_met():
-    found = statics(example("typical-base", "statics.seismic_coefficient=0.1"), 0.1)
-    bars = found.plot().axes[0].patches
+    result = statics(example("typical-base", "statics.seismic_coefficient=0.1"), 0.1)
+    bars = result.plot().axes[0].patches
     # An equilibrium that is met has no margin, and no bar.
-    drawn = [each for each in found.checks if each.value is not None or not each.met]
-    assert 0 < len(drawn) < len(found.checks)
+    drawn = [item for item in result.checks if item.value is not None or not item.met]
+    assert 0 < len(drawn) < len(result.checks)
     for bar, each in zip(bars, drawn, strict=True):
         assert (bar.get_width() >= 1.0 - 1e-9) == each.met

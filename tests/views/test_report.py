@@ -104,18 +104,18 @@ def test_a_report_holds_all_that_it_shall(block):
 
 def test_figures_of_a_report_are_there_and_not_empty(document):
     def figures(blocks):
-        for each in blocks:
-            if isinstance(each, Section):
-                yield from figures(each.blocks)
-            elif isinstance(each, Beside):
-                yield from each.figures
-            elif isinstance(each, FigureBlock):
-                yield each
+        for item in blocks:
+            if isinstance(item, Section):
+                yield from figures(item.blocks)
+            elif isinstance(item, Beside):
+                yield from item.figures
+            elif isinstance(item, FigureBlock):
+                yield item
 
-    found = {figure.name: figure for figure in figures(document.blocks)}
-    assert {"section", "comparison", "crest", "crack", "spectrum"} <= set(found)
-    assert found["crest"].caption.startswith("Flexible dam. ")
-    for figure in found.values():
+    result = {figure.name: figure for figure in figures(document.blocks)}
+    assert {"section", "comparison", "crest", "crack", "spectrum"} <= set(result)
+    assert result["crest"].caption.startswith("Flexible dam. ")
+    for figure in result.values():
         assert len(figure.svg) > 5000
         assert figure.caption.endswith(".")
     assert caption("flexible/some-new_one") == "Flexible dam. Some new one."
@@ -123,11 +123,11 @@ def test_figures_of_a_report_are_there_and_not_empty(document):
 
 def test_equations_are_numbered_in_order(document):
     def equations(blocks):
-        for each in blocks:
-            if isinstance(each, Section):
-                yield from equations(each.blocks)
-            elif hasattr(each, "typst"):
-                yield each.number
+        for item in blocks:
+            if isinstance(item, Section):
+                yield from equations(item.blocks)
+            elif hasattr(item, "typst"):
+                yield item.number
 
     numbers = list(equations(document.blocks))
     assert len(numbers) > 8
@@ -279,8 +279,8 @@ def test_units_of_the_united_states_all_through(which, request):
     for text in (reader.text, pdf_text(pdf(document))):
         # A title, and how a scenario is written.
         text = re.sub(r"Dam of\s100\sm|M6\.\s?5,\s?20\s?km", "", text)
-        found = re.search(f".{{30}}{SI}", text)
-        assert not found, found
+        match = re.search(f".{{30}}{SI}", text)
+        assert not match, match
     data = {**json.loads(json_text(subject[1].to_json()))}
     for key, (number, text) in reader.numbers.items():
         if not key.startswith("statics."):
@@ -295,20 +295,20 @@ def test_packages_that_do_not_work_are_named(monkeypatch):
         raise ImportError("cannot allocate memory")
 
     monkeypatch.setattr("heeltoe.views.report.write.import_module", fail)
-    with pytest.raises(InputError, match=r"typst, which does not work here \(cannot allocate memory\)") as found:
+    with pytest.raises(InputError, match=r"typst, which does not work here \(cannot allocate memory\)") as result:
         check_packages()
-    assert found.value.code == "report-package-broken"
+    assert result.value.code == "report-package-broken"
 
 
 def test_packages_that_are_missing_are_named(monkeypatch, tmp_path, block):
     monkeypatch.setattr("heeltoe.views.report.write.find_spec", lambda name: None)
-    with pytest.raises(InputError) as found:
+    with pytest.raises(InputError) as result:
         check_packages()
-    assert found.value.code == "report-package"
-    assert "pip install jinja2 typst" in str(found.value)
-    with pytest.raises(InputError) as found:
+    assert result.value.code == "report-package"
+    assert "pip install jinja2 typst" in str(result.value)
+    with pytest.raises(InputError) as result:
         write_report(*block, tmp_path, kinds=("docx",))
-    assert found.value.code == "report-kind"
+    assert result.value.code == "report-kind"
     assert list(tmp_path.iterdir()) == []
 
 
@@ -322,6 +322,6 @@ def test_letters_without_a_font_are_owned_up_to(monkeypatch):
 
 def test_nothing_is_left_half_written(tmp_path, block):
     (tmp_path / "file").write_text("")
-    with pytest.raises(InputError) as found:
+    with pytest.raises(InputError) as result:
         write_report(*block, tmp_path / "file" / "below", kinds=("html",))
-    assert found.value.code == "cannot-write"
+    assert result.value.code == "cannot-write"

@@ -61,9 +61,9 @@ def test_a_report_has_the_spread_where_it_is_cheap(arguments, spreads, tmp_path)
     assert result.returncode == 0, result.stderr
     data = json.loads((tmp_path / "result.json").read_text())
     for prefix, there in spreads.items():
-        found = (lookup(data, prefix) if prefix else data).get("spread")
-        assert (found is not None) == there
-        assert not there or found["runs"] == (3 if "3" in arguments else 11)
+        spread = (lookup(data, prefix) if prefix else data).get("spread")
+        assert (spread is not None) == there
+        assert not there or spread["runs"] == (3 if "3" in arguments else 11)
         if arguments:
             text = " ".join(Reader((tmp_path / "report.html").read_text()).text.split())
             assert ("was not asked" in text) == (not all(spreads.values()))

@@ -24,8 +24,8 @@ METHOD = [
 def test_the_method_is_that_of_the_options(changes, words):
     case = read_case(BASE, ["motion.duration=2s", *changes])
     text = " ".join(Reader(html(build_report(case, rigid(case)))).text.split())
-    for each in words:
-        assert each in text
+    for word in words:
+        assert word in text
     assert "quadrilaterals" not in text
 
 

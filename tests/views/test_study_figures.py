@@ -12,27 +12,27 @@ from shared.studies import DRAWN, GRID, study_file
 
 
 def drawn(tmp_path, text):
-    found = run_study(study_file(tmp_path, text), tmp_path / "out")
-    return found, study_figures(found)
+    study = run_study(study_file(tmp_path, text), tmp_path / "out")
+    return study, study_figures(study)
 
 
 def test_a_grid_shows_each_motion_and_the_bands(tmp_path):
-    found, figures = drawn(tmp_path, GRID)
+    result, figures = drawn(tmp_path, GRID)
     assert set(figures) == {"bands", "slips", "modes"}
     axes = figures["bands"].axes[0]
     thin = axes.collections[0].get_segments()
     assert len(thin) == 30  # 6 dams, 5 motions
     assert thin[0][:, 0] == pytest.approx([0.3, 0.9])
-    band = found.bands()["rigid"]
+    band = result.bands()["rigid"]
     median = next(line for line in axes.lines if "50 %" in line.get_label())
     assert median.get_ydata() == pytest.approx(1e3 * np.maximum(band["median"], 5e-5))
 
 
 def test_fragility_curves_stand_on_their_points(tmp_path):
-    found, figures = drawn(tmp_path, DRAWN)
+    result, figures = drawn(tmp_path, DRAWN)
     axes = figures["fragility"].axes[0]
     curves = [line for line in axes.lines if not line.get_label().startswith("_")]
-    fitted = [each for each in found.fragility if each["median"] is not None]
+    fitted = [item for item in result.fragility if item["median"] is not None]
     assert len(curves) == len(fitted) > 0
     x, y = curves[0].get_data()
     assert np.interp(fitted[0]["median"] / 9.80665, x, y) == pytest.approx(0.5, abs=0.01)
@@ -41,7 +41,7 @@ def test_fragility_curves_stand_on_their_points(tmp_path):
     assert share.min() >= 0.0
     assert share.mean() == pytest.approx(fitted[0]["exceeding"] / fitted[0]["runs"], abs=0.02)
     assert "fragility" in figures
-    low, high = found.curves[0][1].within(np.array([fitted[0]["median"]]))
+    low, high = result.curves[0][1].within(np.array([fitted[0]["median"]]))
     assert low[0] < 0.5 < high[0]
 
 
@@ -57,7 +57,7 @@ def test_shares_of_modes_make_one(tmp_path):
 def test_what_the_slip_hangs_on_is_drawn_where_the_study_asks(tmp_path):
     one = GRID.replace('"case.toml"\n', '"case.toml"\nmethod = "one at a time"\n', 1)
     _, figures = drawn(tmp_path, one)
-    assert [each.get_text() for each in figures["tornado"].axes[0].get_yticklabels()] == [
+    assert [get_yticklabel.get_text() for get_yticklabel in figures["tornado"].axes[0].get_yticklabels()] == [
         "crack.restitution",
         "crack.friction",
     ]

@@ -29,15 +29,15 @@ def figures(document):
 
 
 def test_a_drawn_study(tmp_path):
-    found = run_study(study_file(tmp_path, DRAWN), tmp_path / "out")
-    document, text = report(found, tmp_path)
+    study = run_study(study_file(tmp_path, DRAWN), tmp_path / "out")
+    document, text = report(study, tmp_path)
     assert titles(document) == [
         *("Question and answer", "What was varied", "Ground motions", "Results", "Fragility"),
         *("Measures of strength compared", "How it was computed", "References", "To run it again"),
         "Appendix: the base case",
     ]
     assert figures(document) == ["section", "bands", "slips", "modes", "fragility"]
-    for said in (
+    for message in (
         "60 runs: 60 dams, 10 ground motions of 3 events? Each dam meets one of them.",
         "lognormal, median 0.4, dispersion 0.2, upper 1",
         "triangular, from 0.1 to 0.9, mode 0.4",
@@ -47,11 +47,11 @@ def test_a_drawn_study(tmp_path):
         "all runs are of rigid blocks",
         "Shinozuka",
         "heeltoe study it",
-        found.told["fingerprint"],
+        study.told["fingerprint"],
     ):
-        assert said in text, said
+        assert message in text, message
     # What stands there is what the study says.
-    value = found.summary[0]["residual_slip_m"]["84%"]
+    value = study.summary[0]["residual_slip_m"]["84%"]
     assert f'data-key="summary.0.residual_slip_m.84%" value="{value!r}"' in html(document)
 
 
@@ -59,20 +59,20 @@ def test_what_failed_and_what_is_missing_come_first(tmp_path):
     text = DRAWN.replace("median = 0.4", "median = 0.02").replace("samples = 60", "samples = 40")
     case = "\n".join(["[section]", "polygon = [['0 m', '0 m'], ['4 m', '0 m'], ['4 m', '10 m'], ['0 m', '10 m']]"])
     case += "\n[crack]\nfriction = 0.6\ninclination = '2 deg'\n"
-    found = run_study(study_file(tmp_path, text, case=case), tmp_path / "out")
-    assert found.outcomes["unstable"] > 10
-    _, said = report(found, tmp_path)
-    assert f"Runs without a result {found.outcomes['unstable']:,} of 40 runs ended without a result" in said
-    assert "Base case by itself" not in said
-    assert "Not run by itself" in said
+    study = run_study(study_file(tmp_path, text, case=case), tmp_path / "out")
+    assert study.outcomes["unstable"] > 10
+    _, message = report(study, tmp_path)
+    assert f"Runs without a result {study.outcomes['unstable']:,} of 40 runs ended without a result" in message
+    assert "Base case by itself" not in message
+    assert "Not run by itself" in message
 
 
 def test_an_incomplete_study_says_so(tmp_path, monkeypatch):
     monkeypatch.setattr("heeltoe.study.run.run._MOST", 20)
     run_study(study_file(tmp_path, GRID), tmp_path / "out")
     (tmp_path / "out" / "runs" / "part-00000001.parquet").unlink()
-    document, said = report(open_study(tmp_path / "out"), tmp_path)
-    assert "Not complete 1 of 3 parts of the runs are missing." in said
+    document, message = report(open_study(tmp_path / "out"), tmp_path)
+    assert "Not complete 1 of 3 parts of the runs are missing." in message
     assert "Fragility" not in titles(document)
 
 
@@ -80,8 +80,8 @@ def test_an_incomplete_study_says_so(tmp_path, monkeypatch):
 def test_what_the_slip_hangs_on_has_a_section(tmp_path, method, figure):
     drawn = DRAWN.replace('"latin hypercube"\nsamples = 60', '"sensitivity"\nsamples = 16')
     listed = GRID.replace('"case.toml"\n', '"case.toml"\nmethod = "one at a time"\n', 1)
-    found = run_study(study_file(tmp_path, drawn if method == "sensitivity" else listed), tmp_path / "out")
-    document, _ = report(found, tmp_path, "us")
+    study = run_study(study_file(tmp_path, drawn if method == "sensitivity" else listed), tmp_path / "out")
+    document, _ = report(study, tmp_path, "us")
     section = next(block for block in document.blocks if getattr(block, "title", "") == "What the slip depends on")
     assert [type(block) for block in section.blocks] == [Table, FigureBlock]
     assert section.blocks[1].name == figure
@@ -90,14 +90,14 @@ def test_what_the_slip_hangs_on_has_a_section(tmp_path, method, figure):
 def test_the_command_writes_it_beside_the_runs(tmp_path):
     out = tmp_path / "out"
     file = study_file(tmp_path, GRID)
-    said = command("study", file, "--out", out, "--report", "--units", "us", "--no-figures", "--details")
-    assert said.returncode == 0, said.stderr
+    process = command("study", file, "--out", out, "--report", "--units", "us", "--no-figures", "--details")
+    assert process.returncode == 0, process.stderr
     assert (out / "report.pdf").read_bytes().startswith(b"%PDF")
     text = (out / "report.html").read_text()
     assert "ft/s" in text or " in" in text
     assert not (out / "figures").exists()
-    assert "residual slip: half stay below" in said.stdout
-    assert re.search(r"largest +[\d.]+ (in|ft)", said.stdout)
+    assert "residual slip: half stay below" in process.stdout
+    assert re.search(r"largest +[\d.]+ (in|ft)", process.stdout)
     # Again, over that of before; what is the user's stays.
     assert command("study", file, "--out", out, "--resume", "--report").returncode == 0
     mine = tmp_path / "mine"
@@ -110,8 +110,8 @@ def test_the_command_writes_it_beside_the_runs(tmp_path):
 
 
 def test_a_dry_run_as_json(tmp_path):
-    said = command("study", study_file(tmp_path, GRID), "--dry-run", "--json", "-")
-    told = json.loads(said.stdout)
-    assert (told["runs"], told["dams"], told["motions_of_each"], told["strengths_of_each"]) == (60, 6, 5, 2)
-    assert told["seconds"] == pytest.approx(told["runs"] * told["seconds_per_run"] / told["cores"])
-    assert "60 runs" in said.stderr
+    process = command("study", study_file(tmp_path, GRID), "--dry-run", "--json", "-")
+    answer = json.loads(process.stdout)
+    assert (answer["runs"], answer["dams"], answer["motions_of_each"], answer["strengths_of_each"]) == (60, 6, 5, 2)
+    assert answer["seconds"] == pytest.approx(answer["runs"] * answer["seconds_per_run"] / answer["cores"])
+    assert "60 runs" in process.stderr

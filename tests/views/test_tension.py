@@ -29,29 +29,29 @@ def judged():
 
 
 def test_it_is_said_with_place_moment_and_strength(judged):
-    found = judged.tension
-    line = tension_line(found, "si")
-    assert line.startswith(f"{found['stress_pa'] / 1e6:.3g} MPa at {found['time_s']:.2f} s ")
-    assert f"of the part {found['part']} the crack, {found['z_m']:.3g} m up" in line
+    tension = judged.tension
+    line = tension_line(tension, "si")
+    assert line.startswith(f"{tension['stress_pa'] / 1e6:.3g} MPa at {tension['time_s']:.2f} s ")
+    assert f"of the part {tension['part']} the crack, {tension['z_m']:.3g} m up" in line
     assert line.endswith("MORE than the 0.75 MPa that the concrete bears in an earthquake, 0.5 MPa without one")
-    assert "psi" in tension_line(found, "us")
-    assert "MPa" not in tension_line(found, "us")
-    strong = replace(found, strength=replace(found.strength, exceeds=False))
+    assert "psi" in tension_line(tension, "us")
+    assert "MPa" not in tension_line(tension, "us")
+    strong = replace(tension, strength=replace(tension.strength, exceeds=False))
     assert "; within the 0.75 MPa" in tension_line(strong, "si")
-    assert tension_line(replace(found, strength=None), "si").endswith(
+    assert tension_line(replace(tension, strength=None), "si").endswith(
         "gives no concrete.tensile_strength to judge it by"
     )
 
 
 def test_the_verdict_names_it_where_the_concrete_does_not_bear_it(judged):
-    found = judged.tension
-    said = verdict(judged)
-    assert f"Its tension of {found['stress_pa'] / 1e6:.3g} MPa {place_said(found)}" in said
-    assert "more than the 0.75 MPa that the concrete bears: that nothing else cracks does not hold." in said
+    tension = judged.tension
+    message = verdict(judged)
+    assert f"Its tension of {tension['stress_pa'] / 1e6:.3g} MPa {place_said(tension)}" in message
+    assert "more than the 0.75 MPa that the concrete bears: that nothing else cracks does not hold." in message
     assert "psi" in verdict(judged, "us")
-    strong = replace(found, strength=replace(found.strength, exceeds=False))
+    strong = replace(tension, strength=replace(tension.strength, exceeds=False))
     assert (
-        cracks_said(strong, "si") == cracks_said(replace(found, strength=None), "si") == cracks_said(None, "si") == ""
+        cracks_said(strong, "si") == cracks_said(replace(tension, strength=None), "si") == cracks_said(None, "si") == ""
     )
 
 

@@ -91,10 +91,10 @@ def test_a_row_of_the_static_checks_has_one_unit(results):
     forces = row(si, "Normal force")
     assert len(forces) == 5
     kip_per_foot, psi = 4448.2216152605 / 0.3048, 6894.757293168
-    assert row(us, "Normal force") == pytest.approx([each * 1e6 / kip_per_foot for each in forces], rel=1e-3)
+    assert row(us, "Normal force") == pytest.approx([force * 1e6 / kip_per_foot for force in forces], rel=1e-3)
     stresses = row(si, "Stress at the toe, compression +")
     assert row(us, "Stress at the toe, compression +") == pytest.approx(
-        [each * 1e6 / psi for each in stresses], rel=2e-3
+        [stress * 1e6 / psi for stress in stresses], rel=2e-3
     )
 
 
@@ -119,6 +119,6 @@ def test_errors_quote_what_was_typed(tmp_path):
     case.write_text(
         '{"section": {"polygon": [["0 m", "0 m"], ["1 um", "0 m"], ["0 m", "1 um"]]}, "crack": {"friction": 1}}'
     )
-    said = command("run", case, "--units", "us")
-    assert said.returncode == 2
-    assert "give a section of 1 mm to 10 km" in said.stderr
+    process = command("run", case, "--units", "us")
+    assert process.returncode == 2
+    assert "give a section of 1 mm to 10 km" in process.stderr

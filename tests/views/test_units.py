@@ -17,9 +17,9 @@ RIGID = ("run", BASE, *options(FAST), "--model", "rigid")
 
 
 def said(*arguments):
-    found = command(*arguments)
-    assert found.returncode == 0, found.stderr
-    return found.stdout
+    process = command(*arguments)
+    assert process.returncode == 0, process.stderr
+    return process.stdout
 
 
 @pytest.mark.parametrize("words", [("periods", BASE, "--details"), RIGID], ids=lambda words: words[0])
@@ -33,9 +33,9 @@ def test_the_case_says_the_units_and_the_option_wins(words):
 
 def test_units_there_are_none_of_are_refused():
     for words in (("periods",), ("overturning",), ("animate",), ("run",), ("study",)):
-        found = command(*words, BASE, "--units", "imperial")
-        assert (found.returncode, found.stdout) == (2, "")
-        assert "--units: imperial is not a system of units" in found.stderr
+        process = command(*words, BASE, "--units", "imperial")
+        assert (process.returncode, process.stdout) == (2, "")
+        assert "--units: imperial is not a system of units" in process.stderr
     assert "units" in command("run", BASE, "--set", "units=imperial").stderr
 
 

@@ -35,7 +35,7 @@ def listed(path):
     root = ElementTree.parse(path).getroot()
     assert (root.tag, root.get("type")) == ("VTKFile", "Collection")
     sets = root.findall("Collection/DataSet")
-    return [float(each.get("timestep")) for each in sets], [path.parent / each.get("file") for each in sets]
+    return [float(item.get("timestep")) for item in sets], [path.parent / item.get("file") for item in sets]
 
 
 def read(directory, name):
@@ -144,7 +144,7 @@ def test_all_frames_of_a_short_run(history, tmp_path):
         lower_position=None if history.lower_position is None else history.lower_position[:1],
         force=history.force[:1],
         status=history.status[:1],
-        modes=tuple(each[:1] for each in history.modes),
+        modes=tuple(mode[:1] for mode in history.modes),
     )
     write_vtk_series(first, tmp_path)
     assert sorted(path.name for path in tmp_path.glob("[!.]*")) == ["crack-0.vtu", "crack.pvd", "dam-0.vtu", "dam.pvd"]

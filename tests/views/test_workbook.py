@@ -21,27 +21,27 @@ def sheets(path: Path) -> dict[str, list[list[str]]]:
         names = re.findall(r'<sheet name="([^"]+)"', parts.read("xl/workbook.xml").decode())
         texts = [parts.read(f"xl/worksheets/sheet{k + 1}.xml").decode() for k in range(len(names))]
     rows = [re.findall(r"<row [^>]*>(.*?)</row>", text) for text in texts]
-    cells = [[re.findall(r"<(?:t|v)[^>]*>(.*?)</(?:t|v)>", row) for row in each] for each in rows]
+    cells = [[re.findall(r"<(?:t|v)[^>]*>(.*?)</(?:t|v)>", row) for row in item] for item in rows]
     return dict(zip(names, cells, strict=True))
 
 
 def test_a_run_has_its_numbers_with_units_and_its_histories(tmp_path):
     response = heeltoe.rigid(example("typical-base", "motion.duration=3s", ENDS))
-    found = sheets(heeltoe.write_workbook(response, tmp_path / "run.xlsx"))
-    assert list(found) == ["numbers", "histories", "events"]
-    slip = next(row for row in found["numbers"] if row[0] == "residual_slip_m")
+    result = sheets(heeltoe.write_workbook(response, tmp_path / "run.xlsx"))
+    assert list(result) == ["numbers", "histories", "events"]
+    slip = next(row for row in result["numbers"] if row[0] == "residual_slip_m")
     assert float(slip[1]) == pytest.approx(response.residual_slip_m, rel=1e-12)
     assert slip[2] == "m"
-    head, *rows = found["histories"]
+    head, *rows = result["histories"]
     assert "slip_m [m]" in head
     assert "ground_acceleration_m_s2 [m/s²]" in head
     assert len(rows) == len(response.histories["time_s"])
 
 
 def test_static_checks_have_their_loads(tmp_path):
-    found = sheets(heeltoe.write_workbook(statics_of_sections(heeltoe.read_case(BASE)), tmp_path / "checks.xlsx"))
-    assert list(found) == ["numbers", "loads", "checks"]
-    assert any("reservoir" in row for row in found["loads"])
+    result = sheets(heeltoe.write_workbook(statics_of_sections(heeltoe.read_case(BASE)), tmp_path / "checks.xlsx"))
+    assert list(result) == ["numbers", "loads", "checks"]
+    assert any("reservoir" in row for row in result["loads"])
 
 
 def test_the_command_line_writes_it_beside_the_rest(tmp_path):

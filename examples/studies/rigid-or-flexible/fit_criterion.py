@@ -65,15 +65,15 @@ class Row:
 
 def rows(model: str, regime: Regime) -> list[Row]:
     """Return the studied cases with a result of the block and of a model."""
-    found = []
-    for told in pq.read_table(HERE / "runs.parquet").to_pylist():
-        if told["rigid_outcome"] != "ok" or told[f"{model}_outcome"] != "ok":
+    result = []
+    for answer in pq.read_table(HERE / "runs.parquet").to_pylist():
+        if answer["rigid_outcome"] != "ok" or answer[f"{model}_outcome"] != "ok":
             continue
-        like = likeness(told)
+        like = likeness(answer)
         if like.regime == regime:
             by = like.slip if regime == "slides" else like.displacement
-            found.append(Row(told, like, max(abs(told[f"{model}_slip_m"]), LEAST) / by))
-    return found
+            result.append(Row(answer, like, max(abs(answer[f"{model}_slip_m"]), LEAST) / by))
+    return result
 
 
 def likeness(told: Mapping[str, Any]) -> Likeness:
@@ -97,10 +97,10 @@ def likeness(told: Mapping[str, Any]) -> Likeness:
 def fitted(seen: list[Row], terms: tuple[str, ...]) -> dict[str, Any]:
     """Fit a line by least squares."""
     numbers = [row.like.numbers() for row in seen]
-    regressors = np.array([[1.0, *(regressor(name, each[name]) for name in terms)] for each in numbers])
-    found = np.log([row.ratio for row in seen])
-    line = np.linalg.lstsq(regressors, found, rcond=None)[0]
-    missed = found - regressors @ line
+    regressors = np.array([[1.0, *(regressor(name, item[name]) for name in terms)] for item in numbers])
+    result = np.log([row.ratio for row in seen])
+    line = np.linalg.lstsq(regressors, result, rcond=None)[0]
+    missed = result - regressors @ line
     wide = np.linalg.lstsq(regressors[:, :2], np.abs(missed), rcond=None)[0]
     missed /= np.maximum(regressors[:, :2] @ wide, LEAST_MISSED)
     # The slip of a block that holds is no number of the line.
@@ -110,11 +110,11 @@ def fitted(seen: list[Row], terms: tuple[str, ...]) -> dict[str, Any]:
         "slopes": {name: round(float(each), 4) for name, each in zip(terms, line[1:], strict=True)},
         "spread": round(float(wide[0]), 4),
         "widening": round(float(wide[1]), 4),
-        "quantiles": [round(float(each), 4) for each in np.quantile(missed, SHARES)],
+        "quantiles": [round(float(item), 4) for item in np.quantile(missed, SHARES)],
         "ranges": {
             name: [
-                _cut(min(each[name] for each in numbers), math.floor),
-                _cut(max(each[name] for each in numbers), math.ceil),
+                _cut(min(item[name] for item in numbers), math.floor),
+                _cut(max(item[name] for item in numbers), math.ceil),
             ]
             for name in named
         },
@@ -136,13 +136,13 @@ def all_fits() -> dict[str, Any]:
 
 
 def _fit(model: str, regime: Regime) -> dict[str, Any]:
-    found = rows(model, regime)
-    told = fitted([row for row in found if not row.held_back], TERMS[regime])
-    fit = fit_of({**told, "held_back": {}})
-    held = inside_ranges(fit, [row for row in found if row.held_back])
+    lines = rows(model, regime)
+    answer = fitted([row for row in lines if not row.held_back], TERMS[regime])
+    fit = fit_of({**answer, "held_back": {}})
+    held = inside_ranges(fit, [row for row in lines if row.held_back])
     places = {place: [row for row in held if row.told["crack"] == place] for place in ("base", "height")}
-    told["held_back"] = {place: [round(covered(fit, some), 3), len(some)] for place, some in places.items() if some}
-    return told
+    answer["held_back"] = {place: [round(covered(fit, some), 3), len(some)] for place, some in places.items() if some}
+    return answer
 
 
 def covered(fit: Fit, some: list[Row]) -> float:
@@ -161,16 +161,16 @@ def inside_ranges(fit: Fit, some: list[Row]) -> list[Row]:
 
 def compare() -> None:
     """Print what other numbers would foretell of blocks that slide."""
-    found = rows("flexible", "slides")
+    lines = rows("flexible", "slides")
     print("numbers                              factor of scatter: fitted  held back")
     for terms in TRIED:
-        told = fitted([row for row in found if not row.held_back], terms)
-        fit = fit_of({**told, "held_back": {}})
+        answer = fitted([row for row in lines if not row.held_back], terms)
+        fit = fit_of({**answer, "held_back": {}})
         off = [
-            [np.log(row.ratio) - fit.at(row.like.numbers()) for row in found if row.held_back == held]
+            [np.log(row.ratio) - fit.at(row.like.numbers()) for row in lines if row.held_back == held]
             for held in (0, 1)
         ]
-        seen, held = (np.exp(np.sqrt(np.mean(np.square(each)))) for each in off)
+        seen, held = (np.exp(np.sqrt(np.mean(np.square(item)))) for item in off)
         print(f"{', '.join(terms):45} {seen:16.2f} {held:10.2f}")
 
 
@@ -188,7 +188,7 @@ def groups(fit: Fit) -> None:
             off = np.array([np.log(row.ratio) - fit.at(row.like.numbers()) for row in some])
             times = np.quantile([row.ratio for row in some], [0.15, 0.5, 0.85])
             of = f"{name:23} {low:7g} to {high:7g}: {len(some):4d} cases, {covered(fit, some):4.0%} within"
-            far = ", ".join(f"{each:.2g}" for each in times)
+            far = ", ".join(f"{time:.2g}" for time in times)
             print(f"{of}, bias {np.exp(off.mean()):.2f}, times as far {far}")
 
 
@@ -196,8 +196,8 @@ def report(fits: Mapping[str, Mapping[str, Any]]) -> None:
     """Print how the fits do on what was held back."""
     print("model      block   crack    cases  within  factor of scatter  bias")
     for model, by in fits.items():
-        for regime, told in by.items():
-            fit = fit_of(told)
+        for regime, answer in by.items():
+            fit = fit_of(answer)
             held = inside_ranges(fit, [row for row in rows(model, regime) if row.held_back])
             for place in ("both", "base", "height"):
                 some = [row for row in held if place in ("both", row.told["crack"])]
@@ -207,19 +207,19 @@ def report(fits: Mapping[str, Mapping[str, Any]]) -> None:
                     line = f"{len(some):5d}  {covered(fit, some):6.0%}  {scatter:17.2f}  {bias:4.2f}"
                     print(f"{model:10} {regime:7} {place:7}  {line}")
     print("said that more than 10 mm slide, and how many of those held back do")
-    for low, high, said, did, count in foretold(fit_of(fits["flexible"]["holds"])):
-        print(f"{low:4.0%} to {high:4.0%}: {said:4.0%}  {did:4.0%}  of {count}")
+    for low, high, chance, did, count in foretold(fit_of(fits["flexible"]["holds"])):
+        print(f"{low:4.0%} to {high:4.0%}: {chance:4.0%}  {did:4.0%}  of {count}")
 
 
 def foretold(fit: Fit) -> list[tuple[float, float, float, float, int]]:
     """Return, for stretches of what is said of blocks that hold, the mean said and the share of those held back."""
     held = inside_ranges(fit, [row for row in rows("flexible", "holds") if row.held_back])
-    said = np.array([fit.beyond(row.like.numbers(), FAR_M / row.like.displacement) for row in held])
+    chance = np.array([fit.beyond(row.like.numbers(), FAR_M / row.like.displacement) for row in held])
     did = np.array([row.ratio * row.like.displacement > FAR_M for row in held])
     ends = (0.0, 0.1, 0.3, 0.6, 0.85, 1.0 + 1e-9)
-    parts = [(low, high, (said >= low) & (said < high)) for low, high in pairwise(ends)]
+    parts = [(low, high, (chance >= low) & (chance < high)) for low, high in pairwise(ends)]
     return [
-        (low, min(high, 1.0), said[at].mean(), did[at].mean(), int(at.sum())) for low, high, at in parts if at.any()
+        (low, min(high, 1.0), chance[at].mean(), did[at].mean(), int(at.sum())) for low, high, at in parts if at.any()
     ]
 
 
@@ -242,10 +242,10 @@ def draw(fits: Mapping[str, Mapping[str, Any]]) -> Any:
     axes[0].set(xscale="log", yscale="log", xlabel="times as far, foretold", ylabel="times as far, elastic dam")
     axes[1].set(xscale="log", yscale="log", xlabel="slip of the block [mm]", ylabel="times as far, elastic dam")
     axes[0].legend(fontsize=7, loc="upper left")
-    said = [(each[2], each[3], each[4]) for each in foretold(holds)]
+    chances = [(item[2], item[3], item[4]) for item in foretold(holds)]
     axes[2].plot([0, 100], [0, 100], color="#888888", lw=0.8)
-    axes[2].plot([100 * each[0] for each in said], [100 * each[1] for each in said], "s-", color="#009E73", ms=5)
-    for foreseen, did, count in said:
+    axes[2].plot([100 * item[0] for item in chances], [100 * item[1] for item in chances], "s-", color="#009E73", ms=5)
+    for foreseen, did, count in chances:
         axes[2].annotate(f" {count}", (100 * foreseen, 100 * did), fontsize=7, va="top")
     axes[2].set(xlabel="slide more than 10 mm, foretold [%]", ylabel="of those held back [%]")
     for each, title in zip(axes, ("the block slides", "the same, by its slip", "the block holds"), strict=True):

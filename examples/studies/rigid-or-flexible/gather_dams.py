@@ -46,12 +46,12 @@ def rows_of(directory: Path) -> Iterator[dict[str, Any]]:
             changes |= axis.changes(run[axis.path])
         case = plan.case.with_(changes)
         motion = motions[run["motion"], run["reversed"]]
-        told = {"half": half, "dam": dam, "crack": place, "sample": sample}
-        told |= _told(case, motion, run["factor"])
-        told |= {"event": run["event"], "motion": run["motion"], "reversed": run["reversed"]}
+        answer = {"half": half, "dam": dam, "crack": place, "sample": sample}
+        answer |= _told(case, motion, run["factor"])
+        answer |= {"event": run["event"], "motion": run["motion"], "reversed": run["reversed"]}
         for model in MODELS:
-            told |= _found(model, by_model.get(model, {}))
-        yield told
+            answer |= _found(model, by_model.get(model, {}))
+        yield answer
 
 
 def _told(case: Case, motion: GroundMotion, factor: float) -> dict[str, Any]:
@@ -91,7 +91,7 @@ def _found(model: str, run: dict[str, Any]) -> dict[str, Any]:
     return {
         f"{model}_outcome": run.get("outcome"),
         f"{model}_slip_m": run.get("residual_slip_m"),
-        f"{model}_rotation_rad": max((each for each in turned if each is not None), default=None),
+        f"{model}_rotation_rad": max((item for item in turned if item is not None), default=None),
     }
 
 

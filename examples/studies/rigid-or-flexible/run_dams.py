@@ -47,8 +47,8 @@ def main(out: Path) -> None:
             case, study = _files(name, section, place, number, files)
             (directory / "case.toml").write_text(case, encoding="utf-8")
             (directory / "study.toml").write_text(study, encoding="utf-8")
-            found = run_study(directory / "study.toml", directory / "runs", resume=True)
-            print(f"{half:5}  {name}, {place}: {len(found.to_table())} runs", flush=True)
+            answer = run_study(directory / "study.toml", directory / "runs", resume=True)
+            print(f"{half:5}  {name}, {place}: {len(answer.to_table())} runs", flush=True)
 
 
 def _files(

@@ -58,10 +58,12 @@ def solve(
     if ends is not None and len(ends) != 2:
         raise InputError("solve-order", "--between", shown(between))
     with status() as say:
-        found = solve_case(
+        solution = solve_case(
             loaded, field, until, model=model, between=None if ends is None else (ends[0], ends[1]), progress=say
         )
-        written = [] if out is None else write_solved(found, out, in_units)
-    finish(found.to_json(), json_, written, lambda console: print_solved(found, console, in_units, details=details))
-    if not found.crossings:
+        written = [] if out is None else write_solved(solution, out, in_units)
+    finish(
+        solution.to_json(), json_, written, lambda console: print_solved(solution, console, in_units, details=details)
+    )
+    if not solution.crossings:
         raise typer.Exit(NO_RESULT)

@@ -75,10 +75,10 @@ def test_several_modes_both_ways_against_a_general_solver():
         return np.concatenate([state[3:], load - 0.1 * w * state[3:] - w**2 * state[:3]])
 
     t, crack, ground = accelerations(several, Shaking(time, across, up), 0.004)
-    found = solve_ivp(
+    result = solve_ivp(
         slope, (0.0, time[-1]), np.zeros(6), t_eval=t[t <= time[-1]], rtol=1e-9, atol=1e-12, max_step=2e-3
     )
-    swing = np.array([slope(moment, state)[3:] for moment, state in zip(found.t, found.y.T, strict=True)]).T
+    swing = np.array([slope(moment, state)[3:] for moment, state in zip(result.t, result.y.T, strict=True)]).T
     expected = several.shapes @ swing
     expected[:2] += ground
     assert crack == pytest.approx(expected, abs=2e-5)
@@ -87,11 +87,11 @@ def test_several_modes_both_ways_against_a_general_solver():
 def test_an_oscillator_is_one_of_the_response_spectrum():
     rng = np.random.default_rng(2)
     motion = GroundMotion.from_points(np.arange(400) * 0.02, np.cumsum(rng.standard_normal(400)) * 0.1)
-    found, straightness = crack_motion(oscillator(0.2, 0.05), Earthquake(motion, None, motion.duration))
+    result, straightness = crack_motion(oscillator(0.2, 0.05), Earthquake(motion, None, motion.duration))
     spectrum = response_spectrum(motion, [0.2], 0.05)
-    assert found.horizontal.pga == pytest.approx(float(spectrum.total_acceleration[0]), rel=1e-3)
+    assert result.horizontal.pga == pytest.approx(float(spectrum.total_acceleration[0]), rel=1e-3)
     assert 0.0 < straightness <= STRAIGHT
-    assert found.step == pytest.approx(5e-4)
+    assert result.step == pytest.approx(5e-4)
 
 
 def test_the_transfer_function_is_what_a_steady_vibration_does():
@@ -188,11 +188,11 @@ def test_a_tower_that_carries_a_block():
         )
         return moment[0] * shear[1] - moment[1] * shear[0]
 
-    found = chain(read_case(TOWER)).periods
+    periods = chain(read_case(TOWER)).periods
     for place, (low, high) in enumerate(((0.5, 5.0), (5.0, 20.0))):
-        assert found[place] == pytest.approx(2.0 * math.pi / brentq(determinant, low, high), rel=0.01)
+        assert periods[place] == pytest.approx(2.0 * math.pi / brentq(determinant, low, high), rel=0.01)
     # As long as that of the whole tower, a little less for the rigid top.
-    assert 0.9 < found[0] / bonded_chain(read_case(TOWER)).periods[0] < 1.0
+    assert 0.9 < periods[0] / bonded_chain(read_case(TOWER)).periods[0] < 1.0
 
 
 def test_the_whole_dam_is_that_of_the_flexible_model():
@@ -209,14 +209,14 @@ def test_a_stiff_dam_hands_on_the_motion_of_the_ground():
     stiff = chain(read_case(KOYNA, [COARSE, "concrete.modulus=1e15 Pa"]))
     # All its modes are faster than anything in an accelerogram.
     assert stiff.omega.size == 0
-    found, straightness = crack_motion(stiff, Earthquake(motion, up, 2.0))
+    result, straightness = crack_motion(stiff, Earthquake(motion, up, 2.0))
     assert straightness < 1e-12
-    for each, source in ((found.horizontal, motion), (found.vertical, up)):
+    for each, source in ((result.horizontal, motion), (result.vertical, up)):
         # Up to where the first of them ends, which is a jump to zero.
         moments = np.linspace(0.0, 1.97, 77)
         expected = np.interp(moments, source.time, source.acceleration)
         assert np.interp(moments, each.time, each.acceleration) == pytest.approx(expected, abs=1e-12)
-    assert np.all(found.rotation.acceleration == 0.0)
+    assert np.all(result.rotation.acceleration == 0.0)
     firm = chain(read_case(KOYNA, [COARSE, "concrete.modulus=3.1e13 Pa"]))
     soft = chain(read_case(KOYNA, [COARSE]))
     assert firm.periods[0] == pytest.approx(soft.periods[0] / math.sqrt(1000.0), rel=1e-6)

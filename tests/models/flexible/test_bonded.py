@@ -32,7 +32,7 @@ def test_dams_share_their_modes_and_are_those_built_alone(change, monkeypatch):
     alone = reduced._build(typical(change))
     assert alone.modes is not other.modes
     ground, scales = np.tile([[3.0, 0.0], [-3.0, 0.0]], (200, 1)).repeat(20, axis=0), np.ones((1, 2))
-    runs = [each.kernel.run_many(ground, 2e-4, 0.52, scales, threads=1)[0] for each in (other, alone)]
+    runs = [item.kernel.run_many(ground, 2e-4, 0.52, scales, threads=1)[0] for item in (other, alone)]
     assert {name: values.tolist() for name, values in runs[0].items()} == {
         name: values.tolist() for name, values in runs[1].items()
     }
@@ -64,12 +64,12 @@ def test_no_field_that_is_left_out_changes_the_modes(tmp_path):
             cases = read_case(before), read_case(after)
         except InputError:
             continue
-        told, other = (bonded.told(case, bonded.NOT_OF_MODES) for case in cases)
-        if told == other:
+        answer, other = (bonded.told(case, bonded.NOT_OF_MODES) for case in cases)
+        if answer == other:
             seen.append(path)
-            if told not in built:
-                built[told] = _numbers(cases[0])
-            assert _numbers(cases[1]) == built[told], path
+            if answer not in built:
+                built[answer] = _numbers(cases[0])
+            assert _numbers(cases[1]) == built[answer], path
     assert {"crack.friction", "crack.static_friction", "concrete.damping", "flexible.contactors"} <= set(seen)
 
 

@@ -93,13 +93,13 @@ def test_a_strength_beyond_reach_is_the_bonded_dam():
     fields = dam(**STRONG)
     twice = copy.deepcopy(fields)
     twice["motion"]["points"] = [[t, f"{2.0 * float(a.split()[0])} g"] for t, a in PULSES]
-    one, two = (run(read_case(each), "flexible") for each in (fields, twice))
+    one, two = (run(read_case(item), "flexible") for item in (fields, twice))
     assert one.joint.first_cracking_s is None
     assert verdict(one).startswith("The joint does not crack over its")
     assert max(one.opening_upstream_m, one.opening_downstream_m) < 1e-12
     # The first frame is the state of rest, which is not scaled.
     for name in ("normal_force_n", "friction_force_n"):
-        single, double = (each.histories[name][1:] for each in (one, two))
+        single, double = (item.histories[name][1:] for item in (one, two))
         rest = 2.0 * single[0] - double[0]
         change, twofold = single - rest, double - rest
         assert np.abs(twofold - 2.0 * change).max() < 1e-6 * np.abs(twofold).max(), name
@@ -125,7 +125,7 @@ def test_the_cohesion_reaches_the_end_of_the_line():
 
 def test_long_elements_lower_the_strength_and_a_warning_says_so():
     response = run(read_case(dam(tensile_strength="3 MPa", cohesion="4 MPa", fracture_energy="100 N/m")), "flexible")
-    notice = next(each for each in response.warnings if each.code == "joint-coarse")
+    notice = next(warning for warning in response.warnings if warning.code == "joint-coarse")
     bond = response.joint
     assert bond.process_zone_m == pytest.approx(25e9 * 100.0 / 3e6**2)
     assert bond.tensile_strength_pa == pytest.approx(math.sqrt(25e9 * 100.0 / (3.0 * bond.element_m)))
@@ -146,7 +146,7 @@ def test_nodes_share_the_joint():
 
 def test_a_brittle_joint_asks_for_a_short_step():
     case = read_case(dam(shear_energy="1 N/m"))
-    tough, brittle = (longest_step(build_flexible_dam(each), 0.5, 2e-4) for each in (read_case(dam()), case))
+    tough, brittle = (longest_step(build_flexible_dam(item), 0.5, 2e-4) for item in (read_case(dam()), case))
     assert tough[0] == 2e-4
     assert brittle[0] < 2e-4
     assert brittle[1] == "crack.bond"
@@ -272,7 +272,7 @@ def test_what_is_left_bears_after_the_earthquake():
     case = read_case(dam(**STRONG))
     held = run(case, "flexible")
     assert ligament_of(held) == (0.0, held.crack_width_m)
-    (after,) = (each for each in statics_after(case, held).cases if each.name == "post-seismic")
+    (after,) = (item for item in statics_after(case, held).cases if item.name == "post-seismic")
     assert after.cohesive_force_n == pytest.approx(60e6 * held.crack_width_m, rel=1e-6)
     assert any("the joint holds over" in str(text) for text in after.assumptions)
 

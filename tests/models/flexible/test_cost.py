@@ -52,11 +52,11 @@ def test_time(name, across):
     shaken = ShakenDam(case, dam, earthquake(case).shaking)
     shaken.run(shaken.first_step(), 0.01)
     ran = time.process_time()
-    for said, measured, estimated in (
+    for message, measured, estimated in (
         ("building", built - begun, building(parts_of(case)).seconds),
         ("running", ran - built, running(case, 6.0, 0.01).seconds),
     ):
-        print(f"{name}, {across} across, {said}: {measured:.2f} s, estimated {estimated:.2f} s")
+        print(f"{name}, {across} across, {message}: {measured:.2f} s, estimated {estimated:.2f} s")
         assert factor(measured, estimated) < 6.0
 
 

@@ -49,16 +49,16 @@ def test_a_dowel_stops_a_block_where_the_closed_form_says():
     # F is less than three times the friction the block stays there.
     stiffness = 4e6
     case = block(anchors=[{"distance": "2 m", "shear_stiffness": f"{stiffness} N/m/m"}])
-    found = flexible(case, *pushed(-0.5 * G, 0.0, 0.6))
+    response = flexible(case, *pushed(-0.5 * G, 0.0, 0.6))
     expected = 2.0 * 0.2 * MASS * G / stiffness
     omega = math.sqrt(stiffness / MASS)
-    time, slip = found.histories["time_s"], found.histories["slip_m"]
+    time, slip = response.histories["time_s"], response.histories["slip_m"]
     way = expected / 2.0 * (1.0 - np.cos(omega * np.minimum(time, math.pi / omega)))
     assert slip == pytest.approx(way, abs=0.01 * expected)
-    assert found.residual_slip_m == pytest.approx(expected, rel=0.01)
-    assert found.energy.residual < 1e-12
+    assert response.residual_slip_m == pytest.approx(expected, rel=0.01)
+    assert response.energy.residual < 1e-12
     # What the dowel holds in the end.
-    assert found.energy.left_j == pytest.approx(stiffness * expected**2 / 2.0, rel=0.02)
+    assert response.energy.left_j == pytest.approx(stiffness * expected**2 / 2.0, rel=0.02)
 
 
 def test_an_anchor_holds_a_block_that_would_fly():
@@ -70,17 +70,17 @@ def test_an_anchor_holds_a_block_that_would_fly():
         "prestress": f"{prestress} N/m",
         "capacity": "70 kN/m",
     }
-    found = flexible(block(anchors=[anchor]), *pushed(0.0, -1.5 * G, 0.2))
+    response = flexible(block(anchors=[anchor]), *pushed(0.0, -1.5 * G, 0.2))
     net = 0.5 * MASS * G - prestress
-    gap = found.histories["gap_heel_m"]
-    time = found.histories["time_s"]
+    gap = response.histories["gap_heel_m"]
+    time = response.histories["time_s"]
     rise = net / stiffness * (1.0 - np.cos(math.sqrt(stiffness / MASS) * time))
     assert gap == pytest.approx(rise, abs=0.02 * rise.max())
-    (borne,) = found.anchors
+    (borne,) = response.anchors
     assert borne.peak_tension_n == borne.peak_force_n == pytest.approx(prestress + 2.0 * net, rel=0.01)
     assert (borne.distance_m, borne.capacity_n) == (2.0, 70e3)
-    assert any("more than its capacity of 0.07 MN/m" in text for text in map(str, found.warnings))
-    assert found.energy.residual < 1e-12
+    assert any("more than its capacity of 0.07 MN/m" in text for text in map(str, response.warnings))
+    assert response.energy.residual < 1e-12
 
 
 def test_prestress_alone_is_a_constant_load():
@@ -100,12 +100,12 @@ def test_an_inclined_anchor_pulls_by_its_slip():
     # Leaning downstream by 60 degrees, it is stretched by sin 60 of the slip and pulls the block down as well.
     stiffness, lean = 4e6, math.radians(60.0)
     anchor = {"distance": "2 m", "axial_stiffness": f"{stiffness} N/m/m", "inclination": "60 deg"}
-    found = flexible(block(anchors=[anchor]), *pushed(-0.5 * G, 0.0, 0.6))
+    response = flexible(block(anchors=[anchor]), *pushed(-0.5 * G, 0.0, 0.6))
     # Pull along and, by friction, down: a stiffer spring while it slides downstream, and no way back.
     resists = stiffness * math.sin(lean) * (math.sin(lean) + 0.3 * math.cos(lean))
     expected = 2.0 * 0.2 * MASS * G / resists
-    assert found.residual_slip_m == pytest.approx(expected, rel=0.01)
-    assert found.summary["anchors"][0]["peak_tension_n"] == pytest.approx(
+    assert response.residual_slip_m == pytest.approx(expected, rel=0.01)
+    assert response.summary["anchors"][0]["peak_tension_n"] == pytest.approx(
         stiffness * math.sin(lean) * expected, rel=0.01
     )
 
@@ -113,11 +113,11 @@ def test_an_inclined_anchor_pulls_by_its_slip():
 def test_a_slack_anchor_does_not_push():
     # The other way it only gets slack: the block slides on as if it were not there.
     anchor = {"distance": "2 m", "axial_stiffness": "4 MN/m/m", "inclination": "60 deg"}
-    found = flexible(block(anchors=[anchor]), *pushed(0.5 * G, 0.0, 0.3))
+    response = flexible(block(anchors=[anchor]), *pushed(0.5 * G, 0.0, 0.3))
     free = flexible(block(), *pushed(0.5 * G, 0.0, 0.3))
-    assert found.residual_slip_m == pytest.approx(free.residual_slip_m, rel=1e-9)
+    assert response.residual_slip_m == pytest.approx(free.residual_slip_m, rel=1e-9)
     assert free.residual_slip_m == pytest.approx(-0.2 * G * 0.3**2 / 2.0, rel=0.01)
-    assert found.summary["anchors"][0]["peak_tension_n"] < 1.0
+    assert response.summary["anchors"][0]["peak_tension_n"] < 1.0
 
 
 # Dams

@@ -56,7 +56,7 @@ def test_the_first_frame_is_the_static_state(response):
     history = response.crack
     assert history.time[0] == 0.0
     force = history.forces()[0]
-    for place, (found, body) in enumerate(zip(history.displacements(0), history.dam.bodies, strict=True)):
+    for place, (result, body) in enumerate(zip(history.displacements(0), history.dam.bodies, strict=True)):
         # The forces of the crack and the loads stretch the part so far.
         total = body.load.copy()
         crack = dofs(body.mesh.crack)
@@ -64,7 +64,7 @@ def test_the_first_frame_is_the_static_state(response):
             total[crack] += force.T.reshape(-1)
         held = [*dofs(body.mesh.fixed), *(crack if place == 1 else ())]
         inner = np.setdiff1d(np.arange(total.size), np.array(held, dtype=int))
-        strain = body.stiffness @ found.reshape(-1)
+        strain = body.stiffness @ result.reshape(-1)
         assert strain[inner] == pytest.approx(total[inner], rel=0.0, abs=1e-6 * np.abs(force).max())
     assert history.forces()[1:] == pytest.approx(history.force[1:])
     # Nothing was exerted before there was any time.
@@ -88,8 +88,8 @@ def test_gaps(response):
     assert np.isnan(gaps[1]).any()
     for frame in range(0, len(history.time), 7):
         upper, lower = (face[frame] for face in history.faces)
-        for own, other, sign, found in ((upper, lower, 1.0, gaps[0]), (lower, upper, -1.0, gaps[1])):
-            for (x, z), gap in zip(own.T, found[frame], strict=True):
+        for own, other, sign, result in ((upper, lower, 1.0, gaps[0]), (lower, upper, -1.0, gaps[1])):
+            for (x, z), gap in zip(own.T, result[frame], strict=True):
                 expected = gap_by_hand(x, z, other)
                 if expected is None:
                     assert np.isnan(gap)

@@ -181,7 +181,7 @@ def test_a_factor_is_that_of_the_ground():
 def test_contactors_are_the_same_on_a_rigid_plane():
     a = ground(1000, 1e-3)
     runs = [dam(contactors=kind).kernel.run(a, 1e-3, 0.52).summary for kind in range(1, 6)]
-    assert all(each == runs[0] for each in runs)
+    assert all(item == runs[0] for item in runs)
 
 
 @pytest.mark.parametrize("contactors", [1, 3])
@@ -200,13 +200,13 @@ def test_a_lower_part_that_cannot_move_is_a_plane(contactors):
         wet=np.empty((0, 1)),
         boundary=np.empty((0, 0)),
     )
-    found = CrackedDam(one.reduced[0], still, only_crack(one.reduced[0], still, (FRICTION, FRICTION)), contactors).run(
-        a, dt, 0.52, stride=1
-    )
+    response = CrackedDam(
+        one.reduced[0], still, only_crack(one.reduced[0], still, (FRICTION, FRICTION)), contactors
+    ).run(a, dt, 0.52, stride=1)
     plane = run(one, a, dt)
     assert abs(plane.summary.slip) > 0.05
-    assert found.frames.slip == pytest.approx(plane.frames.slip, abs=1e-9)
-    assert found.summary.energy_residual < 1e-12
+    assert response.frames.slip == pytest.approx(plane.frames.slip, abs=1e-9)
+    assert response.summary.energy_residual < 1e-12
 
 
 def test_parts_that_do_not_fit_are_refused():
@@ -238,17 +238,17 @@ def test_energy_of_random_dams(examples):
     def law(seed):
         drawn = draw(np.random.default_rng(seed))
         run = drawn.run()
-        found = run.summary
-        assert all(np.isfinite(value) for value in found.by_name().values())
+        summary = run.summary
+        assert all(np.isfinite(value) for value in summary.by_name().values())
         assert run.outcome in ("ok", "lost")
         # The search for the state at rest ends where rounding leaves its forces out of balance by 1e-16 to 1e-10 of the
         # loads (start.rs). The motion counts from there as if they balanced, the ledger takes them as they are: it is
         # left with the difference times the way of the dam, whatever step, stiffness and damping. Seeds 1024 and 2418
         # leave 1.7e-11 and 6.7e-11 of their turnover, out of balance by 1.2e-11 and 7.7e-11 of the largest load.
-        assert found.energy_residual <= max(drawn.residual_allowed(run), 1e-10)
-        assert min(found.energy_damping, found.energy_numerical) >= 0.0
+        assert summary.energy_residual <= max(drawn.residual_allowed(run), 1e-10)
+        assert min(summary.energy_damping, summary.energy_numerical) >= 0.0
         if drawn.ordinary:
-            assert found.energy_gained <= MADE * found.energy_turnover
-            assert found.energy_friction + found.energy_impact >= -LEFT * found.energy_turnover
+            assert summary.energy_gained <= MADE * summary.energy_turnover
+            assert summary.energy_friction + summary.energy_impact >= -LEFT * summary.energy_turnover
 
     law()

@@ -52,10 +52,10 @@ def on_nodes(one, damped="mass"):
     count = upper.mesh.nodes.size
 
     def plane(nodes):
-        found = np.zeros((2 * len(nodes), 3))
-        found[::2, 0] = found[1::2, 1] = 1.0
-        found[::2, 2], found[1::2, 2] = -nodes[:, 1], nodes[:, 0]
-        return found
+        values = np.zeros((2 * len(nodes), 3))
+        values[::2, 0] = values[1::2, 1] = 1.0
+        values[::2, 2], values[1::2, 2] = -nodes[:, 1], nodes[:, 0]
+        return values
 
     fits = np.zeros((3, size))
     for body, first, sign in zip(one.bodies, (0, count), (1.0, -1.0), strict=False):
@@ -126,13 +126,13 @@ def decay(one, number):
     wanted = omega[number]
     length = 3.0 * 2.0 * np.pi / wanted
     a = np.where(t < length, 0.01 * np.sin(wanted * t), 0.0)
-    found = one.kernel.run(np.column_stack([a, 0.0 * a]), h, 0.5, stride=1)
-    state = [table - table[0] for table in found.modes if table.size]
+    response = one.kernel.run(np.column_stack([a, 0.0 * a]), h, 0.5, stride=1)
+    state = [table - table[0] for table in response.modes if table.size]
     moved = side_by_side(one, "mass") @ shapes[:, number]
     places = np.split(moved, [one.upper.load.size])
     y = sum(q @ (basis.shapes.T @ piece) for q, basis, piece in zip(state, one.modes, places, strict=False))
     # Nothing slipped or opened on the way.
-    assert np.ptp(found.frames.slip) < 1e-5
+    assert np.ptp(response.frames.slip) < 1e-5
     y = y[int(1.05 * length / h) :]
     peaks = np.flatnonzero((y[1:-1] > y[:-2]) & (y[1:-1] >= y[2:]) & (y[1:-1] > 1e-3 * y.max())) + 1
     curve = np.log(y[peaks])
@@ -165,10 +165,10 @@ def test_dashpots_step_as_the_full_matrix_does(choice, elevation):
     one = dam(elevation, damping="relative" if dry else choice, damping_on_water=not dry)
     up = np.array([[0.0, -30.0]] * 40)  # the ground falls away and the part above flies
     h, theta = 2e-3, 0.6
-    found = one.kernel.run(up, h, theta, stride=1)
-    opened = int(np.argmax(found.frames.touching == 0.0)) + 1
+    response = one.kernel.run(up, h, theta, stride=1)
+    opened = int(np.argmax(response.frames.touching == 0.0)) + 1
     assert 0 < opened < 20
-    q = np.hstack([table for table in found.modes if table.size])
+    q = np.hstack([table for table in response.modes if table.size])
     square = np.concatenate([part.omega_squared for part in one.reduced])
     force = np.concatenate([part.load + 30.0 * part.participation_vertical for part in one.reduced])
     c = in_modes(one)

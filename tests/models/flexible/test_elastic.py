@@ -44,8 +44,8 @@ def test_column_under_its_own_weight():
     assert upper.reshape(-1, 2) == pytest.approx(exact, abs=1e-15)
     assert lower.size == 0
     assert force.reshape(-1, 2).sum(axis=0) == pytest.approx([0.0, load * 8.0 * 12.0], abs=1e-5)
-    found = stresses(straight.upper, upper)
-    assert found == pytest.approx(np.column_stack([0.0 * z, -load * (height - z), 0.0 * z]), abs=1e-4)
+    result = stresses(straight.upper, upper)
+    assert result == pytest.approx(np.column_stack([0.0 * z, -load * (height - z), 0.0 * z]), abs=1e-4)
     # On curved elements a quadratic is no longer exact, but close.
     bent, _, _ = bonded(one)
     z = one.upper.mesh.nodes[:, 1]
@@ -86,10 +86,10 @@ def test_mass_of_rigid_motion(corners, bend, accuracy):
     mass, body = loads.concrete_mass(case), one.upper
     x, z = (body.mesh.nodes - section.centroid).T
     motions = [np.column_stack(motion).reshape(-1) for motion in ([1 + 0 * x, 0 * x], [0 * x, 1 + 0 * x], [-z, x])]
-    found = np.array([[a @ (body.mass_concrete @ b) for b in motions] for a in motions])
+    result = np.array([[a @ (body.mass_concrete @ b) for b in motions] for a in motions])
     expected = np.diag([mass, mass, case.concrete.density * section.polar_inertia])
-    assert found == pytest.approx(expected, rel=accuracy, abs=1e-9 * expected.max())
-    assert found[:2, :2] == pytest.approx(expected[:2, :2], rel=1e-12, abs=1e-12 * mass)
+    assert result == pytest.approx(expected, rel=accuracy, abs=1e-9 * expected.max())
+    assert result[:2, :2] == pytest.approx(expected[:2, :2], rel=1e-12, abs=1e-12 * mass)
     assert (body.mass - body.mass_concrete).nnz == 0
 
 
@@ -231,9 +231,9 @@ def test_mirror_image(corners, tenths, up, down):
         moved[2].reshape(-1, 2), abs=rounded * np.abs(moved[2]).max()
     )
     for face, other in (("upstream", "downstream"), ("downstream", "upstream")):
-        found = image[0].reshape(-1, 2)[getattr(two.upper.mesh, face)] * [-1, 1]
+        result = image[0].reshape(-1, 2)[getattr(two.upper.mesh, face)] * [-1, 1]
         expected = moved[0].reshape(-1, 2)[getattr(one.upper.mesh, other)]
-        assert found == pytest.approx(expected, abs=rounded * np.abs(moved[0]).max())
+        assert result == pytest.approx(expected, abs=rounded * np.abs(moved[0]).max())
 
 
 # Errors

@@ -41,14 +41,14 @@ def slip(scale=1.0, **options):
 
 def test_each_part_is_the_difference_of_two_runs_of_ones_own():
     response = flexible(dam(elements_across=6), MOTION)
-    found = response.evidence
+    evidence = response.evidence
     step = response.time_step_s
     assert response.residual_slip_m > 0.01
-    meshes = [found[f"{which}elements_across"] for which in ("", "other_", "third_")]
+    meshes = [evidence[f"{which}elements_across"] for which in ("", "other_", "third_")]
     assert meshes == [6, 3, 2]
-    assert found["other_time_step_s"] == pytest.approx(2.0 * step)
-    assert found["value_is"] == "run"
-    worth = found["residual_slip_m"]
+    assert evidence["other_time_step_s"] == pytest.approx(2.0 * step)
+    assert evidence["value_is"] == "run"
+    worth = evidence["residual_slip_m"]
     assert worth["value"] == response.residual_slip_m == slip(elements_across=6)
     longer = f"{2.0 * step} s"
     other = slip(elements_across=6, time_step=longer)
@@ -56,15 +56,15 @@ def test_each_part_is_the_difference_of_two_runs_of_ones_own():
     coarse, coarser = (slip(elements_across=across, time_step=longer) for across in (3, 2))
     assert worth["mesh"] == pytest.approx(max(abs(other - coarse), 0.25 * abs(coarse - coarser)), abs=1e-12)
     members = [slip(scale, elements_across=3, time_step=longer) for scale in SCALES]
-    assert found["residual_slips_m"] == pytest.approx(members, abs=1e-12)
+    assert evidence["residual_slips_m"] == pytest.approx(members, abs=1e-12)
     assert worth["shaking"] == pytest.approx(np.std(members, ddof=1), abs=1e-12)
     assert worth["uncertainty"] == pytest.approx(worth["step"] + worth["mesh"] + worth["shaking"])
-    assert found["runs"] == 8
+    assert evidence["runs"] == 8
 
 
 def test_two_meshes_that_agree_better_than_their_order_promises_are_not_believed():
     def moved(*slips):
-        own, beside, third = ({"slip": np.array([each])} for each in slips)
+        own, beside, third = ({"slip": np.array([item])} for item in slips)
         return _moved_by_mesh("slip", own, beside, third)
 
     assert moved(1.0, 1.001, 1.4) == pytest.approx(0.25 * 0.399)
@@ -73,8 +73,8 @@ def test_two_meshes_that_agree_better_than_their_order_promises_are_not_believed
 
 
 def test_a_result_is_the_same_whatever_is_compared_with_it():
-    slips = {each: flexible(dam(elements_across=2), MOTION, evidence=each) for each in ("none", "step", "full")}
-    assert len({each.residual_slip_m for each in slips.values()}) == 1
+    slips = {item: flexible(dam(elements_across=2), MOTION, evidence=item) for item in ("none", "step", "full")}
+    assert len({item.residual_slip_m for item in slips.values()}) == 1
     assert slips["none"].evidence is None
     assert slips["step"].evidence["residual_slip_m"]["mesh"] is None
     assert slips["step"].evidence["runs"] == 2
@@ -104,7 +104,7 @@ def test_evidence_that_there_is_none_is_refused():
     ],
 )
 def test_what_is_refined(moved, given, finer):
-    found = Evidence(
+    result = Evidence(
         asked="full",
         mean=False,
         worth={"residual_slip_m": Worth(0.1, 0.1, *moved)},
@@ -120,7 +120,7 @@ def test_what_is_refined(moved, given, finer):
         work=4.0,
         spent=False,
     )
-    assert _finer(found, Level(0, 0), dam(**given).flexible) == finer
+    assert _finer(result, Level(0, 0), dam(**given).flexible) == finer
 
 
 def test_other_meshes_of_a_case():
@@ -132,18 +132,18 @@ def test_other_meshes_of_a_case():
 def test_where_runs_scatter_the_numbers_are_means(monkeypatch):
     monkeypatch.setattr(refinement, "_scatter", lambda slips, step: True)
     response = flexible(dam(elements_across=4), MOTION)
-    found = response.evidence
+    evidence = response.evidence
     longer = f"{2.0 * response.time_step_s} s"
     members = {across: [slip(s, elements_across=across, time_step=longer) for s in SCALES] for across in (4, 2)}
-    worth = found["residual_slip_m"]
-    assert found["value_is"] == "mean"
+    worth = evidence["residual_slip_m"]
+    assert evidence["value_is"] == "mean"
     assert response.residual_slip_m == worth["value"] == pytest.approx(np.mean(members[4]), abs=1e-12)
     assert worth["mesh"] == pytest.approx(abs(np.mean(members[4]) - np.mean(members[2])), abs=1e-12)
     # The larger of those of both meshes.
     deviations = [np.std(slips, ddof=1) for slips in members.values()]
     assert worth["shaking"] == pytest.approx(max(deviations), abs=1e-12)
     assert worth["run"] == pytest.approx(response.histories["slip_m"][-1], abs=1e-12) != worth["value"]
-    assert any("single runs scatter" in str(each) for each in response.warnings)
+    assert any("single runs scatter" in str(warning) for warning in response.warnings)
     assert "numerically ±" in response.to_json()["verdict"]
 
 
@@ -151,8 +151,8 @@ def test_kinks_that_fewer_elements_cannot_follow_are_compared_with_more():
     kinks = [[f"{20.0 * share} m", f"{0.2 * (1 + place % 2)} m"] for place, share in enumerate(FIVE)]
     crack = {"elevation": "6 m", "friction": 0.7, "kinks": kinks}
     case = read_case(FIELDS | {"crack": crack, "flexible": {"elements_across": 8}})
-    found = flexible(case, MOTION).evidence
-    assert (found["elements_across"], found["other_elements_across"]) == (8, 16)
+    evidence = flexible(case, MOTION).evidence
+    assert (evidence["elements_across"], evidence["other_elements_across"]) == (8, 16)
 
 
 def test_means_are_compared_with_a_third_mesh_where_two_may_agree_by_chance(monkeypatch):

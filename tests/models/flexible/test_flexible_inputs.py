@@ -92,9 +92,9 @@ def test_the_warning_of_a_dam_on_its_way_is_that_of_the_verdict():
     stopped = flexible(case, motion)
     assert stopped.residual_slip_m > 0.1
     assert comes_to_rest(stopped)
-    assert "dam-still-moves" not in [each.code for each in stopped.warnings]
+    assert "dam-still-moves" not in [warning.code for warning in stopped.warnings]
     moving = flexible(case, motion.cut(0.3))
     assert not comes_to_rest(moving)
-    (said,) = [str(each) for each in moving.warnings if each.code == "dam-still-moves"]
-    assert "in the last 0.15 s its slip changes" in said
+    (text,) = [str(warning) for warning in moving.warnings if warning.code == "dam-still-moves"]
+    assert "in the last 0.15 s its slip changes" in text
     assert "in the last 0.15 s its slip changes" in verdict(moving)

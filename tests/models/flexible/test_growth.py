@@ -102,12 +102,12 @@ def pushed(strength, duration):
 
 def test_a_result_says_where_the_slip_depends_on_damping():
     response = flexible(typical(), pushed(0.3, 2.0))
-    found = response.self_excitation
-    assert found["growth_1_s"] * found["sliding_time_s"] > 1.0
-    assert found["twice_damped_slip_m"] is not None
+    self_excitation = response.self_excitation
+    assert self_excitation["growth_1_s"] * self_excitation["sliding_time_s"] > 1.0
+    assert self_excitation["twice_damped_slip_m"] is not None
     # Dashpots twice as strong are those of twice the ratio.
     more = flexible(typical(ratio=0.1), pushed(0.3, 2.0))
-    assert found["twice_damped_slip_m"] == pytest.approx(more.residual_slip_m, rel=1e-6)
+    assert self_excitation["twice_damped_slip_m"] == pytest.approx(more.residual_slip_m, rel=1e-6)
     assert any(notice.code == "self-excited" for notice in response.warnings)
 
 

@@ -130,8 +130,8 @@ def test_meshes_by_file_have_the_crack_that_the_case_has(degrees, tmp_path):
         points = np.column_stack([body.nodes.astype(np.float32), np.zeros(len(body.nodes))])
         meshio.write(path, meshio.Mesh(points.astype(float), [("quad8", body.elements)]))
         names[name] = str(path)
-    _, _, found, one = built(TYPICAL, 40.0, degrees, flexible=names)
-    for body, own in zip(bodies(found), bodies(mesh), strict=True):
+    _, _, result, one = built(TYPICAL, 40.0, degrees, flexible=names)
+    for body, own in zip(bodies(result), bodies(mesh), strict=True):
         assert body.nodes[body.crack] == pytest.approx(own.nodes[own.crack], abs=1e-4)
         assert np.abs(places(body.nodes[body.crack], section)[:, 1]).max() < 1e-9
         assert body.nodes[body.crack[[0, -1]]] == pytest.approx(np.array([section.heel, section.toe]), abs=0.0)
@@ -149,15 +149,15 @@ def test_meshes_by_file_have_the_crack_that_the_case_has(degrees, tmp_path):
 def test_resultants_are_those_of_the_rigid_body(degrees, across):
     case, section, _, one = built(TYPICAL, 40.0, degrees, flexible={"elements_across": across}, **HEAVY)
     for reference in loads.static_forces(case):
-        found = resultant(one.upper, one.upper.loads[reference.name], section)
+        result = resultant(one.upper, one.upper.loads[reference.name], section)
         scale = np.abs(numbers(reference)).max()
-        assert found == pytest.approx(numbers(reference), rel=1e-9, abs=1e-9 * scale), reference.name
+        assert result == pytest.approx(numbers(reference), rel=1e-9, abs=1e-9 * scale), reference.name
     # On both parts together act the forces on the whole dam, and those in the crack cancel.
     whole = case_of(TYPICAL, 0.0, 0.0, **{k: v for k, v in HEAVY.items() if k != "anchors"})
     there = {force.name: force for force in loads.static_forces(whole)}
     for name in ("weight", "reservoir", "tailwater", "ice", "silt"):
-        found = sum(resultant(body, body.loads[name], whole.cut) for body in (one.upper, one.lower))
-        assert found == pytest.approx(numbers(there[name]), rel=1e-9, abs=1e-3), name
+        result = sum(resultant(body, body.loads[name], whole.cut) for body in (one.upper, one.lower))
+        assert result == pytest.approx(numbers(there[name]), rel=1e-9, abs=1e-3), name
     for name in ("uplift", "anchors"):
         above, below = (resultant(body, body.loads[name], section) for body in (one.upper, one.lower))
         assert above == pytest.approx(-below, rel=1e-9, abs=1e-3)
@@ -180,9 +180,9 @@ def test_silt_on_a_slope_by_hand():
     corners = ((0.0, 0.0), (50.0, 0.0), (30.0, 60.0), (15.0, 60.0))
     more = {"reservoir": {"depth": "50 m"}, "silt": {"depth": "40 m"}}
     _, section, _, one = built(corners, 0.0, 0.0, **more)
-    found = resultant(one.upper, one.upper.loads["silt"], section)
+    force = resultant(one.upper, one.upper.loads["silt"], section)
     g = 9.80665
-    assert found[:2] == pytest.approx([360.0 * g * 800.0, -920.0 * g * 40.0 * 10.0 / 2.0])
+    assert force[:2] == pytest.approx([360.0 * g * 800.0, -920.0 * g * 40.0 * 10.0 / 2.0])
 
 
 @pytest.mark.parametrize("degrees", [10.0, -10.0])
@@ -205,8 +205,8 @@ def test_mirror_image():
     image = [(-x, z) for x, z in corners]
     _, mirrored, _, two = built(image, section.toe[1], -9.0, **other)
     assert mirrored.crack_width == pytest.approx(section.crack_width)
-    found, expected = bonded(two)[2].reshape(-1, 2)[::-1] * [-1, 1], bonded(one)[2].reshape(-1, 2)
-    assert found == pytest.approx(expected, abs=1e-7 * np.abs(expected).max())
+    result, expected = bonded(two)[2].reshape(-1, 2)[::-1] * [-1, 1], bonded(one)[2].reshape(-1, 2)
+    assert result == pytest.approx(expected, abs=1e-7 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("elevation", [0.0, 20.0])
@@ -271,6 +271,6 @@ def test_frames_of_an_inclined_crack(tmp_path):
     from heeltoe.views.files.vtk import write_vtk_series
 
     write_vtk_series(record, tmp_path, frames=[-1])
-    found = meshio.read(next(tmp_path.glob("crack-*.vtu"))).point_data["displacement"][:, :2]
+    result = meshio.read(next(tmp_path.glob("crack-*.vtu"))).point_data["displacement"][:, :2]
     expected = [each[body.mesh.crack] for each, body in zip(record.displacements(-1), record.dam.bodies, strict=True)]
-    assert found == pytest.approx(np.vstack(expected), abs=1e-9)
+    assert result == pytest.approx(np.vstack(expected), abs=1e-9)

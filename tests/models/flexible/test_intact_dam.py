@@ -60,10 +60,10 @@ def test_the_stresses_of_an_intact_dam_are_those_of_modal_analysis(elevation, de
             amplitudes.append(x)
     moved = dam.tie @ (shapes @ np.array(amplitudes).T)
     ends = np.cumsum([body.mesh.nodes.size for body in dam.bodies])[:-1]
-    for body, found, motion in zip(dam.bodies, ours, np.split(moved, ends), strict=True):
+    for body, result, motion in zip(dam.bodies, ours, np.split(moved, ends), strict=True):
         wanted = stresses(body, motion)
-        assert found.shape == wanted.shape
+        assert result.shape == wanted.shape
         largest = np.abs(wanted).max()
         assert largest > 1e5
-        assert np.abs(found - wanted).max() < 1e-6 * largest
+        assert np.abs(result - wanted).max() < 1e-6 * largest
     assert run.summary.cracked_length == 0.0

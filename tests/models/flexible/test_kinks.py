@@ -93,10 +93,10 @@ def test_a_sawtooth_climbs_as_a_block_on_a_slope_does(degrees, friction):
     strength = GRAVITY * math.tan(math.atan(friction) + rise)
     assert abs(slip_of(sawtooth(rise, friction, 0.95 * strength))).max() < 1e-3
     push = 1.4 * strength
-    found = flexible(sawtooth(rise, friction, push))
+    response = flexible(sawtooth(rise, friction, push))
     uphill = push * math.cos(rise) - GRAVITY * math.sin(rise)
     uphill -= friction * (GRAVITY * math.cos(rise) + push * math.sin(rise))
-    time, slip, gap = (found.histories[name] for name in ("time_s", "slip_m", "gap_heel_m"))
+    time, slip, gap = (response.histories[name] for name in ("time_s", "slip_m", "gap_heel_m"))
     assert slip[-1] == pytest.approx(0.5 * uphill * time[-1] ** 2 * math.cos(rise), rel=0.05)
     assert gap[-1] >= 0.0
 
@@ -117,15 +117,15 @@ def test_a_step_without_friction_bears_the_push_by_its_face():
 
 
 def test_the_ledger_closes_and_a_step_holds_back():
-    found = flexible(dam(kinks=STEP))
+    response = flexible(dam(kinks=STEP))
     energy = {
-        name: found.histories[f"{name}_energy_j"] for name in ("stored", "input", "damping", "friction", "impact")
+        name: response.histories[f"{name}_energy_j"] for name in ("stored", "input", "damping", "friction", "impact")
     }
     lost = energy["damping"] + energy["friction"] + energy["impact"]
     left = energy["input"] - (energy["stored"] - energy["stored"][0]) - lost
     assert abs(left).max() < 0.02 * abs(energy["input"]).max()
     assert left.min() > -1e-3 * abs(energy["input"]).max()
-    assert abs(found.histories["slip_m"]).max() < abs(slip_of(dam())).max()
+    assert abs(response.histories["slip_m"]).max() < abs(slip_of(dam())).max()
 
 
 @pytest.mark.parametrize(
@@ -222,10 +222,10 @@ def test_a_larger_dam_on_larger_steps_slides_as_much_farther():
 
 def test_a_run_has_the_same_bits_with_any_number_of_threads():
     case = dam(kinks=STEP)
-    found = ShakenDam(case, build_flexible_dam(case), earthquake(case).shaking)
-    one, two = (found.run_scaled(2e-4, np.array([0.9, 1.0, 1.1]), threads=threads) for threads in (1, 2))
+    shaken_dam = ShakenDam(case, build_flexible_dam(case), earthquake(case).shaking)
+    one, two = (shaken_dam.run_scaled(2e-4, np.array([0.9, 1.0, 1.1]), threads=threads) for threads in (1, 2))
     assert one["slip"].tobytes() == two["slip"].tobytes()
-    assert one["slip"][1] == found.run(2e-4).summary.slip
+    assert one["slip"][1] == shaken_dam.run(2e-4).summary.slip
 
 
 def test_anchors_hold_a_crack_with_kinks_as_a_straight_one():

@@ -86,17 +86,17 @@ def test_two_motions_do_what_the_joined_one_does():
 def test_drains_that_close_are_told_and_stay():
     drained = {"pattern": "drained", "drain_position": 0.1, "drain_efficiency": 0.6}
     changes = {"uplift": drained, "aftershocks": [{"points": OTHER, "pause": "1 s"}], "statics.drain_diameter": "0.2 m"}
-    found = flexible(dam(changes))
-    assert found.sequence[0].static["drainage"] < 0.9
-    assert found.summary["drainage_by_motion"] is None
-    assert "sequence-drains" in codes(found)
+    response = flexible(dam(changes))
+    assert response.sequence[0].static["drainage"] < 0.9
+    assert response.summary["drainage_by_motion"] is None
+    assert "sequence-drains" in codes(response)
 
 
 def test_a_dam_that_its_steps_hold_stands_before_the_earthquake():
     kinks = [["20 m", "0 m"], ["30 m", "4 m"], ["60 m", "0 m"]]
     stepped = dam({"crack.kinks": kinks}, "crack.friction=0.55")
-    found = usual(stepped).load_case
-    assert found.sliding_factor < 1.0 < found.sliding_factor_on_pieces
+    load_case = usual(stepped).load_case
+    assert load_case.sliding_factor < 1.0 < load_case.sliding_factor_on_pieces
     held, slides = flexible(stepped), flexible(dam({"crack.kinks": []}, "crack.friction=0.55"))
     assert (held.outcome, slides.outcome) == ("ok", "unstable")
     assert "steps-hold" in codes(held)
@@ -128,8 +128,8 @@ def test_studies_of_blocks_refuse_kinks(tmp_path, model):
 
 def test_a_spread_is_of_runs_by_hand():
     case = dam()
-    found = with_spread(flexible(case), case, 3).spread
-    assert found["failed"] == 0
-    weaker = [[time, f"{found['scales'][0] * float(size.split()[0])!r} g"] for time, size in PULSES]
+    spread = with_spread(flexible(case), case, 3).spread
+    assert spread["failed"] == 0
+    weaker = [[time, f"{spread['scales'][0] * float(size.split()[0])!r} g"] for time, size in PULSES]
     weak = flexible(case.with_({"motion.points": weaker}))
-    assert found["residual_slips_m"][0] == pytest.approx(weak.residual_slip_m, rel=1e-9)
+    assert spread["residual_slips_m"][0] == pytest.approx(weak.residual_slip_m, rel=1e-9)

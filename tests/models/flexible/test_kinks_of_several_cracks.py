@@ -59,17 +59,17 @@ def test_the_neck_alone_where_the_other_crack_is_bonded():
 
 def test_contact_is_met_and_the_ledger_closes():
     run = shaken(dam(flexible={"elements_across": 4, "evidence": "none"}))
-    for each in run.summaries:
-        assert each.contact_residual < 1e-9
-        assert each.energy_residual < 1e-12
-        assert each.energy_gained < 1e-9 * each.energy_turnover
+    for summary in run.summaries:
+        assert summary.contact_residual < 1e-9
+        assert summary.energy_residual < 1e-12
+        assert summary.energy_gained < 1e-9 * summary.energy_turnover
     straight = shaken(dam([], [], flexible={"elements_across": 4, "evidence": "none"}))
     assert abs(run.summaries[1].slip) < abs(straight.summaries[1].slip)
 
 
 def test_a_mirrored_dam_slides_the_other_way():
     case = dam(flexible={"elements_across": 4, "evidence": "none"})
-    widths = [each.cut.crack_width for each in case.single_crack_cases]
+    widths = [single_crack_case.cut.crack_width for single_crack_case in case.single_crack_cases]
     polygon = [[f"{-x!r} m", f"{z!r} m"] for x, z in np.array(case.section.vertices()).tolist()[::-1]]
 
     def turned(kinks, width):
@@ -94,7 +94,7 @@ def test_laws_and_anchors_go_with_them():
     case = dam(flexible={"elements_across": 4, "evidence": "none"}).with_({"crack.law": weak})
     anchor = {"head_x": "3 m", "head_elevation": "99 m", "foot_x": "6 m", "foot_elevation": "5 m"}
     bare, held = flexible(case), flexible(case.with_({"anchors": [anchor | {"prestress": "10 MN/m"}]}))
-    assert [each["anchors"][0]["peak_tension_n"] for each in held.cracks] == [1e7, 1e7]
+    assert [crack["anchors"][0]["peak_tension_n"] for crack in held.cracks] == [1e7, 1e7]
     assert abs(held.residual_slip_m) < abs(bare.residual_slip_m)
     assert bare.cracks[1]["friction_law"]["slip_path_m"] > 0.0
 

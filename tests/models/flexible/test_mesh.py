@@ -180,5 +180,5 @@ def test_tip_needs_two_elements_across():
 def test_local_coordinates_of_the_nodes():
     # One element that is its own local square: the gradients are those of the identity.
     nodes = np.vstack([CORNERS, MIDDLES])
-    found = jacobians(nodes, np.arange(8)[None], np.array([(0.3, -0.7), (-1.0, 1.0), (0.0, 0.0)]))
-    assert found == pytest.approx(np.broadcast_to(np.eye(2), (1, 3, 2, 2)))
+    result = jacobians(nodes, np.arange(8)[None], np.array([(0.3, -0.7), (-1.0, 1.0), (0.0, 0.0)]))
+    assert result == pytest.approx(np.broadcast_to(np.eye(2), (1, 3, 2, 2)))

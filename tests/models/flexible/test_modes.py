@@ -184,8 +184,8 @@ def test_static_flexibility_against_a_direct_solution(cracked):
         unit = np.zeros((body.load.size, crack.size))
         unit[crack, np.arange(crack.size)] = 1.0
         direct = unit[free].T @ scipy.linalg.solve(operator, unit[free], assume_a="pos")
-        found = modes.shapes[crack] @ (modes.shapes[crack] / (modes.omega_squared + shift)).T
-        assert found == pytest.approx(direct, abs=1e-8 * np.abs(direct).max())
+        result = modes.shapes[crack] @ (modes.shapes[crack] / (modes.omega_squared + shift)).T
+        assert result == pytest.approx(direct, abs=1e-8 * np.abs(direct).max())
 
 
 def test_residual_error(cracked):
@@ -197,8 +197,8 @@ def test_residual_error(cracked):
         assert modes.truncated
         # By its definition, from all modes.
         crack, square = dofs(body.mesh.crack), circular**2
-        found, exact = (m.shapes[crack] @ (m.shapes[crack] / (m.omega_squared + square)).T for m in (modes, whole))
-        expected = scipy.linalg.eigvalsh(exact - found, exact)[-1]
+        result, exact = (m.shapes[crack] @ (m.shapes[crack] / (m.omega_squared + square)).T for m in (modes, whole))
+        expected = scipy.linalg.eigvalsh(exact - result, exact)[-1]
         assert residual_error(body, modes, circular) == pytest.approx(expected, rel=1e-4)
         # Without the static shapes some patterns of forces meet a crack that does not give at all.
         bare = type(modes)(

@@ -35,9 +35,9 @@ def test_resultants_are_those_of_the_rigid_body(corners, tenths, up, down, uplif
     case, section, one = built(corners, tenths / 10 * top, uplift=uplift, flexible=options, **water)
     scale = 2650 * G * 80.0 * top
     for reference in loads.static_forces(case):
-        found = resultant(one.upper, one.upper.loads[reference.name], section)
+        result = resultant(one.upper, one.upper.loads[reference.name], section)
         expected = [reference.horizontal, reference.vertical, reference.moment]
-        assert found == pytest.approx(expected, rel=1e-9, abs=1e-12 * scale * top), reference.name
+        assert result == pytest.approx(expected, rel=1e-9, abs=1e-12 * scale * top), reference.name
     assert one.upper.load == pytest.approx(sum(one.upper.loads.values()))
     if one.lower is None:
         return
@@ -46,11 +46,11 @@ def test_resultants_are_those_of_the_rigid_body(corners, tenths, up, down, uplif
     forces = loads.static_forces(whole)
     heel = whole.cut
     for reference in forces[:3]:
-        found = sum(resultant(body, body.loads[reference.name], heel) for body in parts(one))
+        result = sum(resultant(body, body.loads[reference.name], heel) for body in parts(one))
         expected = [reference.horizontal, reference.vertical, reference.moment]
-        assert found == pytest.approx(expected, rel=1e-9, abs=1e-12 * scale * top), reference.name
-    found = [resultant(body, body.loads["uplift"], section) for body in parts(one)]
-    assert found[0] == pytest.approx(-found[1], rel=1e-9, abs=1e-12 * scale * top)
+        assert result == pytest.approx(expected, rel=1e-9, abs=1e-12 * scale * top), reference.name
+    result = [resultant(body, body.loads["uplift"], section) for body in parts(one)]
+    assert result[0] == pytest.approx(-result[1], rel=1e-9, abs=1e-12 * scale * top)
 
 
 @settings(max_examples=40)
@@ -60,10 +60,10 @@ def test_virtual_mass(corners, tenths, filling, down, across):
     top = max(z for _, z in corners)
     water = {"reservoir": deep(filling * top), "tailwater": down and deep(down * top)}
     case, section, one = built(corners, tenths / 10 * top, flexible={"elements_across": across}, **water)
-    found = [moving(body, section) for body in parts(one)]
+    result = [moving(body, section) for body in parts(one)]
     expected = virtual_water.virtual_mass(case)
-    assert found[0] == pytest.approx([expected.mass, expected.mass * expected.height], rel=1e-9, abs=1e-6)
-    if len(found) == 2:
+    assert result[0] == pytest.approx([expected.mass, expected.mass * expected.height], rel=1e-9, abs=1e-6)
+    if len(result) == 2:
         at_base = make(corners, **water)
         whole = virtual_water.virtual_mass(at_base)
         mass, moment = sum(moving(body, at_base.cut) for body in parts(one))

@@ -27,35 +27,35 @@ def beam(number: float, height: float) -> float:
 
 
 def test_beams():
-    found = dam_periods(read_case(TOWER), 2)
-    assert found.intact == pytest.approx([beam(1.87510, 60.0), beam(4.69409, 60.0)], rel=0.01)
+    periods = dam_periods(read_case(TOWER), 2)
+    assert periods.intact == pytest.approx([beam(1.87510, 60.0), beam(4.69409, 60.0)], rel=0.01)
     # Cut off at its base it is free at both ends.
-    assert found.above == pytest.approx([beam(4.73004, 60.0), beam(7.85320, 60.0)], rel=0.01)
-    assert found.below is None
-    assert found.intact_dry == found.intact
+    assert periods.above == pytest.approx([beam(4.73004, 60.0), beam(7.85320, 60.0)], rel=0.01)
+    assert periods.below is None
+    assert periods.intact_dry == periods.intact
 
 
 def test_a_crack_in_the_middle():
-    found = dam_periods(read_case({**TOWER, "crack": {"friction": 1.0, "elevation": "40 m"}}), 2)
-    assert found.intact == pytest.approx([beam(1.87510, 60.0), beam(4.69409, 60.0)], rel=0.01)
-    assert found.above[0] == pytest.approx(beam(4.73004, 20.0), rel=0.03)
-    assert found.below[0] == pytest.approx(beam(1.87510, 40.0), rel=0.01)
+    periods = dam_periods(read_case({**TOWER, "crack": {"friction": 1.0, "elevation": "40 m"}}), 2)
+    assert periods.intact == pytest.approx([beam(1.87510, 60.0), beam(4.69409, 60.0)], rel=0.01)
+    assert periods.above[0] == pytest.approx(beam(4.73004, 20.0), rel=0.03)
+    assert periods.below[0] == pytest.approx(beam(1.87510, 40.0), rel=0.01)
 
 
 def test_water_makes_a_dam_slower():
-    found = dam_periods(read_case(BASE, ["flexible.elements_across=3"]))
-    assert all(wet > dry for wet, dry in zip(found.intact, found.intact_dry, strict=True))
-    assert list(found.intact) == sorted(found.intact, reverse=True)
-    assert len(found.intact) == len(found.above) == 5
+    periods = dam_periods(read_case(BASE, ["flexible.elements_across=3"]))
+    assert all(wet > dry for wet, dry in zip(periods.intact, periods.intact_dry, strict=True))
+    assert list(periods.intact) == sorted(periods.intact, reverse=True)
+    assert len(periods.intact) == len(periods.above) == 5
 
 
 def test_json_and_damping():
     case = read_case(HEIGHT, ["flexible.elements_across=2"])
-    found = dam_periods(case, 3)
-    data = json.loads(json.dumps(found.to_json(), allow_nan=False))
+    periods = dam_periods(case, 3)
+    data = json.loads(json.dumps(periods.to_json(), allow_nan=False))
     assert {len(values) for values in data["periods_s"].values()} == {3}
     mass, stiffness = data["rayleigh"]["mass_1_s"], data["rayleigh"]["stiffness_s"]
-    for period in (found.intact[0], found.intact[2]):
+    for period in (periods.intact[0], periods.intact[2]):
         omega = 2.0 * math.pi / period
         assert mass / (2.0 * omega) + stiffness * omega / 2.0 == pytest.approx(0.05)
     modal = dam_periods(read_case(HEIGHT, ["flexible.elements_across=2", "flexible.damping=modal"]), 1)
@@ -87,15 +87,15 @@ def test_compressible_water_counts_as_a_mass_and_the_screen_says_so(capsys):
 
 # Pine Flat, rigid rock, compressible water: 2.53 Hz (Samii and Lotfi 2007), 2.60 Hz (Gorai and Maity 2020).
 def test_pine_flat_amplifies_where_others_find_it():
-    found = dam_periods(example("pine-flat", "flexible.elements_across=8"), 1, response=True)
-    curves = {(curve.rock, curve.water): curve.response for curve in found.amplification.curves}
+    periods = dam_periods(example("pine-flat", "flexible.elements_across=8"), 1, response=True)
+    curves = {(curve.rock, curve.water): curve.response for curve in periods.amplification.curves}
     assert list(curves) == [
         (rock, water) for rock in ("rigid", "elastic") for water in ("empty", "incompressible", "compressible")
     ]
-    assert not found.amplification.assumptions
+    assert not periods.amplification.assumptions
     assert 2.45 < curves["rigid", "compressible"].resonance < 2.62
     # Without waves the peaks are those of the modes; the concrete's damping is theirs.
-    for water, period in (("empty", found.intact_dry[0]), ("incompressible", found.intact[0])):
+    for water, period in (("empty", periods.intact_dry[0]), ("incompressible", periods.intact[0])):
         response = curves["rigid", water]
         assert response.resonance == pytest.approx(1.0 / period, rel=0.01)
         assert response.damping == pytest.approx(0.05, rel=0.03)
@@ -108,13 +108,13 @@ def test_pine_flat_amplifies_where_others_find_it():
 
 def test_response_says_what_it_assumes(capsys):
     case = example("typical-height", "flexible.elements_across=3")
-    found = dam_periods(case, 1, response=True)
-    print_periods(found, Console(width=200), units="us")
+    periods = dam_periods(case, 1, response=True)
+    print_periods(periods, Console(width=200), units="us")
     screen = capsys.readouterr().out
     assert "elastic rock has the modulus of the concrete" in screen
     assert "The case has water without sound" in screen
     assert "effective damping" in screen
-    data = json.loads(json.dumps(found.to_json(), allow_nan=False))["response"]
+    data = json.loads(json.dumps(periods.to_json(), allow_nan=False))["response"]
     assert {len(curve["amplification"]) for curve in data["curves"]} == {len(data["frequency_hz"])}
     empty = dam_periods(case.with_({"reservoir": None}), 1, response=True).amplification
     assert [curve.water for curve in empty.curves] == ["empty", "empty"]

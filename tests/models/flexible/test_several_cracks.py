@@ -60,7 +60,7 @@ def test_three_cracks_are_two_where_the_middle_one_is_bonded():
     case = read_case(fields)
     three = shaken(bonded(case, 12.0))
     two = shaken(bonded(bonded(case, 12.0), 40.0))
-    assert [len(each.all_frames) for each in (three, two)] == [3, 3]
+    assert [len(item.all_frames) for item in (three, two)] == [3, 3]
     assert np.abs(three.all_frames[2].slip).max() < 1e-8
     alone = shaken(case.single_crack_cases[0])
     largest = np.abs(alone.frames.slip).max()
@@ -75,13 +75,13 @@ def free() -> Case:
 
 def test_the_ledger_closes_and_says_what_each_crack_has_lost(free):
     run = shaken(free)
-    assert all(abs(each.slip) > 1e-3 for each in run.summaries)
-    for each in run.summaries:
-        assert each.energy_residual < 1e-12
-        assert each.energy_gained < 1e-9 * each.energy_turnover
-        assert each.contact_residual < 1e-9
+    assert all(abs(summary.slip) > 1e-3 for summary in run.summaries)
+    for item in run.summaries:
+        assert item.energy_residual < 1e-12
+        assert item.energy_gained < 1e-9 * item.energy_turnover
+        assert item.contact_residual < 1e-9
     for whole, own in (("energy_friction", "crack_friction"), ("energy_impact", "crack_impact")):
-        parts = [getattr(each, own) for each in run.summaries]
+        parts = [getattr(summary, own) for summary in run.summaries]
         assert sum(parts) == pytest.approx(getattr(run.summary, whole), rel=1e-9)
         assert min(parts) > 0.0
 
@@ -89,7 +89,7 @@ def test_the_ledger_closes_and_says_what_each_crack_has_lost(free):
 def test_without_an_earthquake_nothing_moves(free):
     still = free.with_({"motion": {"points": [["0 s", "0 g"], ["1 s", "0 g"]], "allow_zero": True, "duration": None}})
     run = shaken(still)
-    assert [each.slip_max - each.slip_min for each in run.summaries] == [0.0, 0.0]
+    assert [summary.slip_max - summary.slip_min for summary in run.summaries] == [0.0, 0.0]
 
 
 def test_twice_the_density_and_stiffness_change_nothing(free):
@@ -117,9 +117,9 @@ def test_a_mirrored_dam_slides_the_other_way(free):
 
 
 def test_a_run_has_the_same_bits_with_any_number_of_threads(free):
-    found = ShakenDam(free, build_flexible_dam(free), earthquake(free).shaking)
-    one, two = (found.run_scaled_cracks(STEP, np.array([0.9, 1.0, 1.1]), threads=threads) for threads in (1, 2))
-    whole = found.run(STEP)
+    dam = ShakenDam(free, build_flexible_dam(free), earthquake(free).shaking)
+    one, two = (dam.run_scaled_cracks(STEP, np.array([0.9, 1.0, 1.1]), threads=threads) for threads in (1, 2))
+    whole = dam.run(STEP)
     for each, other, run in zip(one, two, whole.summaries, strict=True):
         assert each["slip"].tobytes() == other["slip"].tobytes()
         assert each["slip"][1] == run.slip
@@ -179,25 +179,25 @@ def test_two_stiff_blocks_slide_as_rigid_ones():
     ground = np.interp(time + step / 2.0, shaking.time, shaking.horizontal)
     slips = two_blocks(time, ground, (2500.0 * 16.0, 2500.0 * 32.0), (0.2, 0.3))
     for place in (0, 1):
-        found = response.cracks[place].histories["slip_m"]
+        slip_m = response.cracks[place].histories["slip_m"]
         expected = np.interp(response.histories["time_s"], time + step, slips[:, place])
         largest = np.abs(expected).max()
         assert largest > 5e-3
-        assert found == pytest.approx(expected, abs=0.02 * largest)
+        assert slip_m == pytest.approx(expected, abs=0.02 * largest)
 
 
 def test_a_response_has_every_crack(free):
     case = free.with_({"limits.residual_slip": "0.1 mm"})
     response = flexible(case)
-    told = response.to_json()
-    assert [each["elevation_m"] for each in told["cracks"]] == [90.0, 0.0]
-    assert told["residual_slip_m"] == told["cracks"][1]["residual_slip_m"]
-    slips = [abs(each["residual_slip_m"]) for each in told["cracks"]]
-    assert told["governing_crack"] == slips.index(max(slips))
+    answer = response.to_json()
+    assert [item["elevation_m"] for item in answer["cracks"]] == [90.0, 0.0]
+    assert answer["residual_slip_m"] == answer["cracks"][1]["residual_slip_m"]
+    slips = [abs(item["residual_slip_m"]) for item in answer["cracks"]]
+    assert answer["governing_crack"] == slips.index(max(slips))
     assert response.limits[0].value == max(slips)
-    assert response.limits[0].elevation_m == [90.0, 0.0][told["governing_crack"]]
+    assert response.limits[0].elevation_m == [90.0, 0.0][answer["governing_crack"]]
     neck = response.others["crack-1"]
-    assert neck.residual_slip_m == told["cracks"][0]["residual_slip_m"]
+    assert neck.residual_slip_m == answer["cracks"][0]["residual_slip_m"]
     assert neck.crack.force.shape[2] == neck.crack.upper_position.shape[2] == 9
     assert neck.crack.status.shape[1] == 11
     assert response.crack.lower_position is None
@@ -215,34 +215,36 @@ def test_a_response_has_every_crack(free):
 def test_evidence_is_that_of_every_crack(free):
     case = free.with_({"flexible.evidence": "full"})
     response = flexible(case)
-    found = [each["evidence"] for each in response.cracks]
-    assert all(each["asked"] == "full" and each["residual_slip_m"]["mesh"] is not None for each in found)
-    said = [each.code for each in response.warnings]
-    worse = [each for each in found[:1] if not each["converged"] or each["value_is"] == "mean"]
-    assert said.count("further-crack-uncertain") == len(worse)
+    evidences = [item["evidence"] for item in response.cracks]
+    assert all(
+        evidence["asked"] == "full" and evidence["residual_slip_m"]["mesh"] is not None for evidence in evidences
+    )
+    codes = [warning.code for warning in response.warnings]
+    worse = [evidence for evidence in evidences[:1] if not evidence["converged"] or evidence["value_is"] == "mean"]
+    assert codes.count("further-crack-uncertain") == len(worse)
     weak = dataclasses.replace(response, title="")
-    assert weak.at_crack(0).summary["evidence"] == found[0]
+    assert weak.at_crack(0).summary["evidence"] == evidences[0]
 
 
 def test_each_motion_of_a_sequence_is_told_of_every_crack(free):
     again = {"points": [[time, f"{0.8 * float(a.split()[0]):g} g"] for time, a in PULSES], "pause": "1 s"}
     free = free.with_({"flexible.time_step": "0.1 ms", "motion.duration": "2 s"})
     alone, twice = flexible(free), flexible(free.with_({"aftershocks": [again], "motion.duration": "1 s"}))
-    assert [each["elevation_m"] for each in twice.to_json()["cracks"]] == [90.0, 0.0]
-    for place, told in enumerate(twice.to_json()["cracks"]):
-        first, second = told["sequence"]
+    assert [item["elevation_m"] for item in twice.to_json()["cracks"]] == [90.0, 0.0]
+    for place, answer in enumerate(twice.to_json()["cracks"]):
+        first, second = answer["sequence"]
         # Until the next motion begins the dam does what it does alone; peaks are those of histories, between moments.
         assert first["peak_slip_downstream_m"] == pytest.approx(alone.cracks[place].peak_slip_downstream_m, rel=1e-3)
-        assert first["slip_m"] + second["slip_m"] == pytest.approx(told["residual_slip_m"], abs=1e-12)
+        assert first["slip_m"] + second["slip_m"] == pytest.approx(answer["residual_slip_m"], abs=1e-12)
         assert first["slip_m"] > 1e-4
         assert first["static"]["ok"] in (True, False)
-        assert [each.to_json() for each in twice.at_crack(place).sequence] == told["sequence"]
-    assert [each.to_json() for each in twice.sequence] == twice.to_json()["cracks"][1]["sequence"]
+        assert [item.to_json() for item in twice.at_crack(place).sequence] == answer["sequence"]
+    assert [item.to_json() for item in twice.sequence] == twice.to_json()["cracks"][1]["sequence"]
     # Drains keep what they have: what the slip closes is said of the crack that has it.
     drained = {"uplift.pattern": "drained", "uplift.drain_position": 0.1, "uplift.drain_efficiency": 0.6}
     wet = free.with_({"aftershocks": [again], "motion.duration": "1 s", "statics.drain_diameter": "20 mm", **drained})
-    said = [each for each in flexible(wet).warnings if each.code == "sequence-drains"]
-    assert any("at the crack at" in str(each) for each in said)
+    warnings = [warning for warning in flexible(wet).warnings if warning.code == "sequence-drains"]
+    assert any("at the crack at" in str(item) for item in warnings)
 
 
 #: The typical dam of examples/two-cracks.toml with 12 s of its record. Its neck slides at a friction of 0.7, and tips
@@ -255,9 +257,9 @@ def ensemble(friction: float, across: int, step: float):
     given = read_case("examples/two-cracks.toml", (*EXAMPLE, f"flexible.elements_across={across}"))
     neck = given.further_cracks[0].model_copy(update={"friction": friction})
     case = given.model_copy(update={"further_cracks": (neck,)})
-    found = ShakenDam(case, build_flexible_dam(case), earthquake(case).shaking)
-    runs = found.run_scaled_cracks(step, np.array([0.99, 0.995, 1.0, 1.005, 1.01]))
-    return np.array([1e3 * each["slip"] for each in runs])
+    dam = ShakenDam(case, build_flexible_dam(case), earthquake(case).shaking)
+    runs = dam.run_scaled_cracks(step, np.array([0.99, 0.995, 1.0, 1.005, 1.01]))
+    return np.array([1e3 * item["slip"] for item in runs])
 
 
 @pytest.mark.slow
@@ -265,9 +267,9 @@ def test_two_sliding_cracks_converge_with_step_and_mesh():
     """The table of docs/several-cracks.md."""
     usual = ensemble(0.7, 8, 1.4e-4)
     finer = [ensemble(0.7, 8, 7e-5), ensemble(0.7, 16, 1.4e-4)]
-    for found in (usual, *finer):
-        assert found.mean(axis=1) == pytest.approx(usual.mean(axis=1), rel=0.03)
-        assert (np.ptp(found, axis=1) < 0.08 * found.mean(axis=1)).all()
+    for result in (usual, *finer):
+        assert result.mean(axis=1) == pytest.approx(usual.mean(axis=1), rel=0.03)
+        assert (np.ptp(result, axis=1) < 0.08 * result.mean(axis=1)).all()
     # A neck that tips strikes as it comes down, and what it does then is decided by a hundredth of the shaking.
     rocking = ensemble(1.0, 8, 1.4e-4)
     assert np.ptp(rocking[0]) > 0.3 * rocking[0].mean()

@@ -26,8 +26,8 @@ def block(modulus, friction, *, damping=0.05, across=2):
 
 def swings(strength=0.6):
     time = np.linspace(0.0, 3.0, 601)
-    found = strength * G * np.sin(2.0 * np.pi * time) * np.sin(np.pi * time / 3.0) ** 2
-    return GroundMotion.from_points(np.append(time, 5.0), np.append(found, 0.0), name="swings")
+    result = strength * G * np.sin(2.0 * np.pi * time) * np.sin(np.pi * time / 3.0) ** 2
+    return GroundMotion.from_points(np.append(time, 5.0), np.append(result, 0.0), name="swings")
 
 
 def moving(response, *modes):

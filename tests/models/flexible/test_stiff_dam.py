@@ -27,9 +27,9 @@ def stiff(modulus=2000.0, friction=0.5, depth=24.0, damping=0.05, across=3, corn
 
 def three_sines(strength=0.5):
     time = np.linspace(0.0, 3.0, 601)
-    found = sum(np.sin(2.0 * np.pi * time / period + k) for k, period in enumerate((0.5, 0.37, 0.21)))
-    found *= strength * G / 2.0 * np.sin(np.pi * time / 3.0) ** 2
-    return GroundMotion.from_points(np.append(time, 4.0), np.append(found, 0.0), name="three sines")
+    result = sum(np.sin(2.0 * np.pi * time / period + k) for k, period in enumerate((0.5, 0.37, 0.21)))
+    result *= strength * G / 2.0 * np.sin(np.pi * time / 3.0) ** 2
+    return GroundMotion.from_points(np.append(time, 4.0), np.append(result, 0.0), name="three sines")
 
 
 def too_far(case):

@@ -24,14 +24,14 @@ def program():
 
 def test_the_numbers_shipped_are_those_of_the_study(program):
     shipped = json.loads(files("heeltoe.models.rigid").joinpath("criterion.json").read_text(encoding="utf-8"))
-    found = program["all_fits"]()
+    result = program["all_fits"]()
     for model, by_regime in shipped.items():
-        for regime, told in by_regime.items():
-            again = found[model].pop(regime)
+        for regime, answer in by_regime.items():
+            again = result[model].pop(regime)
             for name in ("constant", "slopes", "spread", "widening", "quantiles"):
-                assert again.pop(name) == pytest.approx(told.pop(name), abs=1.1e-4)
-            assert again == told
-    assert all(not by_regime for by_regime in found.values())
+                assert again.pop(name) == pytest.approx(answer.pop(name), abs=1.1e-4)
+            assert again == answer
+    assert all(not by_regime for by_regime in result.values())
 
 
 def test_numbers_and_figure_go_where_the_user_says(program, tmp_path, capsys):
@@ -46,7 +46,7 @@ def test_numbers_and_figure_go_where_the_user_says(program, tmp_path, capsys):
 def test_neither_dams_nor_earthquakes_of_one_half_are_in_the_other():
     table = pq.read_table(STUDY / "runs.parquet")
     assert table.num_rows > 1000
-    halves = {name: table.filter([each == name for each in table["half"].to_pylist()]) for name in ("fit", "check")}
+    halves = {name: table.filter([item == name for item in table["half"].to_pylist()]) for name in ("fit", "check")}
     for name in ("dam", "event", "motion"):
         assert not set(halves["fit"][name].to_pylist()) & set(halves["check"][name].to_pylist())
 

@@ -117,13 +117,13 @@ def test_coulomb_as_the_limit_of_a_linear_law(seed):
     case, time, ground, up = random_dam(seed)
     exact, mu = exactly(case, time, ground, up), case.crack.mu_static
     law = friction_law("linear slip weakening", NUMBERS | {"peak": mu, "residual": mu})
-    found = walked(case, time, ground, law, up)
-    assert found.outcome == exact.outcome
+    walk = walked(case, time, ground, law, up)
+    assert walk.outcome == exact.outcome
     slides = exact.summary.time_rocking + exact.summary.time_slide_rocking + exact.summary.time_drifting == 0.0
     if slides:
-        assert found.worn.integrated == 0.0
-        assert found.summary.slip == pytest.approx(exact.summary.slip, rel=1e-13, abs=1e-14)
-    assert found.summary.slip == pytest.approx(exact.summary.slip, rel=1e-10, abs=1e-12)
+        assert walk.worn.integrated == 0.0
+        assert walk.summary.slip == pytest.approx(exact.summary.slip, rel=1e-13, abs=1e-14)
+    assert walk.summary.slip == pytest.approx(exact.summary.slip, rel=1e-10, abs=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(40))

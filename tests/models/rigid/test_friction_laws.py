@@ -105,11 +105,11 @@ def test_every_law_reduced_to_coulomb_gives_coulombs_result(seed):
         friction_law("lift joint", {"residual": mu}),
     ]
     for law in reduced:
-        found = walked(case, time, ground, law, up)
-        assert found.outcome == exact.outcome
+        walk = walked(case, time, ground, law, up)
+        assert walk.outcome == exact.outcome
         for name in ("slip", "rotation_min", "rotation_max"):
-            assert getattr(found.summary, name) == pytest.approx(getattr(exact.summary, name), rel=1e-10, abs=1e-12)
-            assert getattr(found.summary, name) == pytest.approx(getattr(plain.summary, name), rel=1e-12, abs=1e-14)
+            assert getattr(walk.summary, name) == pytest.approx(getattr(exact.summary, name), rel=1e-10, abs=1e-12)
+            assert getattr(walk.summary, name) == pytest.approx(getattr(plain.summary, name), rel=1e-12, abs=1e-14)
 
 
 def test_a_lift_joint_is_basic_friction_and_what_is_rough():
@@ -181,7 +181,7 @@ def test_a_program_of_small_steps_agrees_on_a_real_record(name, records):
     keep = time <= 12.0
     time, ground = time[keep], ground[keep]
     run = walked(case, time, ground, friction_law(shape, numbers, points))
-    found, path_slipped = run.summary.slip, run.worn.end
+    result, path_slipped = run.summary.slip, run.worn.end
 
     def law(stress, path, speed):
         return hand_written(name, stress, path, speed)
@@ -190,8 +190,8 @@ def test_a_program_of_small_steps_agrees_on_a_real_record(name, records):
     counts = (10, 20, 40) if name == "brittle" else (10, 20)
     tried = [small_steps(time, ground, G, law, 20.0, count) for count in counts]
     error = max(tried) - min(tried)
-    assert abs(found) > 1e-4
-    assert found == pytest.approx(tried[-1], abs=2.0 * error + 1e-7)
+    assert abs(result) > 1e-4
+    assert result == pytest.approx(tried[-1], abs=2.0 * error + 1e-7)
     assert error < 0.1 * path_slipped
 
 
@@ -210,15 +210,15 @@ def random_law(rng):
 
 def check_random(seed):
     case, time, ground, up = random_dam(seed, anchored=seed % 5 == 0)
-    found = walked(case, time, ground, random_law(np.random.default_rng(seed + 10**6)), up, at=time)
-    raw = found.summary
+    walk = walked(case, time, ground, random_law(np.random.default_rng(seed + 10**6)), up, at=time)
+    raw = walk.summary
     assert np.isfinite(list(raw.by_name().values())).all()
-    assert np.isfinite(found.worn.error)
-    assert all(np.isfinite(column).all() for column in found.histories.by_name().values())
+    assert np.isfinite(walk.worn.error)
+    assert all(np.isfinite(column).all() for column in walk.histories.by_name().values())
     assert raw.energy_friction >= -1e-9 * abs(raw.energy_input)
     assert raw.energy_residual < 1e-7
-    assert (np.diff(found.worn.path) >= 0.0).all()
-    return found.outcome
+    assert (np.diff(walk.worn.path) >= 0.0).all()
+    return walk.outcome
 
 
 def test_random_blocks_with_random_laws_end():
@@ -271,12 +271,12 @@ def typical(law, **more):
 )
 def test_a_dam_with_each_law(law):
     response = rigid(typical(law), SHAKEN)
-    found, histories = response.friction_law, response.histories
+    result, histories = response.friction_law, response.histories
     assert response.outcome == "ok"
-    assert found["name"] == law["name"]
-    assert found["slip_path_m"] >= abs(response.residual_slip_m) * (1.0 - 1e-12) > 0.0
-    assert found["apparent_friction_after"] <= found["apparent_friction_before"]
-    assert found["integration_error_m"] < 1e-6
+    assert result["name"] == law["name"]
+    assert result["slip_path_m"] >= abs(response.residual_slip_m) * (1.0 - 1e-12) > 0.0
+    assert result["apparent_friction_after"] <= result["apparent_friction_before"]
+    assert result["integration_error_m"] < 1e-6
     assert (np.diff(histories["slip_path_m"]) >= 0.0).all()
     slides = np.array([mode.startswith("slide ") for mode in response.mode])
     assert slides.any()
@@ -286,7 +286,7 @@ def test_a_dam_with_each_law(law):
     judged = statics(typical(law)).cases[0]
     strength = judged.cohesive_force_n + judged.friction * judged.normal_force_n
     assert judged.sliding_factor == pytest.approx(strength / abs(judged.shear_force_n))
-    assert strength / judged.normal_force_n == pytest.approx(found["apparent_friction_before"], rel=0.05)
+    assert strength / judged.normal_force_n == pytest.approx(result["apparent_friction_before"], rel=0.05)
 
 
 def test_many_blocks_have_the_same_bits_on_any_number_of_threads():
@@ -332,8 +332,8 @@ def test_coefficients_that_are_given_take_the_place_of_a_law():
 
 
 def test_a_law_beyond_its_range_is_warned_about():
-    said = [notice.code for notice in rigid(typical({**BARTON, "jcs": "0.2 MPa"}), SHAKEN).warnings]
-    assert {"law-range", "law-by-mean"} <= set(said)
+    codes = [notice.code for notice in rigid(typical({**BARTON, "jcs": "0.2 MPa"}), SHAKEN).warnings]
+    assert {"law-range", "law-by-mean"} <= set(codes)
     assert "law-range" in [
         notice.code for notice in rigid(typical({**BARTON, "jrc": 20, "jcs": "1 GPa"}), SHAKEN).warnings
     ]

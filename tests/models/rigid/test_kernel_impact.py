@@ -264,12 +264,12 @@ def test_energy_never_grows(restitution):
 def test_restitution_is_lowered_where_it_would_create_energy():
     """Newton's law with friction can: such blows are found by search. One lower e for both corners obeys the law."""
     rng = np.random.default_rng(6)
-    found = kept = 0
+    result = kept = 0
     for _ in range(4000):
         body, gaps, blow = random_blow(rng, 0.95)
         if not blow.limited:
             continue
-        found += 1
+        result += 1
         struck = [c for c in (1, 2) if blow.before[c] < 0.0 and blow.impulse[c] > 0.0]
         lowered = [-blow.after[c] / blow.before[c] for c in struck]
         assert all(0.0 <= e < 0.95 for e in lowered)
@@ -280,8 +280,8 @@ def test_restitution_is_lowered_where_it_would_create_energy():
         assert blow.energy_lost >= -rounding(blow)
         # It is the largest such e: just above, the law would create energy or change its mind about stick and slip.
         kept += blow.energy_lost < 1e-9 * body.energy(blow.before)
-    assert found > 50
-    assert kept > 0.8 * found
+    assert result > 50
+    assert kept > 0.8 * result
 
 
 def test_a_settling_bounce_is_none():

@@ -192,8 +192,8 @@ def test_ensembles_give_the_same_bits(examples):
         def ensemble(order, threads):
             arrays = [np.array([value[k] for k in order]) for value in (blocks, which)]
             ones = np.ones((len(order), 2))
-            found = run_blocks(arrays[0], motions, arrays[1], ones, Limits(event_limit=EVENT_LIMIT), threads)
-            return np.column_stack(list(found.values()))
+            result = run_blocks(arrays[0], motions, arrays[1], ones, Limits(event_limit=EVENT_LIMIT), threads)
+            return np.column_stack(list(result.values()))
 
         blocks, which = [rows(one.block) for one in many], np.arange(len(many))
         motions = [Shaking(one.time, one.horizontal, one.vertical) for one in many]

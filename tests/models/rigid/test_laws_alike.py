@@ -51,10 +51,10 @@ def test_a_larger_block_slides_as_much_further(name, height):
     # Lengths and ways times four, times twice, stresses times four.
     rng = np.random.default_rng(5)
     ground = np.append(rng.normal(size=38) * 6.0, [0.0, 0.0])
-    found = []
+    result = []
     for size in (1.0, 4.0):
         case = read_case(rectangle(4.0 * size, height * size, 0.6, crack={"restitution": 0.3}))
         time = np.arange(40) * 0.05 * math.sqrt(size)
-        found.append(walked(case, time, ground, laws(size)[name]).summary.slip / size)
-    assert found[0] != 0.0
-    assert found[1] == pytest.approx(found[0], rel=1e-8)
+        result.append(walked(case, time, ground, laws(size)[name]).summary.slip / size)
+    assert result[0] != 0.0
+    assert result[1] == pytest.approx(result[0], rel=1e-8)

@@ -96,7 +96,7 @@ def test_threads_and_a_bar_change_no_bit():
     case = read_case(SLENDER, ["analysis.rotation=finite"])
     blocks, scales = [build_block(case)] * 5, np.linspace(0.5, 1.0, 5)
     tables = [rigid_many(blocks, [PUSH], scales=scales, threads=n, progress=n == 2) for n in (0, 1, 2)]
-    assert all((each[name] == tables[0][name]).all() for each in tables for name in each)
+    assert all((item[name] == tables[0][name]).all() for item in tables for name in item)
     assert rigid_many([], [PUSH])["slip"].size == 0
 
 

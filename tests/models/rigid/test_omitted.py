@@ -17,7 +17,7 @@ from shared.report_reader import squeezed
 
 
 def said(response, code="rigid-block"):
-    return next((each for each in response.warnings if each.code == code), None)
+    return next((item for item in response.warnings if item.code == code), None)
 
 
 def test_a_block_says_how_the_dam_would_swing():
@@ -69,9 +69,9 @@ def test_it_says_how_much_farther_such_a_dam_slides():
     assert low < 60.0 / 2.1 < high
     assert "run it with --model auto" in str(warning)
     assert "the decoupled chain" in str(warning)
-    told = next(each for each in response.to_json()["warnings"] if each["code"] == "rigid-slides")
-    assert told["quantities"]["times"] == [low, high]
-    assert 0.5 < told["quantities"]["share"] < 0.9
+    answer = next(item for item in response.to_json()["warnings"] if item["code"] == "rigid-slides")
+    assert answer["quantities"]["times"] == [low, high]
+    assert 0.5 < answer["quantities"]["share"] < 0.9
 
 
 def test_of_a_crack_at_the_base_there_is_no_chain_to_speak_of():

@@ -57,7 +57,7 @@ def compare(quick, slow, tolerance):
     assert quick.summary.events == slow.summary.events
     assert quick.summary.slip_max > 1e-3
     for column in ("slip", "gap_heel", "gap_toe", "slip_velocity"):
-        ours, theirs = (np.asarray(getattr(each.histories, column)) for each in (quick, slow))
+        ours, theirs = (np.asarray(getattr(item.histories, column)) for item in (quick, slow))
         assert ours == pytest.approx(theirs, abs=tolerance)
     assert quick.worn.end == pytest.approx(slow.worn.end, abs=tolerance)
     assert quick.worn.path == pytest.approx(slow.worn.path, abs=tolerance)

@@ -32,16 +32,16 @@ def typical(roughness=None, **more):
 
 def test_a_dam_on_a_rough_crack():
     response = rigid(typical(), SHAKEN)
-    found, histories = response.roughness, response.histories
+    result, histories = response.roughness, response.histories
     assert response.outcome == "ok"
     assert abs(response.residual_slip_m) > 1e-3
     before = math.tan(math.atan(0.7) + math.atan(0.2))
-    assert found["apparent_friction_before"] == pytest.approx(before, rel=1e-12)
-    assert 0.7 < found["apparent_friction_after"] < before
-    assert 0.0 < found["peak_dilation_m"] <= 0.02
-    assert found["integration_error_m"] < 1e-6
-    assert histories["dilation_m"][-1] == pytest.approx(found["residual_dilation_m"], rel=1e-12)
-    assert histories["asperity_angle_rad"][-1] == found["asperity_angle_after_rad"]
+    assert result["apparent_friction_before"] == pytest.approx(before, rel=1e-12)
+    assert 0.7 < result["apparent_friction_after"] < before
+    assert 0.0 < result["peak_dilation_m"] <= 0.02
+    assert result["integration_error_m"] < 1e-6
+    assert histories["dilation_m"][-1] == pytest.approx(result["residual_dilation_m"], rel=1e-12)
+    assert histories["asperity_angle_rad"][-1] == result["asperity_angle_after_rad"]
     assert (np.diff(histories["plastic_work_j_m2"]) >= 0.0).all()
     assert {"Plesha", "Patton"} <= {word.strip(",") for source in response.references for word in source.split()}
     usual = statics(typical()).cases[0]
@@ -50,18 +50,18 @@ def test_a_dam_on_a_rough_crack():
 
 def test_aftershocks_find_the_asperities_as_they_were_left():
     points = [["0 s", "0 g"], ["0.2 s", "-0.9 g"], ["0.4 s", "0 g"], ["3 s", "0 g"]]
-    found = run(typical(motion={"points": points}, aftershocks=[{"points": points}]))
+    response = run(typical(motion={"points": points}, aftershocks=[{"points": points}]))
     once = run(typical(motion={"points": points}))
-    assert found.roughness["plastic_work_j_m2"] > 1.5 * once.roughness["plastic_work_j_m2"]
-    assert found.roughness["asperity_angle_after_rad"] < once.roughness["asperity_angle_after_rad"]
+    assert response.roughness["plastic_work_j_m2"] > 1.5 * once.roughness["plastic_work_j_m2"]
+    assert response.roughness["asperity_angle_after_rad"] < once.roughness["asperity_angle_after_rad"]
 
 
 def test_the_chain_knows_a_rough_crack():
     case = typical(concrete={"density": "2650 kg/m^3", "modulus": "20 GPa"}, crack={"elevation": "20 m"})
-    found = run(case, motion=SHAKEN)
-    assert found.model == "decoupled"
-    assert "asperities" in found.chosen.why
-    assert found.roughness["peak_dilation_m"] >= 0.0
+    response = run(case, motion=SHAKEN)
+    assert response.model == "decoupled"
+    assert "asperities" in response.chosen.why
+    assert response.roughness["peak_dilation_m"] >= 0.0
 
 
 @pytest.mark.parametrize(
@@ -113,12 +113,12 @@ def test_what_is_no_sawtooth_that_a_block_climbs_is_warned_of(roughness, code):
 
 
 def test_the_figure_of_asperities_shows_dilation_and_wear():
-    found = rigid(typical(), SHAKEN)
-    figures = all_figures(None, found)
+    response = rigid(typical(), SHAKEN)
+    figures = all_figures(None, response)
     assert "asperities" in figures
     dilation, angle = (axes.lines[0].get_ydata() for axes in figures["asperities"].axes)
     assert figures["asperities"].axes[0].get_ylabel().endswith("[m]")
-    assert max(dilation) == pytest.approx(found.histories["dilation_m"].max(), rel=1e-9)
+    assert max(dilation) == pytest.approx(response.histories["dilation_m"].max(), rel=1e-9)
     assert angle[0] == pytest.approx(math.degrees(math.atan(0.2)), rel=1e-12)
     assert (np.diff(angle) <= 0.0).all()
     assert angle[-1] < angle[0]
@@ -128,6 +128,6 @@ def test_the_figure_of_asperities_shows_dilation_and_wear():
 def test_a_block_on_a_rough_crack_says_how_its_dam_is_run(modulus, more):
     # The flexible model refuses asperities, and --model auto takes the block.
     case = typical(concrete={"density": "2650 kg/m^3", **({"modulus": modulus} if modulus else {})})
-    said = [str(notice) for notice in rigid(case, SHAKEN).warnings if notice.code == "rigid-unlike"]
-    assert len(said) == 1
-    assert f"its crack is rough): run it without crack.roughness, too{more}, and the dam is elastic" in said[0]
+    texts = [str(notice) for notice in rigid(case, SHAKEN).warnings if notice.code == "rigid-unlike"]
+    assert len(texts) == 1
+    assert f"its crack is rough): run it without crack.roughness, too{more}, and the dam is elastic" in texts[0]

@@ -153,10 +153,10 @@ def test_the_angle_wears_with_the_work_of_friction():
 def test_without_height_it_is_coulombs_flat_crack(seed):
     case, time, ground, up = random_dam(seed)
     flat = case.with_({"crack.roughness": {"asperity_height": "0 m", "wave_length": "0.1 m", "wear": "1e-6 m^2/J"}})
-    found, exact = walked(flat, time, ground, up), exactly(case, time, ground, up)
-    assert found.outcome == exact.outcome
+    result, exact = walked(flat, time, ground, up), exactly(case, time, ground, up)
+    assert result.outcome == exact.outcome
     for name in ("slip", "rotation_min", "rotation_max"):
-        assert getattr(found.summary, name) == pytest.approx(getattr(exact.summary, name), rel=1e-10, abs=1e-12)
+        assert getattr(result.summary, name) == pytest.approx(getattr(exact.summary, name), rel=1e-10, abs=1e-12)
 
 
 def small_steps(time, ground, mu, k, height, wear, substeps):
@@ -209,11 +209,11 @@ def test_a_program_of_small_steps_agrees_on_a_real_record(wear, records):
     shaking = earthquake(case).shaking
     keep = shaking.time <= 12.0
     time, ground = shaking.time[keep], shaking.horizontal[keep]
-    found = walked(case, time, ground)
+    walk = walked(case, time, ground)
     coarse, fine = (small_steps(time, ground, mu, k, height, wear, count) for count in (40, 80))
-    assert abs(found.summary.slip) > 1e-3
-    assert found.summary.slip == pytest.approx(fine, abs=2.0 * abs(fine - coarse) + 1e-6)
-    assert abs(fine - coarse) < 0.1 * abs(found.summary.slip)
+    assert abs(walk.summary.slip) > 1e-3
+    assert walk.summary.slip == pytest.approx(fine, abs=2.0 * abs(fine - coarse) + 1e-6)
+    assert abs(fine - coarse) < 0.1 * abs(walk.summary.slip)
 
 
 def test_a_mirrored_motion_mirrors_all():
@@ -230,13 +230,13 @@ def test_a_mirrored_motion_mirrors_all():
 def test_a_larger_block_on_a_larger_profile_slides_as_much_farther():
     rng = np.random.default_rng(5)
     ground = np.append(rng.normal(size=38) * 6.0, [0.0, 0.0])
-    found = []
+    result = []
     for size in (1.0, 4.0):
         case = slider(0.4, rough(0.2, 0.01 * size, 1e-6 / size**2), size)
         run = walked(case, np.arange(40) * 0.05 * math.sqrt(size), ground)
-        found.append([run.summary.slip / size, run.rough.end[0] / size, run.rough.end[1]])
-    assert abs(found[0][0]) > 1e-3
-    assert found[1] == pytest.approx(found[0], rel=1e-8)
+        result.append([run.summary.slip / size, run.rough.end[0] / size, run.rough.end[1]])
+    assert abs(result[0][0]) > 1e-3
+    assert result[1] == pytest.approx(result[0], rel=1e-8)
 
 
 def test_many_blocks_have_the_same_bits_on_any_number_of_threads():
@@ -255,20 +255,20 @@ def check_random(seed):
     steepest = math.tan(math.radians(84.0) - math.atan(case.crack.mu_static))
     slope = min(10.0 ** rng.uniform(-2.0, 0.0), 0.99 * steepest)
     asperities = rough(slope, height, float(rng.choice([0.0, 10.0 ** rng.uniform(-8.0, -3.0)])))
-    found = walked(case.with_({"crack.roughness": asperities}), time, ground, up, at=time)
-    raw = found.summary
+    walk = walked(case.with_({"crack.roughness": asperities}), time, ground, up, at=time)
+    raw = walk.summary
     assert np.isfinite(list(raw.by_name().values())).all()
-    assert np.isfinite(found.rough.kept).all()
-    assert all(np.isfinite(column).all() for column in found.histories.by_name().values())
+    assert np.isfinite(walk.rough.kept).all()
+    assert all(np.isfinite(column).all() for column in walk.histories.by_name().values())
     assert raw.energy_friction >= -1e-9 * abs(raw.energy_input)
     assert raw.energy_impact >= -1e-9 * abs(raw.energy_input)
     assert raw.energy_residual < 1e-5
-    dilation, angle, work = found.rough.kept.T
+    dilation, angle, work = walk.rough.kept.T
     assert dilation.max(initial=0.0) <= height * (1.0 + 1e-9)
     assert dilation.min(initial=0.0) >= -1e-9 * height
     assert (np.diff(angle) <= 0.0).all()
     assert (np.diff(work) >= -1e-9 * work.max(initial=1.0)).all()
-    return found.outcome
+    return walk.outcome
 
 
 def test_random_blocks_on_random_asperities_end():

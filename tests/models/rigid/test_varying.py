@@ -129,8 +129,8 @@ def test_every_run_is_sound(rotation, rule):
 def test_what_begins_does_not_end_at_once(which):
     # Two of some hundred thousand random dams: a corner that bounces so little that the search for its landing fell
     # back on its take-off, and a slip that grows from nothing before it turns round within one step.
-    found = json.loads((Path(__file__).parent / "varying_loops.json").read_text())[which]
-    one = integrated(read_case(found["case"]), found["time"], found["ground"], found["vertical"], jam=True)
+    result = json.loads((Path(__file__).parent / "varying_loops.json").read_text())[which]
+    one = integrated(read_case(result["case"]), result["time"], result["ground"], result["vertical"], jam=True)
     assert one.outcome == ("ok", "overturned")[which]
     assert one.summary.events < 500
     assert one.summary.energy_residual < 1e-10

@@ -24,11 +24,11 @@ def both(example, *changes):
     """Return what the command finds, and all that a report of the rigid run says."""
     # A model that is asked for says the slip whatever the case says.
     model = () if any("residual_slip" in change for change in changes) else ("--model", "rigid")
-    said = command("statics", EXAMPLES / f"{example}.toml", *options(changes), *model, "--json", "-")
-    assert said.returncode == 0, said.stderr
+    process = command("statics", EXAMPLES / f"{example}.toml", *options(changes), *model, "--json", "-")
+    assert process.returncode == 0, process.stderr
     case = read_case(EXAMPLES / f"{example}.toml", changes)
     response = rigid(case)
-    return json.loads(said.stdout), Reader(html(build_report(case, response))).text, response
+    return json.loads(process.stdout), Reader(html(build_report(case, response))).text, response
 
 
 @pytest.mark.parametrize(
@@ -42,12 +42,12 @@ def both(example, *changes):
 )
 @pytest.mark.usefixtures("no_figures")
 def test_command_and_report_agree(example, changes, slip, expected):
-    found, report, response = both(example, PUSHED, *changes)
-    assert found["slip_source"] == expected
+    result, report, response = both(example, PUSHED, *changes)
+    assert result["slip_source"] == expected
     assert f"({expected})." in report
-    assert found["slip_m"] == (response.residual_slip_m if slip is None else slip)
+    assert result["slip_m"] == (response.residual_slip_m if slip is None else slip)
     after = statics_after(read_case(EXAMPLES / f"{example}.toml", [PUSHED, *changes]), response)
-    assert after.to_json()["checks"] == found["checks"]
+    assert after.to_json()["checks"] == result["checks"]
     grave = [notice.code for notice in after.warnings if notice.severity == "grave"]
     assert ("slip-untold" in grave) == expected.endswith("zero is taken")
 
@@ -55,11 +55,11 @@ def test_command_and_report_agree(example, changes, slip, expected):
 def test_the_model_of_the_slip_is_named_and_can_be_chosen():
     """The better one by itself, as in the report of the same run."""
     quick = ("--set", PUSHED, *options(COARSE))
-    found = {
+    result = {
         model: json.loads(command("statics", EXAMPLES / "typical-base.toml", *quick, *more, "--json", "-").stdout)
         for model, more in (("flexible", ()), ("rigid", ("--model", "rigid")))
     }
-    for model, each in found.items():
+    for model, each in result.items():
         assert each["slip_source"].startswith(f"{model} model, points of the case")
         run = heeltoe.run(read_case(EXAMPLES / "typical-base.toml", [PUSHED, *COARSE]), model)
         assert each["slip_m"] == run.residual_slip_m

@@ -41,8 +41,8 @@ def dam(**changes):
 
 
 def test_a_margin_of_a_lower_degree_has_its_turning_points():
-    found = heeltoe.statics(read_case(THIN))
-    assert [case.name for case in found.cases] == ["usual", "post-seismic"]
+    result = heeltoe.statics(read_case(THIN))
+    assert [case.name for case in result.cases] == ["usual", "post-seismic"]
 
 
 @settings(deadline=None, max_examples=60)
@@ -69,8 +69,8 @@ def test_no_plain_dam_ends_in_an_exception(height, crest, base, level, full, pat
         "uplift": {"pattern": pattern},
         "statics": {"residual_slip": f"{slip} m", "seismic_coefficient": 0.15, "uplift_in_earthquake": "full"},
     }
-    found = heeltoe.statics(read_case(fields))
-    numbers = [value for case in found.cases for value in vars(case).values() if isinstance(value, float)]
+    result = heeltoe.statics(read_case(fields))
+    numbers = [value for case in result.cases for value in vars(case).values() if isinstance(value, float)]
     assert np.isfinite(numbers).all()
 
 
@@ -115,12 +115,12 @@ def required(found, name):
 
 def test_an_operating_basis_earthquake_is_an_unusual_load_to_usace():
     earthquakes = [{"name": "OBE", "seismic_coefficient": 0.1}, {"name": "MDE", "seismic_coefficient": 0.2}]
-    found = heeltoe.statics(dam(statics__earthquakes=earthquakes))
+    result = heeltoe.statics(dam(statics__earthquakes=earthquakes))
     usace = CRITERIA["USACE"]
     (unusual,) = [row.required for row in chosen(usace, "unusual") if row.check == "sliding"]
     (extreme,) = [row.required for row in chosen(usace, "extreme") if row.check == "sliding"]
     assert (unusual, extreme) == (1.7, 1.3)
-    assert required(found, "sliding factor") == {
+    assert required(result, "sliding factor") == {
         "OBE, pseudo-static downstream": unusual,
         "OBE, pseudo-static upstream": unusual,
         "MDE, pseudo-static downstream": extreme,
@@ -142,15 +142,15 @@ def test_the_single_coefficient_means_what_it_meant_and_the_rarity_may_be_said()
     [("OBE", 1.7), ("obe, 145 years", 1.7), ("Operating Basis Earthquake", 1.7), ("SEE", 1.3), ("MCE (deep)", 1.3)],
 )
 def test_the_usual_names_of_earthquakes_are_understood(name, sliding):
-    found = heeltoe.statics(dam(statics__earthquakes=[{"name": name, "seismic_coefficient": 0.1}]))
-    assert set(required(found, "sliding factor").values()) == {sliding}
+    result = heeltoe.statics(dam(statics__earthquakes=[{"name": name, "seismic_coefficient": 0.1}]))
+    assert set(required(result, "sliding factor").values()) == {sliding}
 
 
 def test_criteria_with_one_set_of_factors_say_so():
-    found = heeltoe.statics(
+    result = heeltoe.statics(
         dam(statics__criteria="CDA", statics__earthquakes=[{"name": "OBE", "seismic_coefficient": 0.1}])
     )
-    taken = [str(text) for case in found.cases for text in case.assumptions]
+    taken = [str(text) for case in result.cases for text in case.assumptions]
     assert "CDA has one set of factors for every earthquake" in taken
 
 
@@ -173,8 +173,8 @@ def test_after_a_slip_onto_a_falling_flank_friction_is_that_down_the_flank():
     rough = {"asperity_height": "10 mm", "wave_length": "200 mm"}
     angle = math.atan(2.0 * 0.010 / 0.200)
     for slip, expected in ((0.15, math.tan(math.atan(1.0) - angle)), (0.05, 1.0)):
-        found = heeltoe.statics(dam(crack__roughness=rough), slip)
-        after = found.cases[-1]
+        result = heeltoe.statics(dam(crack__roughness=rough), slip)
+        after = result.cases[-1]
         assert after.friction == pytest.approx(expected, rel=1e-12)
 
 
@@ -183,6 +183,6 @@ def test_after_a_slip_onto_a_falling_flank_friction_is_that_down_the_flank():
 def test_braces_in_the_name_of_an_earthquake_are_letters(name, criteria):
     earthquakes = [{"name": name, "seismic_coefficient": 0.1, "rarity": "unusual"}]
     case = read_case(ROOT / "examples" / "typical-base.toml", [{"statics": {"criteria": criteria}}])
-    found = heeltoe.statics(case.with_({"statics.earthquakes": earthquakes}), 0.01)
-    sentences = [check["sentence"] for check in found.to_json()["checks"]]
+    result = heeltoe.statics(case.with_({"statics.earthquakes": earthquakes}), 0.01)
+    sentences = [check["sentence"] for check in result.to_json()["checks"]]
     assert any(sentence.startswith(f"{name}, pseudo-static") for sentence in sentences)

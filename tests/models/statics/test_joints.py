@@ -16,41 +16,41 @@ LISTED = {"sections": ["0 m", {"elevation": "20 m", "friction": 1.2}, "60 m"]}
 
 def test_each_section_is_judged_as_by_itself():
     case = dam(statics=LISTED)
-    found = heeltoe.statics_of_sections(case)
-    assert [joint.elevation_m for joint in found.joints] == [0.0, 20.0, 60.0]
+    result = heeltoe.statics_of_sections(case)
+    assert [joint.elevation_m for joint in result.joints] == [0.0, 20.0, 60.0]
     for joint, crack in zip(
-        found.joints,
+        result.joints,
         ({"friction": 0.9}, {"friction": 1.2, "elevation": "20 m"}, {"friction": 0.9, "elevation": "60 m"}),
         strict=True,
     ):
         alone = heeltoe.statics(dam(crack=crack))
         assert [check.value for check in joint.statics.checks] == [check.value for check in alone.checks]
-    assert json.loads(json.dumps(found.to_json()))["governing_elevation_m"] == found.governing.elevation_m
+    assert json.loads(json.dumps(result.to_json()))["governing_elevation_m"] == result.governing.elevation_m
 
 
 def test_the_smallest_margin_governs():
     # mu (W - U) / P at 0, 20 and 60 m, z = 100 - elevation: 0.9, 1.2, 0.9 times (9.6 z^2 - 4 z h) / 5 h^2
-    found = heeltoe.statics_of_sections(dam(statics=LISTED))
+    result = heeltoe.statics_of_sections(dam(statics=LISTED))
     factors = [
         mu * (9.6e-3 * z**2 - 4e-3 * z * h) / (5e-3 * h**2)
         for mu, z, h in ((0.9, 100, 90), (1.2, 80, 70), (0.9, 40, 30))
     ]
-    joint, check = found.governing_of("sliding factor")
+    joint, check = result.governing_of("sliding factor")
     assert (joint.elevation_m, check.margin) == (0.0, pytest.approx(min(factors) / 2.0))
-    assert [each.elevation_m for each in found.ranked] == [0.0, 20.0, 60.0]
-    assert found.governing is found.joints[0]
-    assert not found.ok
+    assert [item.elevation_m for item in result.ranked] == [0.0, 20.0, 60.0]
+    assert result.governing is result.joints[0]
+    assert not result.ok
     # What leaves the middle third least far inside.
-    joint, check = found.governing_of("resultant")
-    assert check.margin == min(each.governing_of("resultant").margin for each in found.joints)
-    assert found.governing_of("compression") is None
+    joint, check = result.governing_of("resultant")
+    assert check.margin == min(item.governing_of("resultant").margin for item in result.joints)
+    assert result.governing_of("compression") is None
 
 
 def test_without_a_list_it_is_the_crack():
     case = dam(crack={"friction": 0.9, "elevation": "10 m"})
-    found = heeltoe.statics_of_sections(case)
-    assert [joint.elevation_m for joint in found.joints] == [10.0]
-    assert found.governing.statics.checks == heeltoe.statics(case).checks
+    result = heeltoe.statics_of_sections(case)
+    assert [joint.elevation_m for joint in result.joints] == [10.0]
+    assert result.governing.statics.checks == heeltoe.statics(case).checks
 
 
 def test_a_lift_joint_is_level_and_the_crack_keeps_its_slope():
@@ -68,9 +68,9 @@ def test_a_joint_may_be_judged_by_a_run_of_its_own():
         seen.append(case.crack.elevation)
         return heeltoe.statics(case, 0.01 * len(seen))
 
-    found = heeltoe.statics_of_sections(dam(statics=LISTED), judge)
+    result = heeltoe.statics_of_sections(dam(statics=LISTED), judge)
     assert seen == [0.0, 20.0, 60.0]
-    assert [joint.statics.slip_m for joint in found.joints] == [0.01, 0.02, 0.03]
+    assert [joint.statics.slip_m for joint in result.joints] == [0.01, 0.02, 0.03]
 
 
 @pytest.mark.parametrize(
@@ -100,13 +100,13 @@ def test_anchors_and_drains_count_at_the_joints_that_they_cross():
     anchor = {"head_x": "0 m", "head_elevation": "100 m", "foot_x": "4 m", "foot_elevation": "10 m"}
     drains = {"pattern": "drained", "drain_x": "30 m", "drain_efficiency": 0.6}
     case = dam(anchors=[anchor | {"prestress": "1 MN/m"}], uplift=drains, statics={"sections": ["0 m", "20 m", "70 m"]})
-    found = heeltoe.statics_of_sections(case)
+    result = heeltoe.statics_of_sections(case)
     # Straight from the crest to 10 m up: 80 of 90 m below its head it is 80/90 of 4 m away, 30 m below a third of it.
     places = {20.0: 80.0 / 90.0 * 4.0, 70.0: 30.0 / 90.0 * 4.0}
-    for joint in found.joints:
+    for joint in result.joints:
         lines = {line.name: line for line in joint.statics.cases[0].sheet().lines}
         held = lines["anchors"].vertical_n
-        codes = [each.code for each in joint.statics.warnings]
+        codes = [warning.code for warning in joint.statics.warnings]
         assert ("anchor-misses" in codes) is (joint.elevation_m not in places)
         if joint.elevation_m in places:
             assert lines["anchors"].distance_m == pytest.approx(places[joint.elevation_m])
@@ -132,6 +132,6 @@ def test_a_joint_without_drains_opens_as_one_without_any():
 
 
 def test_checks_of_the_crack_alone_say_so():
-    said = [str(each) for each in heeltoe.statics(dam(statics=LISTED)).warnings]
-    assert any("statics.sections: these checks are of the crack alone" in each for each in said)
+    texts = [str(warning) for warning in heeltoe.statics(dam(statics=LISTED)).warnings]
+    assert any("statics.sections: these checks are of the crack alone" in text for text in texts)
     assert at_section(dam(statics=LISTED), dam(statics=LISTED).statics.sections[0]).statics.sections == ()

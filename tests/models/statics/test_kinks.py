@@ -45,36 +45,36 @@ def pressed_at(place):
 
 def test_a_block_on_teeth():
     result = heeltoe.statics(block(TEETH))
-    found = only(result, "usual")
+    outcome = only(result, "usual")
     # Four teeth of 2 m x 0.5 m stick up into it: W = 24 x (24 - 4 x 0.5) = 528
-    assert found.normal_force_n == pytest.approx(528.0 * K, **CLOSE)
-    assert found.shear_force_n == pytest.approx(31.25 * K, **CLOSE)
+    assert outcome.normal_force_n == pytest.approx(528.0 * K, **CLOSE)
+    assert outcome.shear_force_n == pytest.approx(31.25 * K, **CLOSE)
     # 0.5 x 528 / 31.25; on the teeth tan(phi + i) = (0.5 + 0.5) / (1 - 0.5 x 0.5) = 4/3 in the place of 0.5
-    assert found.sliding_factor == pytest.approx(8.448, **CLOSE)
-    assert found.sliding_factor_on_pieces == pytest.approx(528.0 * 4.0 / 3.0 / 31.25, **CLOSE)
-    assert (found.pieces_bear, math.tan(found.steepest_rise_rad)) == ("more", pytest.approx(0.5))
+    assert outcome.sliding_factor == pytest.approx(8.448, **CLOSE)
+    assert outcome.sliding_factor_on_pieces == pytest.approx(528.0 * 4.0 / 3.0 / 31.25, **CLOSE)
+    assert (outcome.pieces_bear, math.tan(outcome.steepest_rise_rad)) == ("more", pytest.approx(0.5))
     # It is symmetric: W in the middle, P x 2.5/3 turns it downstream.
-    assert found.resultant_from_heel_m == pytest.approx(4.0 + 31.25 * 2.5 / 3.0 / 528.0, **CLOSE)
-    said = next(notice for notice in result.warnings if notice.code == "kinks-add")
+    assert outcome.resultant_from_heel_m == pytest.approx(4.0 + 31.25 * 2.5 / 3.0 / 528.0, **CLOSE)
+    warning = next(notice for notice in result.warnings if notice.code == "kinks-add")
     for words in ("a factor of 8.448", "up to 26.6 degrees", "22.528"):
-        assert words in said.text()
+        assert words in warning.text()
 
 
 def test_uplift_is_normal_to_every_piece():
     """25 kPa at the heel, none at the toe; the roof rises by 0.5 m from 2 m to 4 m and falls to 6 m."""
-    found = only(heeltoe.statics(block(ROOF, uplift={"pattern": "triangular"})), "usual")
-    uplift = next(force for force in found.forces if force.name == "uplift")
+    result = only(heeltoe.statics(block(ROOF, uplift={"pattern": "triangular"})), "usual")
+    uplift = next(force for force in result.forces if force.name == "uplift")
     # Across as without the roof; along it the mean pressure is 15.625 on what rises and 9.375 on what falls.
     assert uplift.vertical == pytest.approx(100.0 * K, **CLOSE)
     assert uplift.horizontal == pytest.approx(-0.5 * (15.625 - 9.375) * K, **CLOSE)
     # Triangle: 100 x 8/3; roof: the integral of p h dh, 0.5^2/6 x (18.75 - 6.25)
     assert uplift.moment == pytest.approx((100.0 * 8.0 / 3.0 + 0.25 / 6.0 * 12.5) * K, **CLOSE)
-    line = next(line for line in found.sheet().lines if line.name == "uplift")
+    line = next(line for line in result.sheet().lines if line.name == "uplift")
     # The integral of p h dh is - z H; the rest is x V.
     assert line.height_m == pytest.approx(0.25 / 6.0 * 12.5 / 3.125, **CLOSE)
     assert line.distance_m == pytest.approx(8.0 / 3.0, **CLOSE)
     # Sums of the sheet are what the checks have.
-    assert found.sheet().sum.moment_nm == pytest.approx(-found.normal_force_n * found.resultant_from_heel_m, **CLOSE)
+    assert result.sheet().sum.moment_nm == pytest.approx(-result.normal_force_n * result.resultant_from_heel_m, **CLOSE)
 
 
 def test_uplift_on_an_inclined_line_turns_with_it():
@@ -129,13 +129,13 @@ def test_where_the_crack_falls_the_smaller_factor_counts():
     silt = {"depth": "29 m", "horizontal_density": "660 kg/m^3", "vertical_density": "660 kg/m^3"}
     bond = {"bonded": 1.0, "tensile_strength": "5 MPa"}
     result = heeltoe.statics(block(kinks, section={"polygon": high}, silt=silt, statics=bond))
-    found = only(result, "usual")
-    assert found.pieces_bear == "less"
-    along = 0.5 * found.normal_force_n / found.shear_force_n
-    assert found.sliding_factor == found.sliding_factor_on_pieces < along
-    at = pressed_at(found.resultant_from_heel_m)
+    outcome = only(result, "usual")
+    assert outcome.pieces_bear == "less"
+    along = 0.5 * outcome.normal_force_n / outcome.shear_force_n
+    assert outcome.sliding_factor == outcome.sliding_factor_on_pieces < along
+    at = pressed_at(outcome.resultant_from_heel_m)
     held = borne(pieces, 0.5, at, 1.0)
-    assert found.sliding_factor == pytest.approx(held * found.normal_force_n / found.shear_force_n, rel=1e-9)
+    assert outcome.sliding_factor == pytest.approx(held * outcome.normal_force_n / outcome.shear_force_n, rel=1e-9)
     assert "kinks-take" in {notice.code for notice in result.warnings}
 
 
@@ -143,16 +143,16 @@ def test_steep_steps_bear_any_push():
     # tan i = 1 and friction 1.5: phi + i is beyond a right angle.
     kinks = [[f"{place} m", f"{place % 2} m"] for place in range(1, 8)]
     result = heeltoe.statics(block(kinks, 1.5))
-    found = only(result, "usual")
-    assert (found.pieces_bear, found.sliding_factor_on_pieces) == ("any push", None)
-    assert found.sliding_factor == pytest.approx(1.5 * found.normal_force_n / found.shear_force_n)
+    outcome = only(result, "usual")
+    assert (outcome.pieces_bear, outcome.sliding_factor_on_pieces) == ("any push", None)
+    assert outcome.sliding_factor == pytest.approx(1.5 * outcome.normal_force_n / outcome.shear_force_n)
     assert "kinks-lock" in {notice.code for notice in result.warnings}
 
 
 def test_after_a_slip_the_kinks_count_for_nothing():
-    found = only(heeltoe.statics(block(TEETH), 0.1), "post-seismic")
-    assert (found.pieces_bear, found.sliding_factor_on_pieces) == ("", None)
-    assert any("no longer match" in str(each) for each in found.assumptions)
+    result = only(heeltoe.statics(block(TEETH), 0.1), "post-seismic")
+    assert (result.pieces_bear, result.sliding_factor_on_pieces) == ("", None)
+    assert any("no longer match" in str(assumption) for assumption in result.assumptions)
     assert only(heeltoe.statics(block(TEETH), 0.0), "post-seismic").pieces_bear == "more"
 
 

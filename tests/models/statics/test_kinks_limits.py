@@ -32,7 +32,7 @@ def test_kinks_of_no_height_change_nothing():
 
 def test_kinks_of_hardly_a_height_change_hardly_anything():
     straight, other = (heeltoe.statics(kinked(kinks, "100 m"), 0.1) for kinks in ([], [["20 m", "1e-7 m"]]))
-    opened = [each.cracked_length_m for each in straight.cases]
+    opened = [item.cracked_length_m for item in straight.cases]
     assert max(opened) > 1.0
     for one, two in zip(straight.cases, other.cases, strict=True):
         assert two.outcome == one.outcome
@@ -48,7 +48,7 @@ def test_a_mirrored_dam_has_mirrored_checks():
     there = kinked([["10 m", "0 m"], ["14 m", "2 m"]], section=section, statics=None)
     back = [["46 m", "2 m"], ["50 m", "0 m"]]
     image = kinked(back, section=section, statics=None, reservoir=None, tailwater={"depth": "90 m"})
-    one, two = (only(heeltoe.statics(each), "usual") for each in (there, image))
+    one, two = (only(heeltoe.statics(item), "usual") for item in (there, image))
     assert two.shear_force_n == pytest.approx(-one.shear_force_n)
     for name in ("normal_force_n", "sliding_factor", "sliding_factor_on_pieces", "steepest_rise_rad"):
         assert getattr(two, name) == pytest.approx(getattr(one, name), rel=1e-9)
@@ -61,7 +61,7 @@ def test_units_do_not_matter():
     section = {"polygon": [["0 m", "0 m"], ["320 m", "0 m"], ["0 m", "400 m"]]}
     crack = {"elevation": "80 m", "friction": 0.9, "kinks": [["80 m", "0 m"], ["92 m", "6 m"]]}
     large = kinked([], "360 m", statics=None, section=section, crack=crack)
-    one, two = (only(heeltoe.statics(each), "usual") for each in (kinked(STEP, statics=None), large))
+    one, two = (only(heeltoe.statics(item), "usual") for item in (kinked(STEP, statics=None), large))
     for name in ("sliding_factor", "sliding_factor_on_pieces", "flotation_factor", "overturning_factor"):
         assert getattr(two, name) == pytest.approx(getattr(one, name), rel=1e-9)
     assert two.normal_force_n == pytest.approx(16.0 * one.normal_force_n, rel=1e-9)
@@ -78,9 +78,9 @@ def test_it_opens_up_to_the_first_place_that_holds(depth, uplift):
     """Looked for in steps of a millimetre along the way."""
     case = kinked([["5 m", "1 m"], ["9 m", "-1.5 m"], ["40 m", "3 m"]], depth, uplift=uplift, statics=None)
     solved = usual(case)
-    found, water = solved.load_case, still_water(case, 0.0, case.cut.crack_width)
-    assert 1.0 < found.cracked_length_m < 50.0
-    loads = [force for force in found.forces if force.name != "uplift"]
+    result, water = solved.load_case, still_water(case, 0.0, case.cut.crack_width)
+    assert 1.0 < result.cracked_length_m < 50.0
+    loads = [force for force in result.forces if force.name != "uplift"]
     down, turning = sum(force.vertical for force in loads), sum(force.moment for force in loads)
 
     def tip(length):
@@ -91,9 +91,9 @@ def test_it_opens_up_to_the_first_place_that_holds(depth, uplift):
         return normal / left - 6.0 * away / left**2
 
     holds = next(length for length in np.arange(0.0, 60.0, 1e-3) if tip(length) >= 0.0)
-    assert found.cracked_length_m == pytest.approx(holds, abs=1.1e-3)
+    assert result.cracked_length_m == pytest.approx(holds, abs=1.1e-3)
     # Not as far as a straight crack: the water on the steps turns it, too.
-    assert found.cracked_length_m != pytest.approx(
+    assert result.cracked_length_m != pytest.approx(
         usual(kinked([], depth, uplift=uplift, statics=None)).load_case.cracked_length_m, abs=1e-2
     )
 
@@ -101,7 +101,7 @@ def test_it_opens_up_to_the_first_place_that_holds(depth, uplift):
 def test_other_joints_are_straight():
     choice = {"sections": ["20 m", "40 m"]}
     joints = heeltoe.statics_of_sections(kinked(STEP, statics=choice)).joints
-    assert [bool(each.case.crack.kinks) for each in joints] == [True, False]
+    assert [bool(joint.case.crack.kinks) for joint in joints] == [True, False]
     straight = heeltoe.statics_of_sections(kinked([], statics=choice)).joints
     assert joints[1].statics.to_json() == straight[1].statics.to_json()
 
@@ -115,5 +115,5 @@ def test_corners_outside_the_dam_are_refused():
 
 def test_the_example_is_judged():
     result = heeltoe.statics(read_case("examples/stepped-crack.toml"))
-    assert {"usual", "post-seismic"} == {each.name for each in result.cases}
+    assert {"usual", "post-seismic"} == {item.name for item in result.cases}
     assert only(result, "usual").sliding_factor_on_pieces > only(result, "usual").sliding_factor

@@ -31,9 +31,9 @@ def test_run_and_static_checks_say_one_slip_for_each_crack(dam):
     case, response = dam
     slips = {crack.elevation: crack.residual_slip_m for crack in response.cracks}
     assert all(abs(slip) > 1e-3 for slip in slips.values())
-    for found in (judge(case), joints_after(case, lambda: response.responses)):
-        assert {joint.elevation_m: joint.statics.slip_m for joint in found.joints} == slips
-        assert all("flexible model" in joint.statics.slip_source for joint in found.joints)
+    for result in (judge(case), joints_after(case, lambda: response.responses)):
+        assert {joint.elevation_m: joint.statics.slip_m for joint in result.joints} == slips
+        assert all("flexible model" in joint.statics.slip_source for joint in result.joints)
 
 
 def test_a_joint_that_is_no_crack_says_that_it_was_run_alone(dam):

@@ -43,19 +43,19 @@ def case_of(tmp_path, text=OWN, **statics):
 
 
 def test_a_file_judges_in_place_of_the_documents(tmp_path):
-    found = heeltoe.statics(case_of(tmp_path))
-    assert found.criteria == "Our authority, guideline 12"
-    sliding = check(found, "usual", "sliding factor")
+    result = heeltoe.statics(case_of(tmp_path))
+    assert result.criteria == "Our authority, guideline 12"
+    sliding = check(result, "usual", "sliding factor")
     assert (sliding.required, sliding.source) == (1.5, "Our authority, guideline 12, table 3")
     # 5120 against 1215 + 1920 about the toe
-    overturning = check(found, "usual", "overturning factor")
+    overturning = check(result, "usual", "overturning factor")
     assert (overturning.value, overturning.met) == (pytest.approx(5120.0 / 3135.0), True)
     # 6.917 m of 80 is 0.0865 from the middle
-    resultant = check(found, "usual", "resultant")
+    resultant = check(result, "usual", "resultant")
     assert "inside the middle 40 % of Our authority" in str(resultant.sentence)
-    assert not check(found, "usual", "compression").met
-    assert found.critical_water_level_m["sliding_required"] is not None
-    assert [each.name for each in found.checks if each.required is None] == ["equilibrium"]
+    assert not check(result, "usual", "compression").met
+    assert result.critical_water_level_m["sliding_required"] is not None
+    assert [item.name for item in result.checks if item.required is None] == ["equilibrium"]
 
 
 def test_the_file_is_read_once_and_again_when_it_was_written(tmp_path, monkeypatch):
@@ -71,12 +71,12 @@ def test_the_file_is_read_once_and_again_when_it_was_written(tmp_path, monkeypat
 
 
 def test_what_no_row_asks_for_is_not_judged(tmp_path):
-    found = heeltoe.statics(case_of(tmp_path, "[flotation]\nusual = 1.2\n"))
-    assert [each.name for each in found.checks] == ["equilibrium", "flotation factor"]
-    assert found.critical_water_level_m["sliding_required"] is None
-    assert found.criteria == "own.toml"
-    idle = [str(each) for each in found.warnings if each.code == "fields-idle"]
-    assert any("statics.compressive_strength" in each for each in idle)
+    result = heeltoe.statics(case_of(tmp_path, "[flotation]\nusual = 1.2\n"))
+    assert [item.name for item in result.checks] == ["equilibrium", "flotation factor"]
+    assert result.critical_water_level_m["sliding_required"] is None
+    assert result.criteria == "own.toml"
+    idle = [str(warning) for warning in result.warnings if warning.code == "fields-idle"]
+    assert any("statics.compressive_strength" in item for item in idle)
 
 
 def test_cohesion_may_have_factors_of_its_own(tmp_path):
@@ -87,10 +87,10 @@ def test_cohesion_may_have_factors_of_its_own(tmp_path):
 
 
 def test_the_file_says_what_the_water_does(tmp_path):
-    found = heeltoe.statics(case_of(tmp_path, seismic_coefficient=0.1))
-    said = [str(text) for each in found.cases for text in each.assumptions if "uplift" in str(text)]
-    assert said
-    assert all("guideline 12: zero where" in each for each in said)
+    result = heeltoe.statics(case_of(tmp_path, seismic_coefficient=0.1))
+    texts = [str(text) for item in result.cases for text in item.assumptions if "uplift" in str(text)]
+    assert texts
+    assert all("guideline 12: zero where" in item for item in texts)
 
 
 @pytest.mark.parametrize(
@@ -153,20 +153,20 @@ def test_the_command_takes_a_file_from_where_one_stands(tmp_path):
     (tmp_path / "own.toml").write_text(OWN)
     made = command("new", "dam", cwd=tmp_path)
     assert made.returncode == 0, made.stderr
-    said = command("statics", "dam.toml", "--criteria", "own.toml", "--slip", "0m", "--json", "-", cwd=tmp_path)
-    assert said.returncode == 0, said.stderr
-    assert '"criteria": "Our authority, guideline 12"' in said.stdout
+    process = command("statics", "dam.toml", "--criteria", "own.toml", "--slip", "0m", "--json", "-", cwd=tmp_path)
+    assert process.returncode == 0, process.stderr
+    assert '"criteria": "Our authority, guideline 12"' in process.stdout
 
 
 def test_usbr_caps_what_strong_concrete_may_bear():
     # 1500 psi are 10.342 MPa: a third of 20 MPa is less, a third of 60 MPa more.
     for strength, share in ((20.0, 1.0 / 3.0), (60.0, 10.342135 / 60.0)):
         choice = {"criteria": "USBR", "compressive_strength": f"{strength} MPa"}
-        found = check(heeltoe.statics(dam(statics=choice)), "usual", "compression")
-        assert found.required == pytest.approx(share, rel=1e-6)
+        outcome = check(heeltoe.statics(dam(statics=choice)), "usual", "compression")
+        assert outcome.required == pytest.approx(share, rel=1e-6)
 
 
 def test_ferc_has_no_second_table_for_low_hazard():
     low = {"criteria": "FERC", "structure": "normal"}
-    found = check(heeltoe.statics(dam(statics=low)), "usual", "sliding factor")
-    assert (found.required, found.source.endswith("table 2")) == (2.0, True)
+    outcome = check(heeltoe.statics(dam(statics=low)), "usual", "sliding factor")
+    assert (outcome.required, outcome.source.endswith("table 2")) == (2.0, True)

@@ -31,7 +31,7 @@ def test_each_check_is_judged_by_the_sign_that_is_worse_for_it():
     assert pressing.toe_stress_pa > lifting.toe_stress_pa or "compression" in lifting.governs
     assert set(lifting.governs) | set(pressing.governs) >= {"sliding factor", "flotation factor", "resultant"}
     assert not set(lifting.governs) & set(pressing.governs)
-    names = [(each.load_case, each.name) for each in result.checks if each.load_case.startswith(WAY)]
+    names = [(item.load_case, item.name) for item in result.checks if item.load_case.startswith(WAY)]
     assert sorted(name for _, name in names) == sorted(
         ["equilibrium", "sliding factor", "flotation factor", "resultant", "compression"]
     )
@@ -45,30 +45,30 @@ def test_the_press_governs_the_stress_of_a_dam_that_nothing_opens():
     pressed = []
     for strength in np.linspace(1.0, 12.0, 23):
         choice = {**shaken, "compressive_strength": f"{strength:g} MPa"}
-        found = heeltoe.statics(dam(reservoir=None, statics=choice))
-        pressing = only(found, f"{WAY}, pressing")
+        result = heeltoe.statics(dam(reservoir=None, statics=choice))
+        pressing = only(result, f"{WAY}, pressing")
         assert "compression" in pressing.governs
-        pressed.append(check(found, f"{WAY}, pressing", "compression").met)
+        pressed.append(check(result, f"{WAY}, pressing", "compression").met)
     assert pressed == sorted(pressed)
     assert set(pressed) == {False, True}
 
 
 def test_without_a_vertical_coefficient_there_is_one_case_each_way():
     result = heeltoe.statics(dam(statics={"seismic_coefficient": 0.1}))
-    assert [each.name for each in result.cases] == ["usual", WAY, "pseudo-static upstream"]
+    assert [case.name for case in result.cases] == ["usual", WAY, "pseudo-static upstream"]
     assert only(result, WAY).governs is None
 
 
 @pytest.mark.parametrize("name", ["USACE", "USBR"])
 def test_the_water_may_be_chosen_against_the_criteria(name):
     shaken = {"seismic_coefficient": 0.1, "criteria": name}
-    found = {
+    result = {
         law: only(heeltoe.statics(dam(statics=shaken | {"uplift_in_earthquake": law})), WAY)
         for law in ("criteria", "unchanged", "zero", "full")
     }
     same = "unchanged" if name == "USACE" else "zero"
-    assert found["criteria"].cracked_length_m == found[same].cracked_length_m
-    cracks = [found[law].cracked_length_m for law in ("zero", "unchanged", "full")]
+    assert result["criteria"].cracked_length_m == result[same].cracked_length_m
+    cracks = [result[law].cracked_length_m for law in ("zero", "unchanged", "full")]
     assert cracks == sorted(cracks)
     assert cracks[0] > 0.0
 
@@ -77,11 +77,11 @@ def test_full_pressure_enters_at_once():
     """ICOLD: p on all of the crack, straight from its tip to the toe. With W = 96 and M = 5120 - 1215 - 490.1 about the
     toe, what is left is L = 3 (M - p B^2/2) / (W - p B), p = 0.9 (equation 7)."""
     shaken = {"seismic_coefficient": 0.1, "uplift_in_earthquake": "full"}
-    found = only(heeltoe.statics(dam(statics=shaken)), WAY)
+    result = only(heeltoe.statics(dam(statics=shaken)), WAY)
     left = 3.0 * (5120.0 - 1215.0 - 490.1 - 0.9 * 3200.0) / (96.0 - 72.0)
-    assert found.cracked_length_m == pytest.approx(80.0 - left, **CLOSE)
-    assert found.normal_force_n == pytest.approx((96.0 - 0.9 * (80.0 - left) - 0.45 * left) * M, **CLOSE)
-    assert "ICOLD" in str(found.assumptions[0])
+    assert result.cracked_length_m == pytest.approx(80.0 - left, **CLOSE)
+    assert result.normal_force_n == pytest.approx((96.0 - 0.9 * (80.0 - left) - 0.45 * left) * M, **CLOSE)
+    assert "ICOLD" in str(result.assumptions[0])
 
 
 def test_what_it_opens_matters_without_a_coefficient_to_nobody():

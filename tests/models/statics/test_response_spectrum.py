@@ -47,13 +47,13 @@ def test_a_cantilever_by_hand():
     ground = 0.02 * G * 1.2
     shear = mass * math.hypot(share * acceleration, (1.0 - share) * ground)
     moment = mass * 60.0 * math.hypot(share * height * acceleration, (0.5 - share * height) * ground)
-    found = joint.statics.response_spectrum
-    assert found.period_s == pytest.approx(period, rel=0.005)
-    assert found.damping_ratio == pytest.approx(0.05, rel=0.01)
+    result = joint.statics.response_spectrum
+    assert result.period_s == pytest.approx(period, rel=0.005)
+    assert result.damping_ratio == pytest.approx(0.05, rel=0.01)
     downstream, upstream = (case for case in joint.statics.cases if case.name.startswith("response spectrum"))
     assert downstream.shear_force_n == pytest.approx(shear, rel=0.005)
     assert upstream.shear_force_n == pytest.approx(-shear, rel=0.005)
-    assert found.push().moment == pytest.approx(-moment, rel=0.005)
+    assert result.push().moment == pytest.approx(-moment, rel=0.005)
     weight = mass * G
     assert downstream.normal_force_n == pytest.approx(weight, rel=1e-9)
     assert downstream.sliding_factor == pytest.approx(weight / shear, rel=0.005)
@@ -155,9 +155,9 @@ def test_a_dam_without_a_modulus_or_a_motion_is_refused():
 
 def test_from_the_command_line(tmp_path):
     options = ("--slip", "0.1m", "--set", COARSE, "--spectrum", DESIGN)
-    said = command("statics", HEIGHT, *options, "--json", "-", "--out", tmp_path)
-    assert said.returncode == 0, said.stderr
-    data = json.loads(said.stdout)
+    process = command("statics", HEIGHT, *options, "--json", "-", "--out", tmp_path)
+    assert process.returncode == 0, process.stderr
+    data = json.loads(process.stdout)
     assert data["response_spectrum"]["spectrum"].startswith("EN 1998-1")
     assert (tmp_path / "forces-response-spectrum-downstream.png").exists()
     table = command("statics", HEIGHT, *options, "--vary", "crack.friction=0.8,1.0", "--json", "-")

@@ -14,8 +14,8 @@ def lines(sheet):
 
 def test_forces_arms_and_moments_of_the_triangle():
     # 96 MN of concrete a third of the base from the heel, 40.5 MN of water a third of its depth up, 36 MN of uplift.
-    found = only(heeltoe.statics(dam()), "usual")
-    at = lines(found.sheet("toe"))
+    result = only(heeltoe.statics(dam()), "usual")
+    at = lines(result.sheet("toe"))
     assert (at["weight"].vertical_n, at["weight"].distance_m) == pytest.approx((-96 * M, 80 / 3 - 80), **CLOSE)
     assert (at["reservoir"].horizontal_n, at["reservoir"].height_m) == pytest.approx((40.5 * M, 30.0), **CLOSE)
     assert (at["uplift"].vertical_n, at["uplift"].distance_m) == pytest.approx((36 * M, 80 / 3 - 80), **CLOSE)
@@ -39,18 +39,18 @@ def test_every_moment_is_force_times_arm_and_the_sums_are_those_of_the_checks(sl
         statics={**SHAKEN, "flood_depth": "98 m", "residual_slip": "0.3 m"},
     )
     section = case.cut
-    for found in heeltoe.statics(case).cases:
-        sheet = found.sheet(about)
+    for result in heeltoe.statics(case).cases:
+        sheet = result.sheet(about)
         for line in (*sheet.lines, sheet.sum):
             by_arms = (line.distance_m or 0.0) * line.vertical_n - (line.height_m or 0.0) * line.horizontal_n
             assert by_arms == pytest.approx(line.moment_nm, rel=1e-9, abs=1e-3)
             assert str(line.source) or line is sheet.sum, line.name
         along, across = section.in_crack_frame(sheet.sum.horizontal_n, sheet.sum.vertical_n)
-        assert along == pytest.approx(found.shear_force_n)
-        assert -across == pytest.approx(found.normal_force_n)
+        assert along == pytest.approx(result.shear_force_n)
+        assert -across == pytest.approx(result.normal_force_n)
         place = section.in_crack_frame(*sheet.point_m)[0]
-        assert place - sheet.sum.moment_nm / found.normal_force_n == pytest.approx(found.resultant_from_heel_m)
-    assert len(found.forces) == 7
+        assert place - sheet.sum.moment_nm / result.normal_force_n == pytest.approx(result.resultant_from_heel_m)
+    assert len(result.forces) == 7
 
 
 def test_json_has_the_sheet():
@@ -65,13 +65,13 @@ def test_the_pieces_of_the_body_add_up_to_it():
         section={"polygon": [["0 m", "0 m"], ["80 m", "0 m"], ["8 m", "90 m"], ["8 m", "100 m"], ["0 m", "100 m"]]},
         statics=SHAKEN,
     )
-    for found in heeltoe.statics(case).cases:
-        for line in found.sheet("toe").lines:
+    for result in heeltoe.statics(case).cases:
+        for line in result.sheet("toe").lines:
             if line.name in ("weight", "inertia"):
                 assert [piece.name for piece in line.parts] == [f"{line.name} 1", f"{line.name} 2"]
                 for part in ("horizontal_n", "vertical_n", "moment_nm"):
                     whole = sum(getattr(piece, part) for piece in line.parts)
                     assert whole == pytest.approx(getattr(line, part), rel=1e-9, abs=1e-3)
     sheet = only(heeltoe.statics(case), "usual").sheet()
-    said = "rectangle 8 m by 100 m, concrete of 2400 kg/m³"
-    assert str(lines(sheet)["weight"].parts[0].source) == said
+    message = "rectangle 8 m by 100 m, concrete of 2400 kg/m³"
+    assert str(lines(sheet)["weight"].parts[0].source) == message

@@ -91,8 +91,8 @@ def test_a_run_says_that_the_crack_opens_through(model, tmp_path):
     assert statics(read_case(path)).cases[0].outcome == "cracks through"
     result = command("run", path, "--model", model, "--json", "-")
     data = json.loads(result.stdout)
-    for each in (data["beside"], data) if model == "both" else (data,):
-        (warning,) = [warning for warning in each["warnings"] if warning["code"] == "crack-opens-through"]
+    for item in (data["beside"], data) if model == "both" else (data,):
+        (warning,) = [warning for warning in item["warnings"] if warning["code"] == "crack-opens-through"]
         assert warning["severity"] == "grave"
 
 
@@ -102,4 +102,4 @@ def test_a_table_of_runs_says_it_of_the_runs_it_belongs_to(tmp_path):
     runs = json.loads(
         command("run", path, "--model", "rigid", "--vary", "reservoir.depth=20 m,28 m", "--json", "-").stdout
     )["runs"]
-    assert [any(each["code"] == "crack-opens" for each in run["warnings"]) for run in runs] == [False, True]
+    assert [any(item["code"] == "crack-opens" for item in run["warnings"]) for run in runs] == [False, True]

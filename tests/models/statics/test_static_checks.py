@@ -34,8 +34,8 @@ def test_sentences():
         "USACE EM 1110-2-2200 (1995), table 4-1"
     )
     assert str(check(result, "usual", "equilibrium").sentence) == "usual: the block stands"
-    failed = [each for each in result.checks if not each.met]
-    assert {each.name for each in failed} == {"sliding factor"}
+    failed = [item for item in result.checks if not item.met]
+    assert {item.name for item in failed} == {"sliding factor"}
 
 
 def test_a_difference_of_little_is_not_rounded_to_nothing():
@@ -48,12 +48,12 @@ def test_a_difference_of_little_is_not_rounded_to_nothing():
 def test_a_crack_that_goes_through():
     slim = {"polygon": [["0 m", "0 m"], ["50 m", "0 m"], ["0 m", "100 m"]]}
     result = heeltoe.statics(dam("100 m", section=slim))
-    found = only(result, "usual")
+    outcome = only(result, "usual")
     # Full pressure on all of the base: N = 60 - 50, about the heel 60 x 50/3 + 50 x 100/3 - 50 x 25 = 1416.6667
-    assert found.outcome == "cracks through"
-    assert found.sliding_factor == pytest.approx(0.9 * 10.0 / 50.0, **CLOSE)
-    assert found.resultant_from_heel_m == pytest.approx(141.66667, **CLOSE)
-    assert found.heel_stress_pa is found.toe_stress_pa is None
+    assert outcome.outcome == "cracks through"
+    assert outcome.sliding_factor == pytest.approx(0.9 * 10.0 / 50.0, **CLOSE)
+    assert outcome.resultant_from_heel_m == pytest.approx(141.66667, **CLOSE)
+    assert outcome.heel_stress_pa is outcome.toe_stress_pa is None
     assert str(check(result, "usual", "equilibrium").sentence) == (
         "usual: the crack opens through from the heel; the resultant is 91.67 m beyond the toe"
     )
@@ -65,9 +65,9 @@ def test_a_crack_that_goes_through():
 
 def test_a_block_that_floats():
     result = heeltoe.statics(dam("100 m", uplift={"pattern": "uniform"}, concrete={"density": "1900 kg/m^3"}))
-    found = only(result, "usual")
-    assert found.outcome == "floats"
-    assert (found.sliding_factor, found.resultant_from_heel_m) == (0.0, None)
+    outcome = only(result, "usual")
+    assert outcome.outcome == "floats"
+    assert (outcome.sliding_factor, outcome.resultant_from_heel_m) == (0.0, None)
     # W = 76 under U = 80
     assert str(check(result, "usual", "equilibrium").sentence) == (
         "usual: the water lifts the block with 4000 kN/m more than holds it down"
@@ -77,7 +77,7 @@ def test_a_block_that_floats():
 
 def test_a_block_that_has_slid_off_its_crack():
     result = heeltoe.statics(dam(), 80.0)
-    assert [each.name for each in result.cases] == ["usual"]
+    assert [item.name for item in result.cases] == ["usual"]
     assert str(result.checks[-1].sentence) == (
         "post-seismic: a slip of 80.00 m leaves nothing of the 80.00 m that the block stood on"
     )
@@ -172,7 +172,7 @@ def criteria_lines(name):
         kind = ", ".join(text for text in (row.structure, row.site_information, cohesion) if text) or "all"
         groups.setdefault((row.check, kind, row.source), {})[row.loads] = row.required
     for (check_, kind, source), values in groups.items():
-        cells = [f"{values[each]:.3g}" if each in values else "-" for each in LOADS]
+        cells = [f"{values[item]:.3g}" if item in values else "-" for item in LOADS]
         yield f"| {check_} | {kind} | {' | '.join(cells)} | {source} |"
 
 
@@ -253,14 +253,14 @@ def test_examples(example, name):
     result = heeltoe.statics(case, 0.05)
     data = result.to_json()
     flood = [] if case.statics.flood_depth is None else ["flood"]
-    assert [each["name"] for each in data["cases"]] == [
+    assert [item["name"] for item in data["cases"]] == [
         "usual",
         *flood,
         "pseudo-static downstream",
         "pseudo-static upstream",
         "post-seismic",
     ]
-    assert all(each["sentence"].startswith(each["load_case"]) for each in data["checks"])
+    assert all(item["sentence"].startswith(item["load_case"]) for item in data["checks"])
     numbers = json.dumps(data, allow_nan=True)
     assert "NaN" not in numbers
     assert result.references
@@ -305,7 +305,7 @@ def test_an_overturned_block_does_not_stand_after_the_earthquake():
     shown = command("statics", SLENDER, "--set", pulse, "--json", "-")
     assert shown.returncode == 0, shown.stderr
     data = json.loads(shown.stdout)
-    assert "post-seismic" not in [each["name"] for each in data["cases"]]
+    assert "post-seismic" not in [item["name"] for item in data["cases"]]
     assert data["checks"][-1]["sentence"] == (
         "post-seismic: the earthquake overturns the block about its toe: nothing stands after it"
     )

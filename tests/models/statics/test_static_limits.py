@@ -51,7 +51,7 @@ def test_critical_water_levels_are_looked_for_up_to_the_flood():
 
 def test_no_flood_may_be_said():
     case = dam(statics={"flood_depth": "none"})
-    assert [each.name for each in heeltoe.statics(case).cases] == ["usual"]
+    assert [item.name for item in heeltoe.statics(case).cases] == ["usual"]
     flooded = {"statics": {"flood_depth": "95 m", "flood_tailwater": "5 m", "flood_rarity": "extreme"}}
     assert read_case(flooded | DRY, {"statics.flood_depth": "none"}).statics.flood_tailwater is None
 
@@ -65,12 +65,12 @@ def test_critical_acceleration_is_that_of_the_block():
 
 def test_a_dry_dam_is_pushed_by_nothing():
     result = heeltoe.statics(dam(reservoir=None))
-    found = only(result, "usual")
-    assert found.sliding_factor is found.flotation_factor is found.overturning_factor is None
-    assert found.resultant_from_heel_m == pytest.approx(80.0 / 3.0)
-    assert found.heel_stress_pa == pytest.approx(2.4 * M)
-    assert found.toe_stress_pa == pytest.approx(0.0, abs=1e-6)
-    assert result.ok, [str(each.sentence) for each in result.checks]
+    outcome = only(result, "usual")
+    assert outcome.sliding_factor is outcome.flotation_factor is outcome.overturning_factor is None
+    assert outcome.resultant_from_heel_m == pytest.approx(80.0 / 3.0)
+    assert outcome.heel_stress_pa == pytest.approx(2.4 * M)
+    assert outcome.toe_stress_pa == pytest.approx(0.0, abs=1e-6)
+    assert result.ok, [str(check.sentence) for check in result.checks]
     assert len(result.cases) == 1
 
 
@@ -100,18 +100,18 @@ def test_an_inclined_crack(degrees):
     # A dry column slides down its crack: mu N / T = mu / tan(alpha), upstream where the crack rises downstream.
     column = {"polygon": [["0 m", "0 m"], ["6 m", "0 m"], ["6 m", "20 m"], ["0 m", "20 m"]]}
     crack = {"friction": 0.9, "elevation": "5 m", "inclination": f"{degrees} deg"}
-    found = only(heeltoe.statics(dam(section=column, reservoir=None, crack=crack)), "usual")
-    assert found.sliding_factor == pytest.approx(0.9 / math.tan(math.radians(10.0)), **CLOSE)
-    assert math.copysign(1.0, found.shear_force_n) == -math.copysign(1.0, degrees)
+    result = only(heeltoe.statics(dam(section=column, reservoir=None, crack=crack)), "usual")
+    assert result.sliding_factor == pytest.approx(0.9 / math.tan(math.radians(10.0)), **CLOSE)
+    assert math.copysign(1.0, result.shear_force_n) == -math.copysign(1.0, degrees)
 
 
 def test_a_crack_nearly_level_opens_as_a_level_one():
     level = only(heeltoe.statics(dam("100 m")), "usual")
     for degrees in (1e-7, -1e-7):
         crack = {"friction": 0.9, "elevation": "0.001 m", "inclination": f"{degrees} deg"}
-        found = only(heeltoe.statics(dam("100 m", crack=crack), 1.0), "usual")
-        assert found.cracked_length_m == pytest.approx(level.cracked_length_m, rel=1e-3)
-        assert found.sliding_factor == pytest.approx(level.sliding_factor, rel=1e-3)
+        result = only(heeltoe.statics(dam("100 m", crack=crack), 1.0), "usual")
+        assert result.cracked_length_m == pytest.approx(level.cracked_length_m, rel=1e-3)
+        assert result.sliding_factor == pytest.approx(level.sliding_factor, rel=1e-3)
 
 
 def test_water_above_an_inclined_crack():
@@ -121,21 +121,21 @@ def test_water_above_an_inclined_crack():
     case = dam("50 m", crack=crack)
     section = case.cut
     width, rise = section.crack_width, math.sin(math.radians(5.0))
-    found = only(heeltoe.statics(case, -1.0), "post-seismic")
-    uplift = next(force for force in found.forces if force.name == "uplift")
+    result = only(heeltoe.statics(case, -1.0), "post-seismic")
+    uplift = next(force for force in result.forces if force.name == "uplift")
     # The toe opens a little, dry.
-    assert found.cracked_from == "toe"
-    assert 0.0 < found.cracked_length_m < 3.0
-    expected = 0.2 - 0.01 * rise / 2.0 + 0.2 / 2.0 * (width - 1.0 - found.cracked_length_m)
+    assert result.cracked_from == "toe"
+    assert 0.0 < result.cracked_length_m < 3.0
+    expected = 0.2 - 0.01 * rise / 2.0 + 0.2 / 2.0 * (width - 1.0 - result.cracked_length_m)
     assert math.hypot(uplift.horizontal, uplift.vertical) == pytest.approx(expected * M, **CLOSE)
 
 
 def test_an_anchor_holds():
     # 10 MN/m at 10 from the heel, leaning upstream by 30 deg: N + 8.66, T - ... pulled towards the part below
     anchor = {"distance": "10 m", "prestress": "10 MN/m", "inclination": "30 deg"}
-    found = only(heeltoe.statics(dam(anchors=[anchor])), "usual")
-    assert found.normal_force_n == pytest.approx((60.0 + 10.0 * math.cos(math.pi / 6.0)) * M, **CLOSE)
-    assert found.shear_force_n == pytest.approx((40.5 - 5.0) * M, **CLOSE)
+    result = only(heeltoe.statics(dam(anchors=[anchor])), "usual")
+    assert result.normal_force_n == pytest.approx((60.0 + 10.0 * math.cos(math.pi / 6.0)) * M, **CLOSE)
+    assert result.shear_force_n == pytest.approx((40.5 - 5.0) * M, **CLOSE)
 
 
 def test_seismic_forces_are_those_of_the_block():
@@ -146,8 +146,8 @@ def test_seismic_forces_are_those_of_the_block():
         statics=SHAKEN,
     )
     section, block = case.cut, build_block(case)
-    found = pseudo_static(case, usual(case))[0].load_case
-    sums = total("all", (force for force in found.forces if force.name != "uplift"))
+    load_case = pseudo_static(case, usual(case))[0].load_case
+    sums = total("all", (force for force in load_case.forces if force.name != "uplift"))
     still = total("still", (force for force in block.forces if force.name != "uplift"))
     extra = total("extra", (sums, type(sums)("", -still.horizontal, -still.vertical, -still.moment)))
     along, across = section.in_crack_frame(extra.horizontal, extra.vertical)
@@ -185,8 +185,8 @@ def test_the_crack_stops_at_the_first_place_that_holds(
         uplift={"pattern": pattern, "intensity": intensity, **options.get(pattern, {})},
         statics={"bonded": bonded, **({"tensile_strength": f"{strength} MPa"} if bonded else {})},
     )
-    found = usual(case).load_case
-    load = total("", (force for force in found.forces if force.name != "uplift"))
+    load_case = usual(case).load_case
+    load = total("", (force for force in load_case.forces if force.name != "uplift"))
     knots = uplift_profile(case)
 
     def tip(length):
@@ -207,12 +207,12 @@ def test_the_crack_stops_at_the_first_place_that_holds(
         holds = strength * M if bonded and length >= (1.0 - bonded) * base else 0.0
         return (stress + holds) * left**2
 
-    assume(found.cracked_from == "heel")
+    assume(load_case.cracked_from == "heel")
     scale = 1e-5 * base * 96.0 * M
-    crack = found.cracked_length_m
-    if found.outcome == "stands":
+    crack = load_case.cracked_length_m
+    if load_case.outcome == "stands":
         assert tip(crack + 1e-9 if crack else 0.0) >= -scale
-    if crack and found.outcome != "floats":
+    if crack and load_case.outcome != "floats":
         assert all(tip(length) < scale for length in np.linspace(0.0, crack, 7)[:-1])
 
 

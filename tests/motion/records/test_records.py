@@ -227,9 +227,9 @@ def test_latin_1_and_foreign_line_ends():
 
 
 def _header_number(text: str, pattern: str) -> float:
-    found = re.search(pattern, text)
-    assert found, pattern
-    return float(found[1])
+    match = re.search(pattern, text)
+    assert match, pattern
+    return float(match[1])
 
 
 def test_all_records_with_headers_agree_with_them(records):

@@ -129,7 +129,7 @@ def test_a_count_or_a_peak_that_is_not_the_stated_one_is_said(text):
     assert short.time.size == 152
     assert "states 160 values and has 152" in str(short.warnings[0])
     peak = f"{GAL[np.abs(GAL).argmax()]:.3f}"
-    stated = next(each for each in (peak, peak.lstrip("-"), peak[:-2], f"{float(peak):.1f}") if each in text)
+    stated = next(item for item in (peak, peak.lstrip("-"), peak[:-2], f"{float(peak):.1f}") if item in text)
     other = read(text.replace(stated, stated.replace("2", "9", 1), 1))
     assert "states a peak of 9" in str(other.warnings[0])
 
@@ -191,8 +191,8 @@ def test_a_unit_and_a_step_are_assumed_only_on_request():
     for hints in ({}, {"unit": "g"}, {"time_step": 0.01}):
         with pytest.raises(InputError, match=r"say so in motion\.(unit|time_step)"):
             read(bare, **hints)
-    told = channels(bare, unit="m/s^2", time_step=0.02)[0]
-    assert (told.units_as_read, told.dt, told.warnings) == ("m/s^2 (as given)", 0.02, ())
+    answer = channels(bare, unit="m/s^2", time_step=0.02)[0]
+    assert (answer.units_as_read, answer.dt, answer.warnings) == ("m/s^2 (as given)", 0.02, ())
 
 
 # Small print of columns
@@ -257,9 +257,9 @@ ROWS = "".join(f"{0.01 * k:.2f} {0.1 * (k % 3):.1f} {0.2 * (k % 2):.1f} {0.3 * (
 )
 def test_columns_with_a_name_each(header):
     text = f"# {header}\n{ROWS}"
-    found = channels(text)
-    assert [each.component for each in found] == ["NS", "EW", "up"]
-    assert [each.pga / G for each in found] == pytest.approx([0.2, 0.2, 0.9])
+    result = channels(text)
+    assert [item.component for item in result] == ["NS", "EW", "up"]
+    assert [item.pga / G for item in result] == pytest.approx([0.2, 0.2, 0.9])
     assert read(text, channel="ew").dt == pytest.approx(0.01)
     with pytest.raises(InputError, match=r"has several channels \(1: NS, peak 0\.2 g; 2: EW"):
         read(text)
@@ -314,9 +314,9 @@ def test_all_records_are_read_without_options_and_are_what_they_state(records):
             for warning in map(str, motion.warnings):
                 assert "is assumed" in warning
             if motion.format == "CSMIP V2":
-                said = text.split("END OF DATA FOR CHANNEL")[int(motion.channel) - 1]
-                count, step = re.search(r"(\d+) POINTS OF ACCEL DATA EQUALLY SPACED AT +([\d.]+)", said).groups()
-                peak = re.search(r"PEAK ACCELERATION = +-?([\d.]+)", said)[1]
+                message = text.split("END OF DATA FOR CHANNEL")[int(motion.channel) - 1]
+                count, step = re.search(r"(\d+) POINTS OF ACCEL DATA EQUALLY SPACED AT +([\d.]+)", message).groups()
+                peak = re.search(r"PEAK ACCELERATION = +-?([\d.]+)", message)[1]
                 assert (motion.time.size, motion.dt) == (int(count), pytest.approx(float(step)))
                 assert 100.0 * motion.pga == pytest.approx(float(peak), abs=1e-9)
                 seen += 1

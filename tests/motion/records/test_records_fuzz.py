@@ -147,7 +147,7 @@ def _assault(name: str, count: int) -> tuple[int, int]:
             # What is finite may still overflow once it is integrated.
             assert np.isfinite([motion.pga, motion.pgv, motion.pgd, motion.end_velocity, motion.dt]).all()
         sound += 1
-    assert not any("\n" in each for each in complaints)
+    assert not any("\n" in complaint for complaint in complaints)
     return sound, refused
 
 

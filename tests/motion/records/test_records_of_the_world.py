@@ -20,7 +20,7 @@ def test_values_are_what_was_written(name):
     # What the widths of the columns leave; those of RENADIC have a ten-thousandth of g.
     assert motion.acceleration == pytest.approx(G * WAVE, abs=6e-4)
     assert motion.dt == pytest.approx(0.005 if name in ("esm", "csmnc", "unam", "bhrc") else 0.01)
-    assert [each.code for each in motion.warnings] == (["record-uncorrected"] if name in RAW else [])
+    assert [warning.code for warning in motion.warnings] == (["record-uncorrected"] if name in RAW else [])
 
 
 def test_what_the_headers_say_is_kept():
@@ -41,9 +41,9 @@ def test_what_the_headers_say_is_kept():
     motion = read(csmnc())
     assert (motion.format, motion.component, motion.station) == ("CSMNC", "EW", "51ABC")
     assert (motion.event, motion.date) == ("NOWHERE EARTHQUAKE", "1980-1-1 20:0:0 BTM")
-    assert [each.component for each in channels(unam())] == ["N00E", "N90E", "V"]
+    assert [channel.component for channel in channels(unam())] == ["N00E", "N90E", "V"]
     assert read(unam(), channel=1).event == "magnitude M=6.5"
-    assert [each.component for each in channels(bhrc())] == ["352 deg", "V"]
+    assert [channel.component for channel in channels(bhrc())] == ["352 deg", "V"]
     motion = channels(renadic())[0]
     assert (motion.event, motion.date, motion.station) == ("NOWHERE", "01/01/1980 20:00:00", "EMPTY VALLEY")
     assert motion.component == "EW"
@@ -57,7 +57,7 @@ def test_a_peak_that_is_not_the_stated_one_is_said(name):
     other = lines[k].replace("288", "388", 1).replace("0.294", "0.394", 1)
     assert other != lines[k]
     lines[k] = other
-    assert "record-peak" in {each.code for motion in channels("\n".join(lines)) for each in motion.warnings}
+    assert "record-peak" in {warning.code for motion in channels("\n".join(lines)) for warning in motion.warnings}
 
 
 @pytest.mark.parametrize(
@@ -95,7 +95,7 @@ def test_an_uncorrected_record_runs_only_corrected(tmp_path, sample, channel):
         with pytest.raises(InputError, match=r"motion: a(-chan1)? is uncorrected: .*; correct it by motion.processing"):
             resolved(*steps)
     for step in ({"step": "baseline"}, {"step": "band-pass", "low": "1 Hz"}):
-        assert "record-uncorrected" not in {each.code for each in resolved(step).warnings}
+        assert "record-uncorrected" not in {warning.code for warning in resolved(step).warnings}
 
 
 def test_a_motion_that_goes_where_no_ground_goes_is_refused(tmp_path):

@@ -100,14 +100,17 @@ def test_what_is_packed_is_read_as_what_is_not(tmp_path):
     assert read_text(twice, "a.asc.gz").acceleration.tobytes() == plain.acceleration.tobytes()
     (tmp_path / "a.zip").write_bytes(zipped({"../../etc/a.asc": esm().encode()}))
     assert read_record(tmp_path / "a.zip").acceleration.tobytes() == plain.acceleration.tobytes()
-    assert sorted(each.name for each in tmp_path.iterdir()) == ["a.zip"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.zip"]
 
 
 def test_the_components_of_an_archive_are_its_channels():
     files = {f"{way}.asc": esm(share * GAL, STREAM=way).encode() for way, share in (("HNE", 1.0), ("HNZ", 0.5))}
     others = {"readme.txt": b"read me\n", "v.asc": esm(DATA_TYPE="VELOCITY").encode(), "x.png": b"\x89PNG\x00"}
     data = zipped(others | files)
-    assert [(each.channel, each.component) for each in read_text_channels(data, "a.zip")] == [
+    assert [
+        (read_text_channel.channel, read_text_channel.component)
+        for read_text_channel in read_text_channels(data, "a.zip")
+    ] == [
         ("1", "HNE"),
         ("2", "HNZ"),
     ]
@@ -162,9 +165,9 @@ def test_a_tar_is_read_as_a_zip_is(ending, kind, tmp_path):
     long = f"../../{'d' * 90}/{'e' * 60}/a.asc"
     data = WAYS[ending](tarred({long: esm().encode(), "readme.txt": b"read me\n"}, kind=kind))
     (tmp_path / f"a.tar{ending}").write_bytes(data)
-    found = read_record(tmp_path / f"a.tar{ending}")
-    assert found.acceleration.tobytes() == plain.acceleration.tobytes()
-    assert [each.name for each in tmp_path.iterdir()] == [f"a.tar{ending}"]
+    result = read_record(tmp_path / f"a.tar{ending}")
+    assert result.acceleration.tobytes() == plain.acceleration.tobytes()
+    assert [path.name for path in tmp_path.iterdir()] == [f"a.tar{ending}"]
 
 
 def test_what_stands_behind_bzip2_is_read():
@@ -218,7 +221,7 @@ def test_counts_are_turned_by_the_sensitivity_of_the_instrument(tmp_path):
     assert motion.acceleration == pytest.approx(G * WAVE, abs=2e-6)
     assert (motion.format, motion.component, motion.station) == ("miniSEED", "HNE", "XY.ABC")
     assert motion.processing == ("counts over 1e+06 of its StationXML", "mean of 0.005 m/s2 taken out")
-    assert [each.code for each in motion.warnings] == ["record-uncorrected"]
+    assert [warning.code for warning in motion.warnings] == ["record-uncorrected"]
     together = zipped({"a.mseed": miniseed(), "station.xml": station_xml()})
     assert read_text(together, "a.zip").acceleration == pytest.approx(motion.acceleration)
     milli = zipped({"a.mseed": miniseed(), "station.xml": station_xml("mm/s^2", 1e3)})
@@ -255,7 +258,9 @@ def test_sac():
     assert refused(sac(idep=7), "a.sac").code == "record-not-acceleration"
     other = bytearray(sac())
     other[4:8] = np.float32(99.0).tobytes()  # depmin
-    assert "record-peak" in {each.code for each in read_text(bytes(other), "a", options=Options(unit="g")).warnings}
+    assert "record-peak" in {
+        warning.code for warning in read_text(bytes(other), "a", options=Options(unit="g")).warnings
+    }
 
 
 def test_without_obspy_the_remedy_is_said(tmp_path, monkeypatch):

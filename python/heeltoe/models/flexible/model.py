@@ -77,15 +77,15 @@ def run_flexible(
     frame_step = frame_step_of(end, output_step)
     silence = max(case.analysis.silence - earthquake.silence, 0.0)
     check_cost(case, analysing(case, earthquake.run_end, frame_step, silence=silence))
-    found, earthquake = answer_at_rest(case, block, earthquake, frame_step, first)
-    shaken, run = found.shaken, found.run
+    result, earthquake = answer_at_rest(case, block, earthquake, frame_step, first)
+    shaken, run = result.shaken, result.run
     # Its mesh may be finer by now.
     case, dam = shaken.case, shaken.dam
     outcome, advice = judge_outcome(dam, block, run)
     histories, envelope = histories_of_cracks(case, dam, run), envelope_of(dam, run)
     worn = [worn_of(alone, place, dam, run) for place, alone in enumerate(case.single_crack_cases)]
-    tension = None if outcome == "unstable" else tension_of(found, envelope)
-    cracks = tuple(crack_responses(found, histories, static_state(block)))
+    tension = None if outcome == "unstable" else tension_of(result, envelope)
+    cracks = tuple(crack_responses(result, histories, static_state(block)))
     leads = leading_crack([crack.residual_slip_m for crack in cracks])
     # One that slides by itself needs no vibration to go on.
     growth = None if outcome == "unstable" else self_excitation(shaken, run, leads)
@@ -97,7 +97,7 @@ def run_flexible(
         advice=advice,
         warnings=(
             *water_warnings(numbers.water_pressure),
-            *warnings_of(shaken, run, histories, found.evidences, growth, block.sliding_safety_factor, outcome, leads),
+            *warnings_of(shaken, run, histories, result.evidences, growth, block.sliding_safety_factor, outcome, leads),
             *tension_warnings(tension),
             *_about_the_laws(case, worn),
         ),
@@ -224,8 +224,8 @@ def run_until_rest(
         step = step_of(shaken)
         # Water and anchors may have made it shorter than could be expected.
         check_cost(case, analysing(case, through.run_end, frame_step, step))
-        found = shaken.run(step, frame_step, stresses=stresses)
-        return Rested(through, shaken, found, *judge_outcome(dam, block, found))
+        response = shaken.run(step, frame_step, stresses=stresses)
+        return Rested(through, shaken, response, *judge_outcome(dam, block, response))
 
     longest = case.analysis.silence
     shaken = ShakenDam(case, dam, earthquake.shaking)
@@ -235,11 +235,11 @@ def run_until_rest(
         return until_rest(run, lambda rested: rested.reach, earthquake, longest)
     # One run goes on from where it is, and ends where the dam is at rest.
     check_cost(case, analysing(case, earthquake.run_end + longest, frame_step, step))
-    found = shaken.run(step, frame_step, stresses=stresses, pauses=pauses)
-    seconds = STEP * math.ceil((found.summary.end_time - earthquake.end) / STEP - 0.5)
+    response = shaken.run(step, frame_step, stresses=stresses, pauses=pauses)
+    seconds = STEP * math.ceil((response.summary.end_time - earthquake.end) / STEP - 0.5)
     through = earthquake.silent(min(max(seconds, 0.0), longest))
-    outcome = judge_outcome(dam, block, found)
-    return Rested(through, ShakenDam(case, dam, through.shaking), found, *outcome)
+    outcome = judge_outcome(dam, block, response)
+    return Rested(through, ShakenDam(case, dam, through.shaking), response, *outcome)
 
 
 def rest_of(
@@ -276,10 +276,10 @@ def answer_at_rest(
     first = first or run_until_rest(case, dam, block, earthquake, frame_step)
     # A dam that does not stand has no slip to be certain of; one run shows how it goes.
     asked = case.flexible.evidence if stands(dam, block) else "none"
-    found = answer(first.shaken, frame_step, asked, first.run)
-    rested = first._replace(run=found.run, outcome=judge_outcome(dam, block, found.run)[0])
+    reply = answer(first.shaken, frame_step, asked, first.run)
+    rested = first._replace(run=reply.run, outcome=judge_outcome(dam, block, reply.run)[0])
     if rested.reach < math.inf or first.earthquake.silence >= case.analysis.silence:
-        return found, first.earthquake
+        return reply, first.earthquake
     # Its mesh or step is finer now, and it takes longer.
     longer = run_until_rest(case, dam, block, earthquake.silent(case.analysis.silence), frame_step)
     return answer(longer.shaken, frame_step, asked, longer.run), longer.earthquake

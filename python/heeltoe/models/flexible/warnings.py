@@ -197,7 +197,7 @@ def _about_the_concrete(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
 
 def _about_the_contact(case: Case, run: DamRun, histories: Sequence[CrackHistory]) -> Iterator[Notice]:
     raw, sections = run.summary, histories[0].dam.sections
-    depth = max(each.deepest_penetration() for each in histories)
+    depth = max(history.deepest_penetration() for history in histories)
     if depth > 1e-3 * min(section.crack_width for section in sections):
         yield Notice("faces-penetrate", depth_m=depth, contactors=case.flexible.contactors)
     if raw.contact_residual > 1e-6:

@@ -246,15 +246,15 @@ def _two_blocks(plan: Plan, runs: Runs, rows: Integers, results: Found, threads:
             return run_two_blocks(case, earthquake, ground.end)
 
         try:
-            found = until_rest(through, reach_of_block, ground, case.analysis.silence)
-            return found, twin_of(case, found, through, ground) is not None
+            result = until_rest(through, reach_of_block, ground, case.analysis.silence)
+            return result, twin_of(case, result, through, ground) is not None
         except InputError:
             return None
 
     # The kernel lets go of the interpreter.
     with results.timed("kernel"), ThreadPoolExecutor(threads or os.cpu_count()) as pool:
         ran = list(pool.map(run, rows.tolist(), [dams[sample] for sample in of_sample.tolist()]))
-    done = [(row, *found) for row, found in zip(rows.tolist(), ran, strict=True) if found is not None]
+    done = [(row, *result) for row, result in zip(rows.tolist(), ran, strict=True) if result is not None]
     if done:
         there = np.array([row for row, _, _ in done])
         results.put(there, *_ran([response for _, response, _ in done]))

@@ -47,11 +47,11 @@ def with_response_spectrum(joints: Joints, spectrum: str = OF_MOTION, *, field: 
         Where the spectrum, the motion or the modulus cannot be used, or the dam has no first mode.
     """
     expect(joints, Joints, "not-checks", "joints")
-    found = _spectrum_of(joints.joints[0].case, spectrum, field)
+    result = _spectrum_of(joints.joints[0].case, spectrum, field)
     return replace(
         joints,
         joints=tuple(
-            replace(joint, statics=with_demand(joint.statics, joint.case, _demand(joint.case, found, field)))
+            replace(joint, statics=with_demand(joint.statics, joint.case, _demand(joint.case, result, field)))
             for joint in joints.joints
         ),
     )

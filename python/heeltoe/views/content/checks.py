@@ -46,31 +46,31 @@ _SHARES = "lrrrrr"
 
 def static_checks(subject: Subject) -> Section | None:
     """Return the section of the static checks; None where there are none."""
-    found, joints = subject.statics, subject.joints
-    if found is None or joints is None or not found.checks:
+    result, joints = subject.statics, subject.joints
+    if result is None or joints is None or not result.checks:
         return None
     blocks: list[Block] = []
     if len(joints.joints) > 1:
         blocks += [paragraph(answer_of(joints, subject.units)), section_table(joints, subject.units)]
     blocks += [
         paragraph(
-            f"Judged by {found.criteria}: {found.structure} structure, {found.site_information} site information.",
+            f"Judged by {result.criteria}: {result.structure} structure, {result.site_information} site information.",
             *(
-                (" Slip of the post-seismic case: ", _slip(subject), f" ({found.slip_source}).")
-                if found.slip_source
+                (" Slip of the post-seismic case: ", _slip(subject), f" ({result.slip_source}).")
+                if result.slip_source
                 else ()
             ),
         )
     ]
-    if found.warnings:
+    if result.warnings:
         shown = {warning.code for run in subject.runs for warning in run.response.warnings}
-        own = [warning.text(subject.units) for warning in found.warnings if warning.code not in shown]
+        own = [warning.text(subject.units) for warning in result.warnings if warning.code not in shown]
         blocks += [Notes("warning", "About the static checks", tuple((text,) for text in own))] if own else []
     blocks += [
-        load_cases(found, subject.numbers, "statics."),
-        _checks(subject, found),
-        _missed(found, subject.units),
-        remarks(found, subject.units, partial(source_number, subject)),
+        load_cases(result, subject.numbers, "statics."),
+        _checks(subject, result),
+        _missed(result, subject.units),
+        remarks(result, subject.units, partial(source_number, subject)),
         _levels(subject),
     ]
     return Section("Static checks", tuple(blocks))

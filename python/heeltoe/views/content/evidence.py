@@ -128,10 +128,10 @@ def _spread(subject: Subject, run: Run) -> list[Block]:
         cells += [n(f"{prefix}{name}.{end}", sign=sign) for end in (low, high)]
         if any(cell != NOTHING and getattr(cell, "number", 0) for cell in cells):
             rows.append((headline.label.capitalize(), *cells))
-    found = run.response.spread
-    scales = found["scales"]
-    failed = f"; {found['failed']} of them without a result" if found["failed"] else ""
-    caption = f"Spread over {found['runs']} runs, the shaking scaled by {scales[0]:g} to {scales[-1]:g}{failed}."
+    spread = run.response.spread
+    scales = spread["scales"]
+    failed = f"; {spread['failed']} of them without a result" if spread["failed"] else ""
+    caption = f"Spread over {spread['runs']} runs, the shaking scaled by {scales[0]:g} to {scales[-1]:g}{failed}."
     if len(subject.runs) > 1:
         caption = f"{run.name.capitalize()}. {caption}"
     if not rows:
@@ -169,20 +169,20 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
         if cell != NOTHING:
             shown.append((label, cell))
     blocks: list[Block] = []
-    found = run.response.summary["evidence"]
+    result = run.response.summary["evidence"]
     if run.response.outcome == "unstable":
         blocks.append(
             paragraph("A dam that does not stand has no slip to be certain of: it was run once, at one step.")
         )
-    elif found is None:
+    elif result is None:
         blocks.append(
             paragraph("Whether time step and mesh are fine enough was not asked (", Code("flexible.evidence"), ").")
         )
     else:
         blocks.append(
             paragraph(
-                _STANDS[found["converged"]].format(_MOVERS["step" if found["asked"] == "step" else "full"])
-                + _MEAN[found["value_is"] == "mean"]
+                _STANDS[result["converged"]].format(_MOVERS["step" if result["asked"] == "step" else "full"])
+                + _MEAN[result["value_is"] == "mean"]
             )
         )
     tables.append(Table(("", "value"), tuple(shown), "Mesh, modes and damping of the flexible model.", "lr"))

@@ -197,9 +197,9 @@ def _tension(subject: Subject) -> list[Block]:
     """Return the largest tension of an elastic dam, and what the concrete bears."""
     blocks: list[Block] = []
     for run in subject.runs:
-        found = run.response.summary.get("tension")
-        if found is not None:
-            sentences = tension_line(found, subject.units), tension_worth(found, subject.units)
+        tension = run.response.summary.get("tension")
+        if tension is not None:
+            sentences = tension_line(tension, subject.units), tension_worth(tension, subject.units)
             blocks.append(paragraph(f"The largest tension in the concrete is {sentences[0]}. It is {sentences[1]}."))
     return blocks
 

@@ -71,7 +71,7 @@ class Subject:
     @cached_property
     def runs(self) -> tuple[Run, ...]:
         """Return the response, after the one beside it."""
-        return tuple(Run(each, "" if each is self.result else "beside.") for each in self.result.responses)
+        return tuple(Run(item, "" if item is self.result else "beside.") for item in self.result.responses)
 
     @cached_property
     def others(self) -> Mapping[str, Response]:

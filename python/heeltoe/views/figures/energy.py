@@ -139,8 +139,8 @@ def _waterfall(axes: Axes, bars: list[tuple[_Entry, float]], scale: Scale) -> No
         if row:
             axes.plot([left, left], [row - 1.35, row + 0.35], color="#888888", linewidth=0.6)
             left -= drawn
-        said = number(drawn, 3 if abs(drawn) > 0.1 * scale(bars[0][1]) else 2)
-        names.append(f"{entry.label.removesuffix(' since the start')}  {said}")
+        written = number(drawn, 3 if abs(drawn) > 0.1 * scale(bars[0][1]) else 2)
+        names.append(f"{entry.label.removesuffix(' since the start')}  {written}")
     axes.axvline(0.0, color="#000000", linewidth=0.6)
     axes.set_yticks(range(len(bars)), names)
     axes.tick_params(axis="y", length=0)

@@ -192,9 +192,11 @@ def slip_by_kind(response: Response) -> dict[str, Floats]:
     # Of a moment, the event before it; the slip since then belongs to the mode that began there.
     last = np.searchsorted(at, time, side="right") - 1
     steps = np.diff(where, append=where[-1])
-    found = {}
+    result = {}
     for kind in _SLIP_KINDS:
         mine = kinds == kind
         before = np.concatenate([[0.0], np.cumsum(np.where(mine, steps, 0.0))])
-        found[kind] = before[last] + np.where(mine[last], slip - where[last], 0.0)
-    return {kind: values for kind, values in found.items() if abs(response.slip_by_mode_m[_SLIP_KINDS[kind]]) > NO_SLIP}
+        result[kind] = before[last] + np.where(mine[last], slip - where[last], 0.0)
+    return {
+        kind: values for kind, values in result.items() if abs(response.slip_by_mode_m[_SLIP_KINDS[kind]]) > NO_SLIP
+    }

@@ -66,7 +66,7 @@ def draw_pieces(axes: Axes, along: Floats, across: Floats, kinds: list[str]) -> 
     """Draw the pieces of a curve, each as its kind of motion looks; a piece belongs to the kind in which it ends."""
     points = np.column_stack([along, across])
     for kind, (width, dash) in _LINES.items():
-        inside = np.concatenate([[False], [each == kind for each in kinds[1:]], [False]])
+        inside = np.concatenate([[False], [item == kind for item in kinds[1:]], [False]])
         change = np.diff(inside.astype(int))
         # From the point before the first of a run to its last.
         runs = zip(np.flatnonzero(change == 1), np.flatnonzero(change == -1), strict=True)

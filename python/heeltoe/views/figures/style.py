@@ -85,7 +85,7 @@ def styled(draw: Callable[_P, _F]) -> Callable[_P, _F]:
 def heading(figure: Figure, *lines: str) -> None:
     """Write lines above a figure, from the left; they may say anything, at any length."""
     parts = [readable(plain(line)) for line in lines if line]
-    families = list(dict.fromkeys(family for _, found in parts for family in found))
+    families = list(dict.fromkeys(family for _, result in parts for family in result))
     text = "\n".join(wrapped(line, _LINE) for line, _ in parts)
     # A dollar in a title is a dollar, no formula.
     figure.suptitle(text, fontsize=10, x=0.01, ha="left", fontfamily=families, parse_math=False)

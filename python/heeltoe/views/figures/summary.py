@@ -71,7 +71,7 @@ def _draw_section(axes: Axes, case: Case, units: Units) -> None:
 
 def _draw_slips(axes: Axes, shown: tuple[Response, ...], units: Units) -> None:
     """Draw the slip of each run, of several cracks those at each, and say what remains of the first."""
-    curves = _of_cracks(shown[0], units) or [(f"{each.model} model", each) for each in shown]
+    curves = _of_cracks(shown[0], units) or [(f"{item.model} model", item) for item in shown]
     scale = units.scale("displacement", largest(*(each.histories["slip_m"] for _, each in curves)))
     for (label, response), (colour, dash) in zip(curves, _LOOKS, strict=False):
         time, slip = response.histories["time_s"], scale(response.histories["slip_m"])

@@ -87,14 +87,14 @@ def _sheets(result: Response | SmallStudy | Opened | Joints) -> Iterator[tuple[s
     if isinstance(result, SmallStudy | Opened):
         yield _of_table("runs", result.to_table())
     elif isinstance(result, Response):
-        for each in result.responses:
-            whose = "" if each is result else f" {each.model}"
-            if not each.histories:
+        for response in result.responses:
+            whose = "" if response is result else f" {response.model}"
+            if not response.histories:
                 continue
-            yield _of_table(f"histories{whose}", each.to_table())
-            if each.event_log:
-                yield _of_table(f"events{whose}", each.events_table())
-            for name, other in each.others.items():
+            yield _of_table(f"histories{whose}", response.to_table())
+            if response.event_log:
+                yield _of_table(f"events{whose}", response.events_table())
+            for name, other in response.others.items():
                 yield _of_table(f"{name}{whose}", other.to_table())
 
 

@@ -99,20 +99,20 @@ def test_a_larger_dam_moves_as_much_more(law):
 @pytest.mark.parametrize("law", ALL, ids=IDS)
 def test_a_dam_with_each_law(law):
     response = flexible(case(law, crack={"elevation": "6 m"}), motion())
-    found, histories = response.friction_law, response.histories
+    result, histories = response.friction_law, response.histories
     assert response.outcome == "ok"
-    assert found["name"] == law["name"]
-    assert found["slip_path_range_m"][0] <= found["slip_path_m"] <= found["slip_path_range_m"][1]
-    assert found["slip_path_m"] == histories["slip_path_m"][-1] > 0.0
-    assert found["apparent_friction_after"] <= found["apparent_friction_before"] * (1.0 + 1e-12)
+    assert result["name"] == law["name"]
+    assert result["slip_path_range_m"][0] <= result["slip_path_m"] <= result["slip_path_range_m"][1]
+    assert result["slip_path_m"] == histories["slip_path_m"][-1] > 0.0
+    assert result["apparent_friction_after"] <= result["apparent_friction_before"] * (1.0 + 1e-12)
     for when in ("before", "after"):
-        least, most = found[f"apparent_friction_{when}_range"]
-        assert least * (1.0 - 1e-9) <= found[f"apparent_friction_{when}"] <= most * (1.0 + 1e-9)
+        least, most = result[f"apparent_friction_{when}_range"]
+        assert least * (1.0 - 1e-9) <= result[f"apparent_friction_{when}"] <= most * (1.0 + 1e-9)
     assert (np.diff(histories["slip_path_m"]) >= 0.0).all()
     borne, force = histories["friction_strength_n"], abs(histories["friction_force_n"])
     assert (force <= borne + 1e-9 * borne.max()).all()
     assert response.energy.residual < 1e-11
-    assert (found["cohesion_left_pa"] is None) == (law["name"] != "cohesion")
+    assert (result["cohesion_left_pa"] is None) == (law["name"] != "cohesion")
     assert any(law["name"].split("-")[0].split()[0] in source.lower() or "slip" in source.lower()
                or "coulomb" in source.lower() for source in response.references)  # fmt: skip
 
@@ -124,10 +124,10 @@ def test_without_a_law_there_is_none():
 
 
 def test_auto_takes_the_flexible_model_with_a_law():
-    found = run(case(WEAKENING), motion=motion())
-    assert found.model == "flexible"
-    assert found.beside.model == "rigid"
-    assert found.friction_law["slip_path_range_m"][1] > found.friction_law["slip_path_range_m"][0]
+    response = run(case(WEAKENING), motion=motion())
+    assert response.model == "flexible"
+    assert response.beside.model == "rigid"
+    assert response.friction_law["slip_path_range_m"][1] > response.friction_law["slip_path_range_m"][0]
 
 
 def test_the_penalty_method_refuses_a_law():
@@ -178,7 +178,7 @@ def test_a_program_of_small_steps_agrees(law, by_hand):
         flexible={"elements_across": 20, "time_step": "0.05 ms"}, analysis={"silence": "0 s"},
     )  # fmt: skip
     pulse = GroundMotion.from_points([0.0, 0.01, 0.3, 0.31, 1.5], [0.0, -9.0, -9.0, 0.0, 0.0])
-    found = flexible(slab, pulse)
+    response = flexible(slab, pulse)
     density = slab.concrete.density
     mass = density * 60.0 * 1.5
     slips = []
@@ -187,7 +187,7 @@ def test_a_program_of_small_steps_agrees(law, by_hand):
         push = np.interp((np.arange(count) + 0.5) * dt, [0.0, 0.01, 0.3, 0.31, 1.5], [0.0, -9.0, -9.0, 0.0, 0.0])
         slips.append(small_steps(by_hand, mass, mass * G, 60.0, push, dt))
     assert slips[1] > 0.03
-    assert found.residual_slip_m == pytest.approx(slips[1], rel=0.01, abs=2.0 * abs(slips[1] - slips[0]))
+    assert response.residual_slip_m == pytest.approx(slips[1], rel=0.01, abs=2.0 * abs(slips[1] - slips[0]))
 
 
 @pytest.mark.slow

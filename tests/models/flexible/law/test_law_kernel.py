@@ -153,14 +153,14 @@ def test_every_law_reduced_to_coulomb_gives_coulombs_result(elevation, mu):
         friction_law("barton-bandis", {"residual_angle": math.atan(mu), "wall_strength": 1e7}),
         friction_law("lift joint", {"residual": mu}),
     ]
-    for each in reduced:
-        one, _ = dam(each, elevation, friction=0.0)
-        found = one.kernel.run(a, 1e-3, 0.52, stride=10)
+    for item in reduced:
+        one, _ = dam(item, elevation, friction=0.0)
+        response = one.kernel.run(a, 1e-3, 0.52, stride=10)
         for name in ("slip", "slip_min", "slip_max", "rotation_min", "opening_heel", "energy_friction"):
-            assert getattr(found.summary, name) == pytest.approx(
+            assert getattr(response.summary, name) == pytest.approx(
                 getattr(expected.summary, name), rel=1e-10, abs=1e-13
             ), name
-        assert found.upper == pytest.approx(expected.upper, rel=1e-10, abs=1e-12)
+        assert response.upper == pytest.approx(expected.upper, rel=1e-10, abs=1e-12)
 
 
 @pytest.mark.parametrize("name", LAWS)
@@ -186,12 +186,12 @@ def test_a_bond_takes_the_work_under_its_curve():
     one, _ = dam(friction_law("constant", numbers), friction=0.0, across=4)
     push = np.zeros((2000, 2))
     push[:400, 0] = -0.25 * G
-    found = one.kernel.run(push, 2e-4, 0.52)
-    worked = found.worked
+    response = one.kernel.run(push, 2e-4, 0.52)
+    worked = response.worked
     assert (worked.path > 0.002).all()
     whole = worked.bonded_before * np.maximum(0.0, 1.0 - worked.path_before / 0.002)
     left_at_work = 0.5 * 2e4 * 0.002 * (worked.length * whole**2)[worked.bonded > 0.0].sum()
-    assert found.summary.bond_energy == pytest.approx(left_at_work, rel=2e-2)
+    assert response.summary.bond_energy == pytest.approx(left_at_work, rel=2e-2)
 
 
 def test_a_dam_with_a_law_that_nothing_shakes_stands_to_the_last_bit():
@@ -234,7 +234,7 @@ def test_many_runs_have_the_same_bits_on_any_number_of_threads():
     scales = np.array([[k / 4.0, k / 4.0] for k in range(1, 8)])
     for name in ("exponential slip weakening", "barton-bandis"):
         one, _ = dam(law(name))
-        found = [one.kernel.run_many(ground(600, 1e-3), 1e-3, 0.52, scales, threads=n)[0] for n in (1, 2, 4)]
-        assert np.ptp(found[0]["slip"]) > 1e-3
-        for other in found[1:]:
-            assert all((other[key] == found[0][key]).all() for key in found[0])
+        result = [one.kernel.run_many(ground(600, 1e-3), 1e-3, 0.52, scales, threads=n)[0] for n in (1, 2, 4)]
+        assert np.ptp(result[0]["slip"]) > 1e-3
+        for other in result[1:]:
+            assert all((other[key] == result[0][key]).all() for key in result[0])

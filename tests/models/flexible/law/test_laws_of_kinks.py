@@ -60,11 +60,11 @@ def test_flanks_that_weaken_are_climbed_as_by_hand():
             "flexible": {"elements_across": 8, "evidence": "none", "time_step": "0.1 ms"},
         }
     )
-    found = flexible(block)
+    response = flexible(block)
     pressed = GRAVITY * math.cos(rise) + push * math.sin(rise)
     uphill = push * math.cos(rise) - GRAVITY * math.sin(rise) - peak * pressed
     grows = (peak - residual) / over * pressed
-    time, slip, way = (found.histories[name] for name in ("time_s", "slip_m", "slip_path_m"))
+    time, slip, way = (response.histories[name] for name in ("time_s", "slip_m", "slip_path_m"))
     climbed = uphill / grows * (math.cosh(math.sqrt(grows) * time[-1]) - 1.0)
     assert 0.05 < climbed < over
     # Without the weakening it would climb less by as much as counts.
@@ -76,17 +76,17 @@ def test_flanks_that_weaken_are_climbed_as_by_hand():
 
 @pytest.mark.parametrize("law", [WEAK, BARTON], ids=["weakening", "barton"])
 def test_contact_is_met_and_the_ledger_closes(law):
-    found = flexible(dam(law))
-    assert found.summary["contact_residual"] < 1e-9
-    assert found.energy.residual < 1e-12
-    assert 0.05 < found.residual_slip_m < flexible(dam(law, kinks=[])).residual_slip_m
+    response = flexible(dam(law))
+    assert response.summary["contact_residual"] < 1e-9
+    assert response.energy.residual < 1e-12
+    assert 0.05 < response.residual_slip_m < flexible(dam(law, kinks=[])).residual_slip_m
 
 
 @pytest.mark.parametrize("law", [WEAK, BARTON], ids=["weakening", "barton"])
 def test_a_mirrored_dam_slides_the_other_way(law):
     case = dam(law)
     width = case.cut.crack_width
-    polygon = [[f"{-x!r} m", f"{z!r} m"] for x, z in reversed([list(each) for each in case.section.vertices()])]
+    polygon = [[f"{-x!r} m", f"{z!r} m"] for x, z in reversed([list(vertex) for vertex in case.section.vertices()])]
     image = case.with_(
         {
             "section": {**dict.fromkeys(case.section.model_fields_set), "polygon": polygon},

@@ -26,7 +26,7 @@ FREE = {"elements_across": 4, "evidence": "none"}
 
 def dam(base, neck, **blocks):
     """Return the dam with a law, or a coefficient, of each crack."""
-    given = [{"friction": each} if isinstance(each, float) else {"law": each} for each in (base, neck)]
+    given = [{"friction": item} if isinstance(item, float) else {"law": item} for item in (base, neck)]
     fields = copy.deepcopy(DAM) | {
         "crack": {"elevation": "0 m", **given[0]},
         "further_cracks": [{"elevation": "90 m", **given[1]}],
@@ -39,8 +39,8 @@ def constant(friction: float):
 
 
 def test_laws_reduced_to_coulomb_give_coulombs_result():
-    expected, found = (shaken(dam(*each)) for each in ((0.9, 0.8), (constant(0.9), constant(0.8))))
-    for one, other in zip(expected.all_frames, found.all_frames, strict=True):
+    expected, result = (shaken(dam(*item)) for item in ((0.9, 0.8), (constant(0.9), constant(0.8))))
+    for one, other in zip(expected.all_frames, result.all_frames, strict=True):
         largest = np.abs(one.slip).max()
         assert largest > 1e-4
         assert other.slip == pytest.approx(one.slip, rel=0.0, abs=1e-10 * largest)
@@ -59,13 +59,13 @@ def test_the_neck_alone_where_the_base_is_bonded(law):
 @pytest.mark.parametrize(("base", "neck"), PAIRS)
 def test_contact_is_met_and_the_ledger_closes(base, neck):
     run = shaken(dam(base, neck, flexible=FREE))
-    for each in run.summaries:
-        assert each.contact_residual < 1e-9
-        assert each.energy_residual < 1e-12
-        assert each.energy_gained < 1e-9 * each.energy_turnover
-    lost = [each.crack_friction for each in run.summaries]
+    for item in run.summaries:
+        assert item.contact_residual < 1e-9
+        assert item.energy_residual < 1e-12
+        assert item.energy_gained < 1e-9 * item.energy_turnover
+    lost = [summary.crack_friction for summary in run.summaries]
     assert sum(lost) == pytest.approx(run.summary.energy_friction, rel=1e-9)
-    assert max(abs(each.slip) for each in run.summaries) > 1e-3
+    assert max(abs(summary.slip) for summary in run.summaries) > 1e-3
 
 
 def test_a_mirrored_dam_slides_the_other_way():
@@ -83,9 +83,9 @@ def test_a_mirrored_dam_slides_the_other_way():
 
 def test_a_run_has_the_same_bits_with_any_number_of_threads():
     case = dam(WEAK, BARTON, flexible=FREE)
-    found = ShakenDam(case, build_flexible_dam(case), earthquake(case).shaking)
-    one, two = (found.run_scaled_cracks(STEP, np.array([0.9, 1.0, 1.1]), threads=threads) for threads in (1, 2))
-    for each, other, run in zip(one, two, found.run(STEP).summaries, strict=True):
+    shaken_dam = ShakenDam(case, build_flexible_dam(case), earthquake(case).shaking)
+    one, two = (shaken_dam.run_scaled_cracks(STEP, np.array([0.9, 1.0, 1.1]), threads=threads) for threads in (1, 2))
+    for each, other, run in zip(one, two, shaken_dam.run(STEP).summaries, strict=True):
         assert each["slip"].tobytes() == other["slip"].tobytes()
         assert each["slip"][1] == run.slip
 
@@ -93,27 +93,27 @@ def test_a_run_has_the_same_bits_with_any_number_of_threads():
 def test_each_crack_is_told_of():
     weak = {**BARTON, "jcs": "0.1 MPa"}
     response = flexible(dam(WEAK, weak, flexible=FREE))
-    neck, base = (each["friction_law"] for each in response.to_json()["cracks"])
+    neck, base = (item["friction_law"] for item in response.to_json()["cracks"])
     assert (neck["name"], base["name"]) == ("barton-bandis", "slip weakening")
     assert response.summary["friction_law"] == base
     assert base["apparent_friction_after"] < base["apparent_friction_before"] == pytest.approx(0.9, abs=0.01)
     assert neck["apparent_friction_after"] == neck["apparent_friction_before"]
-    assert [each["friction"] for each in response.cracks][1] == 0.6
+    assert [item["friction"] for item in response.cracks][1] == 0.6
     for crack in response.cracks:
         # Its last frame is a little before the end.
         assert crack.histories["slip_path_m"][-1] == pytest.approx(crack.friction_law.slip_path_m, rel=0.01)
-    said = [str(each) for each in response.warnings if each.code.startswith("law-range")]
-    assert len(said) == 1
-    assert "crack at 90 m" in said[0]
-    assert any("Palmer" in each for each in response.references)
-    assert any("Barton" in each for each in response.references)
+    texts = [str(warning) for warning in response.warnings if warning.code.startswith("law-range")]
+    assert len(texts) == 1
+    assert "crack at 90 m" in texts[0]
+    assert any("Palmer" in reference for reference in response.references)
+    assert any("Barton" in reference for reference in response.references)
 
 
 def test_a_further_crack_has_the_law_of_the_first_unless_it_says_otherwise():
     case = read_case(DAM | {"crack": {"law": WEAK}, "further_cracks": [{"elevation": "90 m"}]})
-    assert [each.crack.law for each in case.single_crack_cases] == [case.crack.law] * 2
+    assert [single_crack_case.crack.law for single_crack_case in case.single_crack_cases] == [case.crack.law] * 2
     rough = case.with_("further_cracks[0].friction=0.8")
-    assert [each.crack.law for each in rough.single_crack_cases] == [None, case.crack.law]
+    assert [single_crack_case.crack.law for single_crack_case in rough.single_crack_cases] == [None, case.crack.law]
     back = rough.with_({"further_cracks[0].law": BARTON})
     assert back.further_cracks[0].friction is None
     assert back.single_crack_cases[0].crack.law.name == "barton-bandis"
@@ -130,13 +130,13 @@ def test_what_does_not_go_together_is_refused_by_name():
 
 
 def test_static_checks_judge_each_section_by_its_law():
-    found = {joint.elevation_m: joint.statics for joint in statics_of_sections(dam(0.9, WEAK)).joints}
-    usual = {at: next(case for case in each.cases if case.name == "usual") for at, each in found.items()}
+    result = {joint.elevation_m: joint.statics for joint in statics_of_sections(dam(0.9, WEAK)).joints}
+    usual = {at: next(case for case in each.cases if case.name == "usual") for at, each in result.items()}
     assert {at: case.friction for at, case in usual.items()} == pytest.approx({90.0: 0.9, 0.0: 0.9})
-    after = {at: next(case for case in each.cases if case.name == "post-seismic") for at, each in found.items()}
+    after = {at: next(case for case in each.cases if case.name == "post-seismic") for at, each in result.items()}
     assert {at: case.friction for at, case in after.items()} == pytest.approx({90.0: 0.6, 0.0: 0.9})
-    told = unused_fields(dam(0.9, SPEED, motion={"points": DAM["motion"]["points"]}), ("statics",))
-    assert any("further_cracks[0].law.residual_friction" in str(each) for each in told)
+    answer = unused_fields(dam(0.9, SPEED, motion={"points": DAM["motion"]["points"]}), ("statics",))
+    assert any("further_cracks[0].law.residual_friction" in str(item) for item in answer)
 
 
 def test_each_law_of_a_case_is_drawn():

@@ -74,12 +74,12 @@ def check(seed: int) -> float | None:
         return None
     run = drawn.run()
     assert run.outcome in ("ok", "lost")
-    for found in run.summaries:
-        assert all(np.isfinite(value) for value in found.by_name().values())
-        assert found.energy_residual <= drawn.residual_allowed(run)
-        assert found.energy_gained <= MADE * found.energy_turnover
-        assert found.energy_friction + found.energy_impact >= -LEFT * found.energy_turnover
-        assert found.bond_energy >= 0.0
+    for result in run.summaries:
+        assert all(np.isfinite(value) for value in result.by_name().values())
+        assert result.energy_residual <= drawn.residual_allowed(run)
+        assert result.energy_gained <= MADE * result.energy_turnover
+        assert result.energy_friction + result.energy_impact >= -LEFT * result.energy_turnover
+        assert result.bond_energy >= 0.0
     assert (run.worked.path >= run.worked.path_before).all()
     assert (run.worked.bonded <= run.worked.bonded_before).all()
     return float(run.summary.contact_residual)
@@ -87,9 +87,9 @@ def check(seed: int) -> float | None:
 
 @pytest.mark.parametrize("count", [20, pytest.param(300, marks=pytest.mark.slow)])
 def test_random_cracks_with_random_laws_end(count):
-    found = [check(seed) for seed in range(count)]
-    ran = [each for each in found if each is not None]
+    result = [check(seed) for seed in range(count)]
+    ran = [item for item in result if item is not None]
     assert len(ran) > 0.7 * count
     # A law of steep friction on a node that hardly anything presses may leave contact without a solution: its residual
     # says so, and the result warns of it.
-    assert sum(each > 1e-6 for each in ran) <= 0.01 * count
+    assert sum(item > 1e-6 for item in ran) <= 0.01 * count

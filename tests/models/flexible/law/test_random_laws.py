@@ -21,18 +21,18 @@ def check(seed):
     lines = tuple(replace(line, law=law) for line in drawn.dam.lines)
     kernel = CrackedDam(upper, lower[0] if lower else None, lines, drawn.case.flexible.contactors)
     run = replace(drawn, dam=replace(drawn.dam, kernel=kernel, lines=lines)).run()
-    found = run.summary
-    assert all(np.isfinite(value) for value in found.by_name().values())
+    summary = run.summary
+    assert all(np.isfinite(value) for value in summary.by_name().values())
     assert run.outcome in ("ok", "lost")
-    assert found.energy_residual <= drawn.residual_allowed(run)
+    assert summary.energy_residual <= drawn.residual_allowed(run)
     assert (run.worked.path >= run.worked.path_before).all()
     assert (run.worked.bonded <= run.worked.bonded_before).all()
-    assert found.bond_energy >= 0.0
+    assert summary.bond_energy >= 0.0
     if drawn.ordinary:
-        assert found.energy_gained <= MADE * found.energy_turnover
-        assert found.energy_friction + found.energy_impact >= -LEFT * found.energy_turnover
+        assert summary.energy_gained <= MADE * summary.energy_turnover
+        assert summary.energy_friction + summary.energy_impact >= -LEFT * summary.energy_turnover
     # Where all nodes of both faces are watched the problem is next to singular, by any law.
-    return float(found.contact_residual) if drawn.ordinary and drawn.case.flexible.contactors != 5 else 0.0
+    return float(summary.contact_residual) if drawn.ordinary and drawn.case.flexible.contactors != 5 else 0.0
 
 
 @pytest.mark.parametrize("count", [10, pytest.param(200, marks=pytest.mark.slow)])

@@ -35,7 +35,7 @@ def shaken(corners=CORNERS, factor=1.0, motion=1.0, elevation=12.0, output_step=
 
 
 def largest(response):
-    return [(each.tension[each.bounded].max(), each.compression[each.bounded].min()) for each in response.envelope]
+    return [(item.tension[item.bounded].max(), item.compression[item.bounded].min()) for item in response.envelope]
 
 
 # Closed forms
@@ -50,9 +50,9 @@ def test_a_field_of_constant_strain_has_the_same_stress_everywhere(elevation, co
         places = stress_places(body, modes)
         x, z = body.mesh.nodes.T
         field = np.column_stack([1e-3 * x + 2e-3 * z, -0.5e-3 * x + 3e-3 * z]).reshape(-1)
-        found = np.einsum("pmc,m->pc", places.rows, modes.shapes.T @ (body.mass @ field))
+        product = np.einsum("pmc,m->pc", places.rows, modes.shapes.T @ (body.mass @ field))
         stress = np.array([1.0, 0.2, 0.0]) * 1e-3 + np.array([0.2, 1.0, 0.0]) * 3e-3 + [0.0, 0.0, 0.4 * 1.5e-3]
-        assert found == pytest.approx(np.broadcast_to(20e9 / (1 - 0.2**2) * stress, found.shape), rel=1e-6)
+        assert product == pytest.approx(np.broadcast_to(20e9 / (1 - 0.2**2) * stress, product.shape), rel=1e-6)
 
 
 @pytest.mark.parametrize("across", [2, 4])
@@ -74,12 +74,12 @@ def test_a_cantilever_has_the_bending_stress_of_a_beam(across):
     crack = body.mesh.crack
     push = np.zeros(body.mesh.nodes.size)
     push[dofs(crack)[::2]] = 1e6 / crack.size
-    found = np.einsum("pmc,m->pc", places.rows, modes.shapes.T @ push / modes.omega_squared)
+    product = np.einsum("pmc,m->pc", places.rows, modes.shapes.T @ push / modes.omega_squared)
     x, z = body.mesh.nodes[places.nodes].T
     for face, sign in ((0.0, 1.0), (4.0, -1.0)):
         beam = np.isclose(x, face) & (z > 8.0) & (z < 32.0)
         assert beam.sum() >= 3
-        assert found[beam, 1] == pytest.approx(sign * 1e6 * (40.0 - z[beam]) * 2.0 / (4.0**3 / 12.0), rel=2e-3)
+        assert product[beam, 1] == pytest.approx(sign * 1e6 * (40.0 - z[beam]) * 2.0 / (4.0**3 / 12.0), rel=2e-3)
 
 
 # The run
@@ -94,17 +94,17 @@ def test_it_is_the_largest_of_all_moments(elevation, options):
     history = response.crack
     assert history.time[1] == pytest.approx(2e-3)
     assert len(response.envelope) == (2 if elevation else 1)
-    for part, found in enumerate(response.envelope):
+    for part, result in enumerate(response.envelope):
         moments = np.stack([history.stresses(frame)[part] for frame in range(len(history.time))], axis=2)
-        major, minor, angle = principal(moments[found.nodes])
-        assert found.tension == pytest.approx(major.max(axis=1), abs=1e-3)
-        assert found.compression == pytest.approx(minor.min(axis=1), abs=1e-3)
+        major, minor, angle = principal(moments[result.nodes])
+        assert result.tension == pytest.approx(major.max(axis=1), abs=1e-3)
+        assert result.compression == pytest.approx(minor.min(axis=1), abs=1e-3)
         at, index = major.argmax(axis=1), np.arange(len(major))
-        assert found.tension_time == pytest.approx(history.time[at])
-        assert found.compression_time == pytest.approx(history.time[minor.argmin(axis=1)])
-        turn = found.direction - angle[index, at]
+        assert result.tension_time == pytest.approx(history.time[at])
+        assert result.compression_time == pytest.approx(history.time[minor.argmin(axis=1)])
+        turn = result.direction - angle[index, at]
         assert np.cos(2.0 * turn) == pytest.approx(1.0, abs=1e-6)
-        assert found.before == pytest.approx(major[:, 0], abs=1e-3)
+        assert result.before == pytest.approx(major[:, 0], abs=1e-3)
 
 
 def test_the_spacing_of_the_histories_plays_no_part():
@@ -115,8 +115,8 @@ def test_the_spacing_of_the_histories_plays_no_part():
 def test_a_larger_dam_has_as_much_more_stress():
     # Looked at as often, counted in steps.
     one, other = shaken(output_step=1e-3), shaken(factor=4.0, output_step=2e-3)
-    for (tension, compression), found in zip(largest(one), largest(other), strict=True):
-        assert found == pytest.approx((4.0 * tension, 4.0 * compression), rel=1e-6)
+    for (tension, compression), result in zip(largest(one), largest(other), strict=True):
+        assert result == pytest.approx((4.0 * tension, 4.0 * compression), rel=1e-6)
     assert other.tension["time_s"] == pytest.approx(2.0 * one.tension["time_s"])
     assert other.tension["x_m"] == pytest.approx(4.0 * one.tension["x_m"])
 
@@ -133,8 +133,8 @@ def test_a_mirror_image_has_the_same_stress_on_the_other_side():
 
 def test_without_an_earthquake_it_is_the_static_state():
     response = shaken(motion=1e-9)
-    for each in response.envelope:
-        assert each.tension == pytest.approx(each.before, abs=50.0)
+    for item in response.envelope:
+        assert item.tension == pytest.approx(item.before, abs=50.0)
 
 
 # Where it has no bound
@@ -152,8 +152,8 @@ def test_what_has_no_bound_is_left_out():
 
 def test_the_largest_tension_is_one_with_a_bound():
     response = shaken()
-    found = largest_tension(response.envelope)
-    assert found.stress == max(tension for tension, _ in largest(response))
-    assert response.tension["stress_pa"] == found.stress
+    result = largest_tension(response.envelope)
+    assert result.stress == max(tension for tension, _ in largest(response))
+    assert response.tension["stress_pa"] == result.stress
     # Along the crack single nodes are pulled harder.
-    assert max(each.tension.max() for each in response.envelope) > found.stress
+    assert max(item.tension.max() for item in response.envelope) > result.stress

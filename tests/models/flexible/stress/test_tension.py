@@ -12,7 +12,7 @@ from shared.dams import BASE, FAST, HEIGHT, example
 
 
 def codes(response):
-    return {each.code for each in response.warnings}
+    return {warning.code for warning in response.warnings}
 
 
 def run(*changes):
@@ -20,11 +20,11 @@ def run(*changes):
 
 
 def test_without_a_strength_nothing_is_judged():
-    found = run()
-    tension = found.tension
+    response = run()
+    tension = response.tension
     assert tension["stress_pa"] > 0.0
     assert tension["strength"] is None
-    assert not {"tension-exceeds", "tension-before"} & codes(found)
+    assert not {"tension-exceeds", "tension-before"} & codes(response)
 
 
 def test_a_tension_beyond_the_strength_is_warned_of():
@@ -33,7 +33,7 @@ def test_a_tension_beyond_the_strength_is_warned_of():
     assert strength["dynamic_pa"] == 0.75e6
     assert strength["exceeds"]
     assert 0.0 < strength["share_beyond"] < 1.0
-    notice = next(each for each in weak.warnings if each.code == "tension-exceeds")
+    notice = next(warning for warning in weak.warnings if warning.code == "tension-exceeds")
     assert notice.time_s == tension["time_s"]
     text = notice.text()
     assert f"a tension of {tension['stress_pa'] / 1e6:.3g} MPa" in text
@@ -44,43 +44,43 @@ def test_a_tension_beyond_the_strength_is_warned_of():
     assert strong.tension["strength"]["share_beyond"] == 0.0
     assert strong.tension["stress_pa"] == tension["stress_pa"]
     assert "tension-exceeds" not in codes(strong)
-    assert any("Raphael" in each for each in weak.references)
+    assert any("Raphael" in reference for reference in weak.references)
     # The static strength is what counts before the earthquake.
     assert not strength["exceeds_before_shaking"]
 
 
 def test_the_factor_of_fast_loads_counts():
-    found = run("concrete.tensile_strength=0.5 MPa", "concrete.dynamic_tension=2")
-    assert found.tension["strength"]["dynamic_pa"] == 1e6
-    assert found.tension["strength"]["static_pa"] == 0.5e6
+    response = run("concrete.tensile_strength=0.5 MPa", "concrete.dynamic_tension=2")
+    assert response.tension["strength"]["dynamic_pa"] == 1e6
+    assert response.tension["strength"]["static_pa"] == 0.5e6
 
 
 def test_a_dam_that_is_pulled_too_hard_before_the_earthquake():
-    found = run("concrete.tensile_strength=1 kPa")
-    assert found.tension["strength"]["exceeds_before_shaking"]
-    assert found.tension["before_shaking_pa"] > 1e3
-    assert "tension-before" in codes(found)
+    response = run("concrete.tensile_strength=1 kPa")
+    assert response.tension["strength"]["exceeds_before_shaking"]
+    assert response.tension["before_shaking_pa"] > 1e3
+    assert "tension-before" in codes(response)
 
 
 def test_another_mesh_says_how_certain_it_is():
-    found = flexible(example("typical-height", *FAST[2:], "flexible.elements_across=4"))
-    mesh = found.tension["mesh"]
-    across = found.evidence["elements_across"]
+    response = flexible(example("typical-height", *FAST[2:], "flexible.elements_across=4"))
+    mesh = response.tension["mesh"]
+    across = response.evidence["elements_across"]
     assert mesh["other_elements_across"] == across // 2
-    assert mesh["difference_pa"] == pytest.approx(abs(found.tension["stress_pa"] - mesh["stress_pa"]))
+    assert mesh["difference_pa"] == pytest.approx(abs(response.tension["stress_pa"] - mesh["stress_pa"]))
     assert run().tension["mesh"] is None
 
 
 def test_a_dam_that_does_not_stand_has_no_tension_to_tell():
-    found = flexible(read_case(BASE, [*FAST, "crack.friction=0.3"]))
-    assert found.outcome == "unstable"
-    assert found.tension is None
-    assert "tension-exceeds" not in codes(found)
+    response = flexible(read_case(BASE, [*FAST, "crack.friction=0.3"]))
+    assert response.outcome == "unstable"
+    assert response.tension is None
+    assert "tension-exceeds" not in codes(response)
 
 
 def test_how_much_of_the_section_is_beyond_a_strength():
-    found = run()
-    dam, parts = found.crack.dam, found.envelope
+    response = run()
+    dam, parts = response.crack.dam, response.envelope
     shares = [share_beyond(dam, parts, strength) for strength in (-1e12, 0.0, 1e5, 1e6, 1e12)]
     assert shares == sorted(shares, reverse=True)
     assert 0.6 < shares[0] < 1.0

@@ -39,13 +39,13 @@ def cracks(base=1.2, neck=1.0, level=60.0, **more):
 @pytest.mark.parametrize(("bonded", "base", "neck"), [(0, 0.9, 9.0), (1, 9.0, 0.9)])
 def test_a_bonded_crack_leaves_what_the_other_does_alone(bonded, base, neck, up):
     case = cracks(base, neck)
-    found = shaken(case, 2.5, up)
+    response = shaken(case, 2.5, up)
     alone = shaken(case.single_crack_cases[1 - bonded], 2.5, up)
-    assert found.cracks[bonded]["events"] == 0
+    assert response.cracks[bonded]["events"] == 0
     assert abs(alone.residual_slip_m) > 0.01
     for name in HEADLINES:
-        assert found.cracks[1 - bonded][name] == pytest.approx(alone.summary[name], abs=1e-10), name
-    assert found.energy.friction_j == pytest.approx(alone.energy.friction_j, rel=1e-10)
+        assert response.cracks[1 - bonded][name] == pytest.approx(alone.summary[name], abs=1e-10), name
+    assert response.energy.friction_j == pytest.approx(alone.energy.friction_j, rel=1e-10)
 
 
 def test_water_presses_on_both_faces_of_the_upper_crack():
@@ -54,7 +54,8 @@ def test_water_presses_on_both_faces_of_the_upper_crack():
     wet = wet.with_({"further_cracks": [{"elevation": "60 m", "friction": 1.0, "uplift_intensity": 1.0}]})
     dry = dry.with_({"further_cracks": [{"elevation": "60 m", "friction": 1.0, "uplift": "none"}]})
     upper, lower = (
-        np.array([build_block(each).static.vertical for each in case.single_crack_cases]) for case in (wet, dry)
+        np.array([build_block(single_crack_case).static.vertical for single_crack_case in case.single_crack_cases])
+        for case in (wet, dry)
     )
     assert upper[0] > lower[0]
     assert upper[1] == lower[1]
@@ -64,7 +65,7 @@ def test_water_presses_on_both_faces_of_the_upper_crack():
 def test_the_place_of_the_upper_block_leaves_the_weight_of_the_lower_one(inclination):
     further = [{"elevation": "60 m", "friction": 1.0, "inclination": f"{inclination} deg", "uplift": "none"}]
     case = CASE.with_({"reservoir": None, "uplift.pattern": "none", "further_cracks": further})
-    upper, lower = (build_block(each) for each in case.single_crack_cases)
+    upper, lower = (build_block(single_crack_case) for single_crack_case in case.single_crack_cases)
     along, across, turned = place_of(lower, upper)
     sine, cosine = np.sin(turned), np.cos(turned)
     x, z = upper.static.horizontal, upper.static.vertical
@@ -80,52 +81,54 @@ def test_the_place_of_the_upper_block_leaves_the_weight_of_the_lower_one(inclina
 
 
 def test_both_blocks_move_and_all_that_a_response_says_agrees():
-    found = shaken(cracks(0.9, 0.8), size=9.0, up=2.0)
-    assert found.ok
-    assert found.model == "rigid"
-    assert [each["elevation_m"] for each in found.cracks] == [60.0, 0.0]
-    upper, lower = found.cracks
+    response = shaken(cracks(0.9, 0.8), size=9.0, up=2.0)
+    assert response.ok
+    assert response.model == "rigid"
+    assert [item["elevation_m"] for item in response.cracks] == [60.0, 0.0]
+    upper, lower = response.cracks
     assert abs(upper["residual_slip_m"]) > 0.01
     assert abs(lower["residual_slip_m"]) > 0.01
-    slips = [abs(each["residual_slip_m"]) for each in found.cracks]
+    slips = [abs(item["residual_slip_m"]) for item in response.cracks]
     leads = slips.index(max(slips))
-    assert found.governing_crack == found.asked == leads
-    assert abs(found.residual_slip_m) == max(slips)
-    assert found.energy.residual < 1e-12
+    assert response.governing_crack == response.asked == leads
+    assert abs(response.residual_slip_m) == max(slips)
+    assert response.energy.residual < 1e-12
     for loss in ("friction_j", "impact_j"):
-        assert sum(each["crack_energy"][loss] for each in found.cracks) == pytest.approx(getattr(found.energy, loss))
-    assert list(found.others) == [f"crack-{2 - leads}"]
-    assert found.others[f"crack-{2 - leads}"].residual_slip_m == found.cracks[1 - leads].residual_slip_m
-    assert found.histories is found.cracks[leads].histories
-    levels = [f"{each['elevation_m']:g} m" for each in found.cracks]
-    assert f"the dam above the crack at {levels[leads]} slides" in found.to_json()["verdict"]
-    assert f"At the crack at {levels[1 - leads]} it slides" in found.to_json()["verdict"]
+        assert sum(item["crack_energy"][loss] for item in response.cracks) == pytest.approx(
+            getattr(response.energy, loss)
+        )
+    assert list(response.others) == [f"crack-{2 - leads}"]
+    assert response.others[f"crack-{2 - leads}"].residual_slip_m == response.cracks[1 - leads].residual_slip_m
+    assert response.histories is response.cracks[leads].histories
+    levels = [f"{item['elevation_m']:g} m" for item in response.cracks]
+    assert f"the dam above the crack at {levels[leads]} slides" in response.to_json()["verdict"]
+    assert f"At the crack at {levels[1 - leads]} it slides" in response.to_json()["verdict"]
 
 
 def test_below_what_moves_them_nothing_moves():
-    found = shaken(CASE, size=0.5)
-    for crack in found.cracks:
+    response = shaken(CASE, size=0.5)
+    for crack in response.cracks:
         assert crack["residual_slip_m"] == crack["largest_gap_heel_m"] == crack["largest_gap_toe_m"] == 0.0
         assert crack["events"] == 0
-    assert found.energy.input_j == 0.0
+    assert response.energy.input_j == 0.0
 
 
 def test_the_spread_is_that_of_the_crack_asked_of():
     case = cracks(0.9, 0.8)
-    found = shaken(case)
-    spread = with_spread(found, case, 3)
+    response = shaken(case)
+    spread = with_spread(response, case, 3)
     assert all(other.spread is None for other in spread.others.values())
     spread = spread.spread
     assert spread["failed"] == 0
-    assert spread["residual_slips_m"][1] == pytest.approx(found.residual_slip_m, rel=1e-12)
+    assert spread["residual_slips_m"][1] == pytest.approx(response.residual_slip_m, rel=1e-12)
     assert spread["residual_slips_m"][0] != spread["residual_slips_m"][2]
 
 
 def test_the_kernel_counts_from_the_ground_up():
     case = cracks(0.9, 9.0)
-    found = shaken(case)
-    _, raw = walk_two_blocks(case, run_earthquake(found))
-    assert raw.cracks[0].summary.slip == found.cracks[1]["residual_slip_m"]
+    response = shaken(case)
+    _, raw = walk_two_blocks(case, run_earthquake(response))
+    assert raw.cracks[0].summary.slip == response.cracks[1]["residual_slip_m"]
 
 
 def run_earthquake(response):
@@ -177,19 +180,19 @@ def test_two_blocks_refuse_by_themselves_what_they_cannot_use():
 
 
 def test_a_dam_that_does_not_stand_says_at_which_crack():
-    found = shaken(cracks(1.2, 0.1))
-    assert found.outcome == "unstable"
-    assert not found.summary
-    assert str(found.advice).startswith("at the crack at 60 m: it slides under its static loads alone")
+    response = shaken(cracks(1.2, 0.1))
+    assert response.outcome == "unstable"
+    assert not response.summary
+    assert str(response.advice).startswith("at the crack at 60 m: it slides under its static loads alone")
 
 
 def test_a_block_that_turns_too_far_is_named():
-    found = shaken(cracks(3.0, 3.0, level=92.0, reservoir=None, **{"uplift.pattern": "none"}), size=60.0)
-    assert found.outcome != "ok"
-    assert "the block above the crack at 92 m rotates by" in str(found.advice)
+    response = shaken(cracks(3.0, 3.0, level=92.0, reservoir=None, **{"uplift.pattern": "none"}), size=60.0)
+    assert response.outcome != "ok"
+    assert "the block above the crack at 92 m rotates by" in str(response.advice)
 
 
 def test_too_many_events_say_so():
-    found = shaken(cracks(0.9, 0.8, **{"analysis.event_limit": 5}), size=9.0)
-    assert found.outcome == "event limit"
-    assert "at the crack at 0 m: stopped at" in str(found.advice)
+    response = shaken(cracks(0.9, 0.8, **{"analysis.event_limit": 5}), size=9.0)
+    assert response.outcome == "event limit"
+    assert "at the crack at 0 m: stopped at" in str(response.advice)

@@ -90,16 +90,16 @@ def told(case: Case, left_out: Any) -> tuple[str, ...]:
 def fingerprints(case: Case) -> list[str]:
     """Return what the mesh files contain, as a hash, since they may change under their name; a missing one is the
     reader's to complain about."""
-    found = []
+    result = []
     for name in (case.flexible.mesh_above, case.flexible.mesh_below):
         path = case.base_directory / name if name else None
-        found.append(sha256(path.read_bytes()).hexdigest() if path and os.path.isfile(path) else "")
-    return found
+        result.append(sha256(path.read_bytes()).hexdigest() if path and os.path.isfile(path) else "")
+    return result
 
 
 def _build(case: Case) -> BondedDam:
     mesh = kinked(dam_mesh(case), case)
-    check_cost(case, building([part_of(case, each.crack.size, each.nodes.size) for each in mesh.parts]))
+    check_cost(case, building([part_of(case, part.crack.size, part.nodes.size) for part in mesh.parts]))
     bonded = dam(case, mesh)
     bent, forces = bonded_state(bonded)
     modes, errors = _modes(case, bonded)
@@ -117,8 +117,8 @@ def _build(case: Case) -> BondedDam:
 def _modes(case: Case, bonded: Dam) -> tuple[tuple[Modes, ...], list[float]]:
     """Return the modes of each body and the error that those left out make."""
     if case.flexible.modes is None:
-        found = [enough_modes(body, bonded) for body in bonded.bodies]
-        return tuple(modes for modes, _ in found), [error for _, error in found]
+        result = [enough_modes(body, bonded) for body in bonded.bodies]
+        return tuple(modes for modes, _ in result), [error for _, error in result]
     modes = tuple(reduce(body, case.flexible.modes) for body in bonded.bodies)
     circular = error_frequency(bonded)
     return modes, [residual_error(body, basis, circular) for body, basis in zip(bonded.bodies, modes, strict=True)]

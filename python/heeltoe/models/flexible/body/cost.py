@@ -171,7 +171,7 @@ def check_cost(case: Case, cost: Cost, field: str | None = None) -> None:
 
 def shown_cost(cost: Cost) -> str:
     """Return a cost in words."""
-    factor, unit = next(each for each in _TIMES if cost.seconds >= 1.5 * each[0] or each[1] == "s")
+    factor, unit = next(item for item in _TIMES if cost.seconds >= 1.5 * item[0] or item[1] == "s")
     return f"{_two(max(cost.seconds / factor, 1.0))} {unit} and {_two(max(cost.memory / 1e9, 0.1))} GB"
 
 

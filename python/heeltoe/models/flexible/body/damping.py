@@ -92,8 +92,8 @@ def damping_of(case: Case, dam: Dam, modes: tuple[Modes, ...]) -> Damping:
     if dry:
         coefficients = _dry_rayleigh(omega, 1.0 - _norms(water, bonded), ratio)
     mass, stiffness = coefficients or (0.0, 2.0 * ratio / omega[-1])
-    sticking = tuple(mass + stiffness * each.omega_squared for each in modes)
-    rows: tuple[Floats, ...] = tuple(np.empty((0, each.omega_squared.size)) for each in modes)
+    sticking = tuple(mass + stiffness * mode.omega_squared for mode in modes)
+    rows: tuple[Floats, ...] = tuple(np.empty((0, mode.omega_squared.size)) for mode in modes)
     free = sticking
     if choice in ("relative", "deformation"):
         for coefficients_of, each in zip(sticking, modes, strict=True):
@@ -105,9 +105,9 @@ def damping_of(case: Case, dam: Dam, modes: tuple[Modes, ...]) -> Damping:
     elif choice == "modal":
         below = omega[:-1]
         shares = np.sqrt(below * (2.0 * ratio - stiffness * below))[:, None]
-        rows = _without_slip([shares * each[:-1] for each in bonded], lags, modes)
+        rows = _without_slip([shares * item[:-1] for item in bonded], lags, modes)
     elif choice == "thesis":
-        free = (np.zeros_like(sticking[0]), *(_own(each, ratio) for each in modes[1:]))
+        free = (np.zeros_like(sticking[0]), *(_own(mode, ratio) for mode in modes[1:]))
     signs = np.ones(len(rows[0]))
     if dry:
         signs[sum(len(lag[0]) for lag in lags) :] = -1.0
@@ -143,12 +143,12 @@ def _crack_motions(dam: Dam, modes: tuple[Modes, ...]) -> list[list[Floats]]:
     The rigid motion is fitted to the nodes of a crack face by least squares along the crack. Zero while the crack is
     bonded means that the fits to both faces are the same.
     """
-    found = []
+    result = []
     for crack in range(dam.free):
         upper, basis, lower = dam.bodies[crack].mesh, modes[crack], dam.below(crack)
         rigid = basis.shapes[:, : basis.rigid]
         face, points = dofs(upper.faces[-1]), upper.nodes[upper.faces[-1]]
-        rows = [np.zeros((3, each.omega_squared.size)) for each in modes]
+        rows = [np.zeros((3, mode.omega_squared.size)) for mode in modes]
         rows[crack] = _fit(points, rigid[face]) @ basis.shapes[face]
         rows[crack][:, : basis.rigid] = 0.0
         if lower is not None:
@@ -156,30 +156,30 @@ def _crack_motions(dam: Dam, modes: tuple[Modes, ...]) -> list[list[Floats]]:
             plane = np.linalg.lstsq(_plane(points), rigid[face], rcond=None)[0]
             points = lower.mesh.nodes[met]
             rows[crack + 1] = -_fit(points, _plane(points) @ plane) @ modes[crack + 1].shapes[dofs(met)]
-        found.append(rows)
+        result.append(rows)
     # A part that slides itself, with all that is above it, is not to be damped for that: it counts as following what is
     # below it, and so on down.
     for crack in range(dam.free - 2, -1, -1):
         count = modes[crack + 1].rigid
-        held = found[crack][crack + 1][:, :count].copy()
-        found[crack][crack + 1][:, :count] = 0.0
-        found[crack] = [own - held @ lag for own, lag in zip(found[crack], found[crack + 1], strict=True)]
-    return found
+        held = result[crack][crack + 1][:, :count].copy()
+        result[crack][crack + 1][:, :count] = 0.0
+        result[crack] = [own - held @ lag for own, lag in zip(result[crack], result[crack + 1], strict=True)]
+    return result
 
 
 def _water_motion(dam: Dam, modes: tuple[Modes, ...], lags: list[list[Floats]]) -> tuple[Floats, ...]:
     """Return rows (w, m) for each part whose squares are the mass of the water times that of the motion that the mass
     term damps: of a part above a crack that relative to the rigid motion fitted to its face, else all."""
-    found: list[list[Floats]] = [[] for _ in modes]
+    result: list[list[Floats]] = [[] for _ in modes]
     for place, (body, basis) in enumerate(zip(dam.bodies, modes, strict=True)):
         wet, root = _root_of_water(body)
         rigid = root @ basis.shapes[wet, : basis.rigid]
         own = root @ basis.shapes[wet]
         own[:, : basis.rigid] = 0.0
-        for other, rows in enumerate(found):
+        for other, rows in enumerate(result):
             moved = np.zeros((len(root), modes[other].omega_squared.size)) if other != place else own
             rows.append(moved - rigid @ lags[place][other] if place < dam.free else moved)
-    return tuple(np.vstack(rows) for rows in found)
+    return tuple(np.vstack(rows) for rows in result)
 
 
 def _root_of_water(body: Body) -> tuple[NDArray[np.int64], Floats]:
@@ -194,8 +194,8 @@ def _root_of_water(body: Body) -> tuple[NDArray[np.int64], Floats]:
 def _norms(rows: tuple[Floats, ...], bonded: tuple[Floats, ...]) -> Floats:
     """Return the sums of squares of rows on modes (j, m) of the bonded dam."""
     moved = sum(row @ each.T for row, each in zip(rows, bonded, strict=True))
-    found: Floats = np.sum(np.square(moved), axis=0)
-    return found
+    total: Floats = np.sum(np.square(moved), axis=0)
+    return total
 
 
 def _dry_rayleigh(omega: Floats, shares: Floats, ratio: float) -> tuple[float, float]:
@@ -209,10 +209,10 @@ def _dry_rayleigh(omega: Floats, shares: Floats, ratio: float) -> tuple[float, f
 
 def _plane(points: Floats) -> Floats:
     """Return two displacements and a rotation of points, shape (2 k, 3)."""
-    found = np.zeros((2 * len(points), 3))
-    found[::2, 0] = found[1::2, 1] = 1.0
-    found[::2, 2], found[1::2, 2] = -points[:, 1], points[:, 0]
-    return found
+    values = np.zeros((2 * len(points), 3))
+    values[::2, 0] = values[1::2, 1] = 1.0
+    values[::2, 2], values[1::2, 2] = -points[:, 1], points[:, 0]
+    return values
 
 
 def _fit(points: Floats, shapes: Floats) -> Floats:
@@ -247,5 +247,5 @@ def _ratios(
     for each, c, row in zip(bonded, coefficients, rows, strict=True):
         power += each**2 @ c
         stretched += row @ each.T
-    found: Floats = (power + signs @ stretched**2) / (2.0 * omega)
-    return found
+    result: Floats = (power + signs @ stretched**2) / (2.0 * omega)
+    return result

@@ -246,12 +246,12 @@ def _body(case: Case, mesh: BodyMesh, place: int) -> Body:
 
 def _at_cracks(case: Case, mesh: BodyMesh, place: int) -> list[tuple[BodyMesh, Case, bool]]:
     """Return a part with each of its crack faces alone, the case with that crack alone, and whether it is above it."""
-    found = (
+    result = (
         [] if place == 0 else [(replace(mesh, crack=mesh.faces[0], top=0), case.single_crack_cases[place - 1], False)]
     )
     if place < len(case.single_crack_cases):
-        found.append((replace(mesh, crack=mesh.faces[-1], top=0), case.single_crack_cases[place], True))
-    return found
+        result.append((replace(mesh, crack=mesh.faces[-1], top=0), case.single_crack_cases[place], True))
+    return result
 
 
 def _ice(case: Case, mesh: BodyMesh, place: int) -> Floats:
@@ -344,7 +344,7 @@ def _tie(mesh: DamMesh) -> Sparse:
             rows.append(high + 2 * followers + axis)
             columns.append(column[low + 2 * leaders + axis])
             values.append(shares)
-    row, place, value = (np.concatenate(each) for each in (rows, columns, values))
+    row, place, value = (np.concatenate(item) for item in (rows, columns, values))
     there = (place >= 0) & (value != 0.0)
     return sparse.csr_array((value[there], (row[there], place[there])), (starts[-1], count))
 

@@ -72,28 +72,28 @@ def rising_water(
 ) -> tuple[RisingWater, ...]:
     """Return how the uplift of a case changes as its drains close: between which moments [s], and what of the drainage
     is left after them."""
-    found, before = [], case
+    result, before = [], case
     for begin, end, share in drainage:
         after = with_drainage(case, share)
         change = tuple(b - a for a, b in zip(_across(before, bodies), _across(after, bodies), strict=True))
-        found.append(RisingWater((begin, end), change))
+        result.append(RisingWater((begin, end), change))
         before = after
-    return tuple(found)
+    return tuple(result)
 
 
 def _across(case: Case, bodies: tuple[Body, ...], profile: Floats | None = None) -> tuple[Floats, ...]:
     """Return the forces of the water on the nodes of either face, across the crack [N]."""
-    found = []
+    result = []
     for place, body in enumerate(bodies):
         forces = uplift_forces(body.mesh, case, above=place == 0, profile=profile)
         turned = along_and_across(forces.reshape(-1, 2)[body.mesh.crack], case.cut)
-        found.append(np.ascontiguousarray(turned[:, 1]))
-    return tuple(found)
+        result.append(np.ascontiguousarray(turned[:, 1]))
+    return tuple(result)
 
 
 def crack_anchors(case: Case, bodies: tuple[Body, ...]) -> tuple[CrackAnchor, ...]:
     """Return the anchors of a case that have a stiffness; prestress alone is a constant load."""
-    found = []
+    result = []
     for anchor in case.anchors_at_crack:
         if not (anchor.axial_stiffness or anchor.shear_stiffness):
             continue
@@ -102,5 +102,7 @@ def crack_anchors(case: Case, bodies: tuple[Body, ...]) -> tuple[CrackAnchor, ..
             nodes, shares = crack_point(body.mesh, case.cut, anchor.distance)
             points.append(tuple(zip(nodes.tolist(), shares.tolist(), strict=True)))
         axis = (math.sin(anchor.inclination), math.cos(anchor.inclination))
-        found.append(CrackAnchor(tuple(points), axis, anchor.prestress, anchor.axial_stiffness, anchor.shear_stiffness))
-    return tuple(found)
+        result.append(
+            CrackAnchor(tuple(points), axis, anchor.prestress, anchor.axial_stiffness, anchor.shear_stiffness)
+        )
+    return tuple(result)

@@ -129,10 +129,10 @@ def anchor_forces(mesh: BodyMesh, case: Case, *, above: bool) -> Floats:
     """Return the prestress of all anchors on the crack face of a body, shape (2 n,) [N/m]: towards the other one."""
     forces = np.zeros(mesh.nodes.size)
     for anchor in case.anchors_at_crack:
-        found, shares = crack_point(mesh, case.cut, anchor.distance)
+        result, shares = crack_point(mesh, case.cut, anchor.distance)
         down, up = case.cut.from_crack_frame(-math.sin(anchor.inclination), -math.cos(anchor.inclination))
         pull = anchor.prestress if above else -anchor.prestress
-        nodes = mesh.crack[found]
+        nodes = mesh.crack[result]
         forces[2 * nodes] += pull * down * shares
         forces[2 * nodes + 1] += pull * up * shares
     return forces
@@ -188,12 +188,12 @@ def pieces(values: Floats, low: float, high: float) -> list[tuple[float, float]]
         if math.isfinite(bound):
             marks += [root for root in _roots(square, slope, values[1] - bound) if -1.0 < root < 1.0]
     marks.sort()
-    found = []
+    result = []
     for start, end in pairwise(marks):
         middle = (start + end) / 2.0
         if end > start and low < square * middle * middle + slope * middle + values[1] < high:
-            found.append((start, end))
-    return found
+            result.append((start, end))
+    return result
 
 
 def _roots(a: float, b: float, c: float) -> list[float]:

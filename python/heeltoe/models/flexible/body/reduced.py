@@ -172,7 +172,7 @@ def build_flexible_dam(case: Case) -> FlexibleDam:
 def _build(case: Case) -> FlexibleDam:
     bonded = bonded_dam(case)
     bodies, modes = bonded.bodies, bonded.modes
-    sections = tuple(each.cut for each in case.single_crack_cases)
+    sections = tuple(single_crack_case.cut for single_crack_case in case.single_crack_cases)
     damping = damping_of(case, bonded, modes)
     reservoir = water_body(case, bodies)
     reduced = tuple(
@@ -197,7 +197,7 @@ def _build(case: Case) -> FlexibleDam:
         static = tuple(basis.shapes @ q for basis, q in zip(modes, amplitudes, strict=True))
         forces = tuple(
             rest.forces[place % 2][:, first : first + count]
-            for place, (first, count) in enumerate(each.upper for each in lines)
+            for place, (first, count) in enumerate(line.upper for line in lines)
         )
     return FlexibleDam(
         **vars(bonded),
@@ -241,7 +241,7 @@ def _lines(case: Case, bonded: BondedDam, rock: RockBody | None) -> tuple[CrackL
     # Parts that make up one body stand side by side in it, from the crest down.
     sizes = [body.mesh.crack.size for body in bonded.bodies] + ([] if rock is None else [len(rock.points)])
     firsts = [sum(sizes[place % 2 : place : 2]) for place in range(len(sizes))]
-    found = []
+    result = []
     for place, (alone, force) in enumerate(zip(case.single_crack_cases, bonded.bonded_forces, strict=True)):
         above, below = bonded.bodies[place].mesh, bonded.below(place)
         upper = firsts[place] + above.top, above.crack.size - above.top
@@ -256,8 +256,8 @@ def _lines(case: Case, bonded: BondedDam, rock: RockBody | None) -> tuple[CrackL
         )
         along = along_crack(bonded.bodies[place], alone.cut)
         bond = kernel_bond(alone, along)
-        found.append(CrackLine(upper, lower, friction, give, None if law is None else law_of(law), turned, bond))
-    return tuple(found)
+        result.append(CrackLine(upper, lower, friction, give, None if law is None else law_of(law), turned, bond))
+    return tuple(result)
 
 
 def side_by_side_in(parts: tuple[ReducedBody, ...]) -> ReducedBody:
@@ -297,12 +297,12 @@ def along_crack(above: Body, section: CutSection) -> Floats:
 
 def apart(of_bodies: Sequence[Floats], modes: tuple[Modes, ...]) -> tuple[Floats, ...]:
     """Return what the kernel says of the modes of its two bodies, last axis, part by part from the crest down."""
-    found = [np.empty(0)] * len(modes)
+    result = [np.empty(0)] * len(modes)
     for side in range(min(2, len(modes))):
         sizes = [basis.omega_squared.size for basis in modes[side::2]]
         # What comes after them is the rock.
-        found[side::2] = np.split(of_bodies[side], np.cumsum(sizes), axis=-1)[: len(sizes)]
-    return tuple(found)
+        result[side::2] = np.split(of_bodies[side], np.cumsum(sizes), axis=-1)[: len(sizes)]
+    return tuple(result)
 
 
 def damped(case: Case, dam: FlexibleDam, factor: float) -> FlexibleDam:

@@ -36,8 +36,8 @@ def longest_step(dam: FlexibleDam, theta: float, step: float) -> tuple[float, st
 
 def _answer(body: ReducedBody, theta: float, step: float) -> Floats:
     weight = 1.0 / (1.0 + theta * step * body.damping_free + (theta * step) ** 2 * body.omega_squared)
-    found: Floats = (body.shapes.T * weight) @ body.shapes
-    return found
+    result: Floats = (body.shapes.T * weight) @ body.shapes
+    return result
 
 
 def _water_rate(bodies: tuple[ReducedBody, ...], water: FollowingWater | None, theta: float, step: float) -> float:

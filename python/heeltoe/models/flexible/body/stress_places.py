@@ -46,19 +46,19 @@ class StressPlaces:
 
 def in_bodies(places: tuple[StressPlaces, ...]) -> tuple[Floats, ...]:
     """Return the rows of parts, from the crest down, as those of the kernel's two bodies: each has every other part."""
-    found = []
+    result = []
     for side in range(min(2, len(places))):
-        rows = [each.rows for each in places[side::2]]
+        rows = [item.rows for item in places[side::2]]
         if len(rows) == 1:
-            found.append(rows[0])
+            result.append(rows[0])
             continue
-        both = np.zeros((sum(len(each) for each in rows), sum(each.shape[1] for each in rows), 3))
+        both = np.zeros((sum(len(row) for row in rows), sum(row.shape[1] for row in rows), 3))
         place = mode = 0
         for each in rows:
             both[place : place + len(each), mode : mode + each.shape[1]] = each
             place, mode = place + len(each), mode + each.shape[1]
-        found.append(both)
-    return tuple(found)
+        result.append(both)
+    return tuple(result)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,10 +73,10 @@ def stress_places(body: Body, modes: Modes) -> StressPlaces:
     """Return where the stresses of a body are read."""
     mesh = body.mesh
     nodes = np.unique(mesh.elements[:, :4])
-    found = stresses(body, modes.shapes)[nodes]
+    result = stresses(body, modes.shapes)[nodes]
     # Rounding of the shapes, times a slip of metres, is no stress.
-    found[..., : modes.rigid] = 0.0
-    rows = np.ascontiguousarray(found.swapaxes(1, 2))
+    result[..., : modes.rigid] = 0.0
+    rows = np.ascontiguousarray(result.swapaxes(1, 2))
     return StressPlaces(nodes, rows, bounded(mesh, mesh.nodes[nodes]), APART * min(map(_crack_width, _cracks(mesh))))
 
 
@@ -116,18 +116,18 @@ def _from_crack(ends: Floats, points: Floats) -> Floats:
 
 def _corners(mesh: BodyMesh) -> Floats:
     """Return the ends of what is held, and the corners of the faces that turn inwards, shape (k, 2)."""
-    found = []
+    result = []
     if mesh.fixed.size:
         base = mesh.nodes[mesh.fixed]
-        found += [base[base[:, 0].argmin()], base[base[:, 0].argmax()]]
+        result += [base[base[:, 0].argmin()], base[base[:, 0].argmax()]]
     # Going up, the concrete is on the right hand of the upstream face and on the left of the downstream one.
     for path, side in ((mesh.upstream, 1.0), (mesh.downstream, -1.0)):
         face = mesh.nodes[path[::2]]
         way = np.diff(face, axis=0)
         before, after = way[:-1], way[1:]
         turn = np.arctan2(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0], (before * after).sum(axis=1))
-        found += list(face[1:-1][side * turn > _CORNER])
-    return np.array(found).reshape(-1, 2)
+        result += list(face[1:-1][side * turn > _CORNER])
+    return np.array(result).reshape(-1, 2)
 
 
 def _width(mesh: BodyMesh, height: float) -> float:

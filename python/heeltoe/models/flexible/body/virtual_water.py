@@ -42,18 +42,18 @@ def virtual_masses(mesh: BodyMesh, case: Case, *, above: bool) -> Any:
     scipy.sparse.coo_array, shape (2 n, 2 n)
         On the displacements in x and z of node after node [kg per m].
     """
-    found = _Entries(mesh)
+    result = _Entries(mesh)
     thesis = case.flexible.virtual_mass == "thesis"
     if thesis:
         if case.reservoir is not None and above:
             depth = water_above_crack(case, case.reservoir)
-            found.add(mesh.upstream, case.reservoir, depth, _surface(case, case.reservoir), None)
+            result.add(mesh.upstream, case.reservoir, depth, _surface(case, case.reservoir), None)
     else:
         for path, water, side in ((mesh.upstream, case.reservoir, 1.0), (mesh.downstream, case.tailwater, -1.0)):
             # Compressible water is no mass, see heeltoe.models.flexible.body.reservoir.
             if water is not None and not water.compressible:
-                found.add(path, water, water.depth, _surface(case, water), side)
-    return found.matrix()
+                result.add(path, water, water.depth, _surface(case, water), side)
+    return result.matrix()
 
 
 def _surface(case: Case, water: Water) -> float:

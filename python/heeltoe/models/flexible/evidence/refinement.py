@@ -81,19 +81,19 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
     full = asked == "full"
     while True:
         stand = _Stand(trials, level, full=full)
-        found = stand.evidences()
-        finer = _finer(_worst(found), level, options)
+        evidence = stand.evidences()
+        finer = _finer(_worst(evidence), level, options)
         if finer is None:
             break
-        wanted = _Stand(trials, finer, full=full).wanted(means=any(each.mean for each in found))
+        wanted = _Stand(trials, finer, full=full).wanted(means=any(item.mean for item in evidence))
         work = trials.work + trials.cost(wanted)
         if work > BUDGET or not trials.expected(finer, work).within(case):
-            found = stand.evidences(spent=True)
+            evidence = stand.evidences(spent=True)
             break
         level = finer
     mesh = stand.mesh
     beside = None if mesh is None else (trials.dam_of(mesh.mesh), trials.whole(mesh))
-    return Answer(trials.dam_of(level.mesh), trials.whole(level), found[trials.asked], beside, found)
+    return Answer(trials.dam_of(level.mesh), trials.whole(level), evidence[trials.asked], beside, evidence)
 
 
 def _worst(found: Sequence[Evidence]) -> Evidence:
@@ -195,9 +195,9 @@ class _Stand:
         """Return what the run at this level is worth, crack by crack."""
         trials = self._trials
         trials.prepare([level for level in (self._level, self.mesh) if level is not None], self.wanted(means=False))
-        found = [self._evidence(crack, spent=spent) for crack in range(trials.cracks)]
+        result = [self._evidence(crack, spent=spent) for crack in range(trials.cracks)]
         # Runs and their cost are those of all.
-        return tuple(replace(each, runs=trials.runs, work=trials.work) for each in found)
+        return tuple(replace(item, runs=trials.runs, work=trials.work) for item in result)
 
     def _lowered(self, crack: int, dam: FlexibleDam) -> bool:
         """Return whether the elements along a joint are so long that its strength is lowered."""
@@ -227,7 +227,7 @@ class _Stand:
                 None if ensembles is None else [runs[key] for runs in ensembles],
             )
 
-        worth = {each.key: worth_of(each.key) for each in HEADLINES}
+        worth = {item.key: worth_of(item.key) for item in HEADLINES}
         dam = trials.dam_of(self._level.mesh).dam
         cracked = None
         if dam.lines[crack].bond is not None:

@@ -118,8 +118,8 @@ class Trials:
     def whole(self, level: Level) -> DamRun:
         """Return a run with its frames, the shaking as it is."""
         if level not in self._whole:
-            found = self.dam_of(level.mesh).run(self.step_of(level), self._frame_step, self._ending)
-            self._keep(level, found)
+            response = self.dam_of(level.mesh).run(self.step_of(level), self._frame_step, self._ending)
+            self._keep(level, response)
         return self._whole[level]
 
     def _keep(self, level: Level, run: DamRun) -> None:
@@ -139,8 +139,8 @@ class Trials:
             shown, *others = [pool.submit(self.whole, level) for level in whole]
             try:
                 list(pool.map(make, wanted))
-                for each in (shown, *others):
-                    each.result()
+                for item in (shown, *others):
+                    item.result()
             except KeyboardInterrupt as error:
                 # Threads hear of no signal; what the run with frames has come to is told.
                 self._ending.ask()
@@ -170,9 +170,9 @@ class Trials:
                     {name: float(column[place]) for name, column in table.items()} for table in tables
                 )
         rows = [self._numbers[level, scale][crack] for scale in scales]
-        found = headlines({each.column: np.array([row[each.column] for row in rows]) for each in HEADLINES})
+        lines = headlines({item.column: np.array([row[item.column] for row in rows]) for item in HEADLINES})
         width = self.dam_of(level.mesh).dam.sections[crack].crack_width
-        return found | {CRACKED: np.minimum([row["cracked_length"] for row in rows], width)}
+        return lines | {CRACKED: np.minimum([row["cracked_length"] for row in rows], width)}
 
     def failed(self, level: Level, scales: Sequence[float]) -> int:
         """Return how many of these runs, all made before, end without a result."""

@@ -57,8 +57,8 @@ def jacobians(nodes: Floats, elements: Integers, points: Floats) -> Floats:
     points
         Local coordinates, shape (k, 2).
     """
-    found: Floats = np.einsum("eni,pnj->epij", nodes[elements], shape_gradients(points), optimize=True)
-    return found
+    product: Floats = np.einsum("eni,pnj->epij", nodes[elements], shape_gradients(points), optimize=True)
+    return product
 
 
 def boundary_edges(elements: Integers) -> Integers:

@@ -137,19 +137,19 @@ def dam_mesh(case: Case) -> DamMesh:
 def _parts_above(case: Case) -> tuple[BodyMesh, ...]:
     """Return the parts above each of several cracks, from the crest down."""
     counts = away, halvings = case.flexible.row_counts()
-    sections = [each.cut for each in case.single_crack_cases]
+    sections = [single_crack_case.cut for single_crack_case in case.single_crack_cases]
     grounded = case.outline.area - sections[-1].area <= _NOTHING * sections[-1].area
     for section in sections:
         _check_ends(section, grounded=grounded and section is sections[-1])
     first = sections[0]
-    found = [_own(first.upstream_face, first.downstream_face, counts, first, above=True)]
+    result = [_own(first.upstream_face, first.downstream_face, counts, first, above=True)]
     for high, low in pairwise(sections):
         upstream = _up_to(low.upstream_face, high.heel)
         downstream = _up_to(low.downstream_face, high.toe)
         faces = followed(upstream, downstream, away, above=False)
         mesh = _between(*meshed_rows(faces.upstream, faces.downstream, away, (halvings, halvings)), high, low)
-        found.append(replace(mesh, missed=faces.missed))
-    return tuple(found)
+        result.append(replace(mesh, missed=faces.missed))
+    return tuple(result)
 
 
 def _up_to(face: Floats, end: tuple[float, float]) -> Floats:
@@ -212,8 +212,8 @@ def _from_file(path: Path, section: CutSection, area: float, *, above: bool) -> 
     edge = bottom if above else top
     if right <= 0.0 or left >= section.crack_width or abs(edge) > max(top - bottom, section.crack_width):
         (left, bottom), (right, top) = nodes.min(axis=0), nodes.max(axis=0)
-        found = f"x from {left:g} to {right:g} m, z from {bottom:g} to {top:g} m"
-        raise InputError("mesh-far", name, found, crack=_said(section))
+        result = f"x from {left:g} to {right:g} m, z from {bottom:g} to {top:g} m"
+        raise InputError("mesh-far", name, result, crack=_said(section))
     mesh = _body(nodes, elements, section, name, above=above)
     # Exactly on the line, so that the two faces of the crack touch.
     along = places[mesh.crack, 0]
@@ -260,8 +260,8 @@ def _body(nodes: Floats, elements: Integers, section: CutSection, name: str, *, 
     if last >= len(path) or abs(places[path[last], 0] - end) > slack or np.ptp(places[walked, 1]) > 2.0 * slack:
         side = places[:, 1].min() if above else places[:, 1].max()
         width = nodes[np.abs(places[:, 1] - side) <= slack]
-        found = f"x from {width[:, 0].min():g} to {width[:, 0].max():g} m at z = {width[0, 1]:g} m"
-        raise InputError("mesh-crack", name, found, crack=_said(section), side="lower" if above else "upper")
+        result = f"x from {width[:, 0].min():g} to {width[:, 0].max():g} m at z = {width[0, 1]:g} m"
+        raise InputError("mesh-crack", name, result, crack=_said(section), side="lower" if above else "upper")
     crack, rest = path[: last + 1], path[last:]
     heights = nodes[rest, 1]
     far = np.flatnonzero(np.abs(heights - (heights.max() if above else heights.min())) <= slack)

@@ -45,8 +45,8 @@ def followed(upstream: Floats, downstream: Floats, across: int, *, above: bool) 
         slack = _LEVEL * (crest - min(face[0, 1] for face in faces))
         faces = _levelled(upstream, crest, slack), _levelled(downstream, crest, slack)
     width = abs(downstream[0, 0] - upstream[0, 0]) / across
-    found = [_simpler(face, width, max(_FEW, _KINKS * ROWS * across)) for face in faces]
-    return Faces(found[0][0], found[1][0], max(missed for _, missed in found))
+    result = [_simpler(face, width, max(_FEW, _KINKS * ROWS * across)) for face in faces]
+    return Faces(result[0][0], result[1][0], max(missed for _, missed in result))
 
 
 def _levelled(face: Floats, crest: float, slack: float) -> Floats:

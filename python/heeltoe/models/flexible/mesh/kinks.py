@@ -45,9 +45,9 @@ def angles(mesh: BodyMesh, face: Integers, alone: Case) -> list[float]:
     if not alone.crack.kinks:
         return []
     t, n = np.diff(places(mesh.nodes[face], alone.cut), axis=0).T
-    found = np.arctan2(n, t)
-    found[np.abs(found) < _NO_ANGLE] = 0.0
-    return found.tolist() if found.any() else []
+    result = np.arctan2(n, t)
+    result[np.abs(result) < _NO_ANGLE] = 0.0
+    return result.tolist() if result.any() else []
 
 
 def _drawn(mesh: BodyMesh, face: Integers, alone: Case) -> BodyMesh:
@@ -60,12 +60,12 @@ def _drawn(mesh: BodyMesh, face: Integers, alone: Case) -> BodyMesh:
     at = places(mesh.nodes, section)
     # Between the faces at the same distance from the crack, as a part of what is between them.
     up, down = (places(mesh.nodes[path], section) for path in (mesh.upstream, mesh.downstream))
-    others = [abs(at[each, 1]).min() for each in mesh.faces if not np.array_equal(each, face)]
+    others = [abs(at[item, 1]).min() for item in mesh.faces if not np.array_equal(item, face)]
     far = min(abs(up[:, 1]).max(), abs(down[:, 1]).max(), *others)
     left, right = (np.interp(abs(at[:, 1]), *_ordered(side)) for side in (up, down))
     part = np.clip((at[:, 0] - left) / np.maximum(right - left, 1e-12 * width), 0.0, 1.0)
     share = np.clip(1.0 - abs(at[:, 1]) / far, 0.0, 1.0)
-    moved = share[:, None] * np.column_stack([np.interp(part * width, even, each) for each in shift.T])
+    moved = share[:, None] * np.column_stack([np.interp(part * width, even, item) for item in shift.T])
     nodes = mesh.nodes + in_x_and_z(moved, section)
     ends = mesh.elements[:, :4]
     nodes[mesh.elements[:, 4:]] = (nodes[ends] + nodes[np.roll(ends, -1, axis=1)]) / 2.0

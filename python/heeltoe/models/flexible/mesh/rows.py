@@ -196,11 +196,11 @@ def _halvings(lines: list[Line], across: int, finer: tuple[int, int]) -> list[in
     heights = np.diff(levels)
 
     def away(halved: int, widths: Floats, heights: Floats) -> list[int]:
-        found = [halved]
+        result = [halved]
         for width, height in zip(widths[1:], heights, strict=True):
             wanted = round(math.log2(max(width / across / height, 1.0)))
-            found.append(min(max(wanted, found[-1] - 1), found[-1]))
-        return found
+            result.append(min(max(wanted, result[-1] - 1), result[-1]))
+        return result
 
     first, last = away(finer[0], widths, heights), away(finer[1], widths[::-1], heights[::-1])[::-1]
     return [max(pair) for pair in zip(first, last, strict=True)]
@@ -208,17 +208,17 @@ def _halvings(lines: list[Line], across: int, finer: tuple[int, int]) -> list[in
 
 def _fields(lines: list[Line], across: int, halvings: list[int]) -> list[Floats]:
     """Return the fields of the rows between lines, see :func:`_field`."""
-    found: list[Floats] = []
+    result: list[Floats] = []
     start = 0
     for row, (below, above) in enumerate(pairwise(halvings)):
         if below != above:
             if row > start:
-                found.append(_field(lines[start : row + 1], across * 2**below))
-            found += _halved(lines[row], lines[row + 1], across * 2 ** max(below, above), upwards=below > above)
+                result.append(_field(lines[start : row + 1], across * 2**below))
+            result += _halved(lines[row], lines[row + 1], across * 2 ** max(below, above), upwards=below > above)
             start = row + 1
     if start + 1 < len(lines):
-        found.append(_field(lines[start:], across * 2 ** halvings[-1]))
-    return found
+        result.append(_field(lines[start:], across * 2 ** halvings[-1]))
+    return result
 
 
 # A group of four elements that meets two: the corners of its six elements from their down-left one on, along the line
@@ -236,7 +236,7 @@ _GROUP = (
 def _halved(below: Line, above: Line, columns: int, *, upwards: bool) -> list[Floats]:
     """Return the elements of a row of which one line has so many and the other half of them, each as a field of its
     own; `upwards` where the upper one has fewer."""
-    found = []
+    result = []
     for first in range(0, columns, 4):
         for corners in _GROUP:
             points = []
@@ -246,8 +246,8 @@ def _halved(below: Line, above: Line, columns: int, *, upwards: bool) -> list[Fl
                 points.append(start + up * (end - start))
             # Upside down, the other way around.
             low_left, low_right, high_right, high_left = points if upwards else points[::-1]
-            found.append(_field([(low_left, low_right), (high_left, high_right)], 1))
-    return found
+            result.append(_field([(low_left, low_right), (high_left, high_right)], 1))
+    return result
 
 
 def _field(lines: list[Line], across: int) -> Floats:
@@ -282,7 +282,7 @@ def _tip(left: Floats, right: Floats, apex: Floats, across: int) -> list[Floats]
 
 def _joined(fields: list[Floats]) -> tuple[Floats, Integers]:
     """Return nodes and elements of fields of points, with the nodes that two fields share made one."""
-    found, start = [], 0
+    result, start = [], 0
     for field in fields:
         rows, columns, _ = field.shape
         numbers = start + np.arange(rows * columns).reshape(rows, columns)
@@ -290,9 +290,9 @@ def _joined(fields: list[Floats]) -> tuple[Floats, Integers]:
         # Down-left corner of each element, and from there its nodes in their order.
         up = columns
         offsets = np.array([0, 2, 2 * up + 2, 2 * up, 1, up + 2, 2 * up + 1, up])
-        found.append(numbers[:-2:2, :-2:2].reshape(-1, 1) + offsets)
+        result.append(numbers[:-2:2, :-2:2].reshape(-1, 1) + offsets)
     nodes = np.vstack([field.reshape(-1, 2) for field in fields])
-    elements = np.vstack(found)
+    elements = np.vstack(result)
     if len(fields) > 1:
         from scipy.spatial import cKDTree
 

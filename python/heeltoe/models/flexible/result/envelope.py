@@ -67,20 +67,20 @@ class Peak:
 
 def _of_parts(dam: FlexibleDam, run: DamRun) -> list[Mapping[str, Floats]]:
     """Return the extremes that the kernel has of its bodies, part by part from the crest down."""
-    found: list[Mapping[str, Floats]] = [{}] * len(dam.bodies)
+    result: list[Mapping[str, Floats]] = [{}] * len(dam.bodies)
     for side, table in enumerate(run.extremes):
-        ends = np.cumsum([each.nodes.size for each in dam.stress_places[side::2]])[:-1]
+        ends = np.cumsum([stress_place.nodes.size for stress_place in dam.stress_places[side::2]])[:-1]
         pieces = {name: np.split(values, ends) for name, values in table.by_name().items()}
-        found[side::2] = [{name: each[k] for name, each in pieces.items()} for k in range(ends.size + 1)]
-    return found
+        result[side::2] = [{name: each[k] for name, each in pieces.items()} for k in range(ends.size + 1)]
+    return result
 
 
 def envelope_of(dam: FlexibleDam, run: DamRun) -> tuple[PartEnvelope, ...]:
     """Return the envelope of a run, part by part."""
-    found = []
+    result = []
     for body, places, static, raw in zip(dam.bodies, dam.stress_places, dam.static, _of_parts(dam, run), strict=True):
         at_rest, _, _ = principal(stresses(body, static)[places.nodes])
-        found.append(
+        result.append(
             PartEnvelope(
                 nodes=places.nodes,
                 tension=raw["tension"],
@@ -92,28 +92,28 @@ def envelope_of(dam: FlexibleDam, run: DamRun) -> tuple[PartEnvelope, ...]:
                 bounded=places.bounded,
             )
         )
-    return tuple(found)
+    return tuple(result)
 
 
 def largest_tension(parts: Sequence[PartEnvelope]) -> Peak | None:
     """Return the largest tension where it has a bound; None where no point is far enough from where it has none."""
-    return _largest([np.where(each.bounded, each.tension, -np.inf) for each in parts], parts, "tension")
+    return _largest([np.where(item.bounded, item.tension, -np.inf) for item in parts], parts, "tension")
 
 
 def largest_compression(parts: Sequence[PartEnvelope]) -> Peak | None:
     """Return the largest compression, as :func:`largest_tension`."""
-    return _largest([np.where(each.bounded, -each.compression, -np.inf) for each in parts], parts, "compression")
+    return _largest([np.where(item.bounded, -item.compression, -np.inf) for item in parts], parts, "compression")
 
 
 def _largest(values: list[Floats], parts: Sequence[PartEnvelope], name: str) -> Peak | None:
-    part = int(np.argmax([each.max(initial=-np.inf) for each in values]))
+    part = int(np.argmax([value.max(initial=-np.inf) for value in values]))
     if not values[part].size or values[part].max() == -np.inf:
         return None
     index = int(values[part].argmax())
-    found = parts[part]
-    return Peak(float(getattr(found, name)[index]), float(getattr(found, f"{name}_time")[index]), part, index)
+    result = parts[part]
+    return Peak(float(getattr(result, name)[index]), float(getattr(result, f"{name}_time")[index]), part, index)
 
 
 def tension_before(parts: Sequence[PartEnvelope]) -> float:
     """Return the largest tension before the earthquake, where it has a bound [Pa]."""
-    return max(float(each.before[each.bounded].max(initial=-np.inf)) for each in parts)
+    return max(float(item.before[item.bounded].max(initial=-np.inf)) for item in parts)

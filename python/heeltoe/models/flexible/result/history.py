@@ -118,9 +118,9 @@ class CrackHistory:
 
     def forces(self) -> Floats:
         """Return `force` with the first frame, which has no time before it, filled from the static state."""
-        found = self.force.copy()
-        found[0] = self.dam.crack_forces[self.place]
-        return found
+        result = self.force.copy()
+        result[0] = self.dam.crack_forces[self.place]
+        return result
 
     def node_status(self) -> tuple[NDArray[np.int8], ...]:
         """Return `status` (f, k) for the nodes of each face, -1 where they are not watched."""
@@ -129,12 +129,12 @@ class CrackHistory:
         total = sum(nodes.size for _, nodes in watched)
         if total != self.status.shape[1]:
             raise ValueError(f"contactors {self.contactors} are {total} nodes, the history has {self.status.shape[1]}")
-        found = tuple(np.full((len(self.time), count), UNWATCHED, dtype=np.int8) for count in counts)
+        result = tuple(np.full((len(self.time), count), UNWATCHED, dtype=np.int8) for count in counts)
         first = 0
         for face, nodes in watched:
-            found[face][:, nodes] = self.status[:, first : first + nodes.size]
+            result[face][:, nodes] = self.status[:, first : first + nodes.size]
             first += nodes.size
-        return found
+        return result
 
     def node_damage(self) -> tuple[Floats, ...]:
         """Return `damage` (f, k) at the places of the nodes of each face, straight from node to node of the upper one;
@@ -176,8 +176,8 @@ def crack_table(history: CrackHistory) -> pa.Table:
             "side": _named(_every_frame(history, [np.full(count, k) for k, count in enumerate(counts)]), _SIDES),
             "along_m": _rows([face[:, 0] for face in history.faces]),
             "across_m": _rows([face[:, 1] for face in history.faces]),
-            "force_along_n": _nullable(_rows([each[:, 0] for each in force])),
-            "force_across_n": _nullable(_rows([each[:, 1] for each in force])),
+            "force_along_n": _nullable(_rows([item[:, 0] for item in force])),
+            "force_across_n": _nullable(_rows([item[:, 1] for item in force])),
             "gap_m": _nullable(_rows(history.node_gaps())),
             "status": _named(_rows(history.node_status()), history.status_names()),
         }
@@ -223,7 +223,7 @@ def watched_nodes(nodes: list[int], contactors: int) -> list[tuple[int, Integers
 
 def _gaps(own: Floats, other: Floats) -> Floats:
     """Return how far the nodes of one face are above the other, NaN beyond its ends; shapes (f, 2, k)."""
-    found = np.empty((len(own), own.shape[2]))
+    result = np.empty((len(own), own.shape[2]))
     for frame, (mine, theirs) in enumerate(zip(own, other, strict=True)):
-        found[frame] = mine[1] - np.interp(mine[0], theirs[0], theirs[1], left=np.nan, right=np.nan)
-    return found
+        result[frame] = mine[1] - np.interp(mine[0], theirs[0], theirs[1], left=np.nan, right=np.nan)
+    return result

@@ -63,12 +63,12 @@ def histories_of_cracks(case: Case, dam: FlexibleDam, run: DamRun) -> tuple[Crac
     # Of the only crack the kernel keeps the forces on the upper face alone.
     split = np.split(run.force, [2 * nodes], axis=1)
     forces = [table.reshape(time.size, 2, -1) for table in split]
-    found, watched = [], 0
+    result, watched = [], 0
     for place, line in enumerate(dam.lines):
         (first, count), (low, counted) = line.upper, line.lower
         side = place % 2
         contacts = contactors_of([count, counted][: 1 + bool(counted)], case.flexible.contactors)
-        found.append(
+        result.append(
             CrackHistory(
                 time=time,
                 upper_position=bodies[side][:, :, first : first + count],
@@ -84,7 +84,7 @@ def histories_of_cracks(case: Case, dam: FlexibleDam, run: DamRun) -> tuple[Crac
             )
         )
         watched += contacts
-    return tuple(found)
+    return tuple(result)
 
 
 def contactors_of(nodes: list[int], contactors: int) -> int:

@@ -96,7 +96,7 @@ def analysing(
     runs = [running(case, end + min(silence, STEP), frame_step, step, counted)]
     if silence:
         runs += [running(case, through, frame_step, step, 1.0) for through in (end, end + silence)]
-    return Cost(parts.seconds + sum(each.seconds for each in runs), parts.memory + max(each.memory for each in runs))
+    return Cost(parts.seconds + sum(run.seconds for run in runs), parts.memory + max(run.memory for run in runs))
 
 
 def _step_of(case: Case) -> float:

@@ -121,8 +121,8 @@ def _on(line: ForceLine, section: CutSection, place: float, *, up: bool) -> Floa
     along, across = (0, 1) if up else (1, 0)
     order = np.argsort(face[:, along], kind="stable")
     other = float(np.interp(place, face[order, along], face[order, across]))
-    found: Floats = heel + (np.array([place, other]) if up else np.array([other, place]))
-    return found
+    result: Floats = heel + (np.array([place, other]) if up else np.array([other, place]))
+    return result
 
 
 def _arms(arrows: list[_Arrow], *, up: bool) -> list[tuple[float, str]]:
@@ -130,7 +130,7 @@ def _arms(arrows: list[_Arrow], *, up: bool) -> list[tuple[float, str]]:
     by_arm: dict[float, list[str]] = {}
     for _, force, arm, line in arrows:
         if bool(force[1]) == up and arm:
-            known = next((each for each in by_arm if math.isclose(each, arm, rel_tol=1e-6)), arm)
+            known = next((item for item in by_arm if math.isclose(item, arm, rel_tol=1e-6)), arm)
             by_arm.setdefault(known, []).append(line.name)
     return [(arm, ", ".join(names)) for arm, names in sorted(by_arm.items(), key=lambda each: abs(each[0]))]
 

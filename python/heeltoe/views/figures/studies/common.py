@@ -61,7 +61,7 @@ def slip_scale(units: str) -> tuple[float, str]:
 
 def farthest(found: Opened) -> float:
     """Return the largest residual slip of all runs, either way [m]; zero where there is none."""
-    return max((abs(each["residual_slip_m"]["largest"] or 0.0) for each in found.summary), default=0.0)
+    return max((abs(item["residual_slip_m"]["largest"] or 0.0) for item in found.summary), default=0.0)
 
 
 def headed(figure: Figure, found: Opened, *lines: str) -> Figure:

@@ -20,23 +20,23 @@ _HIGH, _LOW = COLOURS["rotation"], COLOURS["slip"]
 @styled
 def sobol_figure(found: Opened) -> Figure | None:
     """Draw first and total indices of the residual slip with what they lie within; None where it does not vary."""
-    by_model = {name: told for name, told in found.sensitivity().items() if told["indices"]}
+    by_model = {name: answer for name, answer in found.sensitivity().items() if answer["indices"]}
     if not by_model:
         return None
-    figure, panels = _panels(by_model, max(len(each["indices"]) for each in by_model.values()))
-    for axes, (name, told) in zip(panels, by_model.items(), strict=True):
-        indices = told["indices"][::-1]
+    figure, panels = _panels(by_model, max(len(item["indices"]) for item in by_model.values()))
+    for axes, (name, answer) in zip(panels, by_model.items(), strict=True):
+        indices = answer["indices"][::-1]
         rows = np.arange(len(indices))
         for kind, shift, marker, colour in (("total", 0.12, "o", _HIGH), ("first", -0.12, "s", _LOW)):
-            low, high = np.array([each[f"{kind}_interval"] for each in indices]).T
+            low, high = np.array([index[f"{kind}_interval"] for index in indices]).T
             axes.hlines(rows + shift, low, high, color=colour, linewidth=1.4)
-            values = [each[kind] for each in indices]
+            values = [index[kind] for index in indices]
             text = {"first": "by itself (first)", "total": "with all others (total)"}[kind]
             axes.plot(values, rows + shift, marker, color=colour, markersize=5, label=text)
-        _rows(axes, [each["name"] for each in indices])
+        _rows(axes, [index["name"] for index in indices])
         axes.axvline(0.0, color="#444444", linewidth=0.8)
         axes.set_xlabel("share of the variance of the slip")
-        axes.set_title(f"{name} model{_left_out(told['left_out'], 'rows')}", fontsize=9, loc="left")
+        axes.set_title(f"{name} model{_left_out(answer['left_out'], 'rows')}", fontsize=9, loc="left")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
     confidence = next(iter(by_model.values()))["confidence"]
     return headed(figure, found, f"Sobol's indices of the residual slip, {confidence:.0%} intervals")
@@ -45,21 +45,21 @@ def sobol_figure(found: Opened) -> Figure | None:
 @styled
 def tornado_figure(found: Opened, units: str = "si") -> Figure | None:
     """Draw what each field by itself makes of the slip; None where no motion gave a result for all dams."""
-    by_model = {name: told for name, told in found.tornado().items() if told["fields"]}
+    by_model = {name: answer for name, answer in found.tornado().items() if answer["fields"]}
     if not by_model:
         return None
-    figure, panels = _panels(by_model, max(len(each["fields"]) for each in by_model.values()))
+    figure, panels = _panels(by_model, max(len(item["fields"]) for item in by_model.values()))
     scale, unit = slip_scale(units)
-    for axes, (name, told) in zip(panels, by_model.items(), strict=True):
-        fields = told["fields"][::-1]
+    for axes, (name, answer) in zip(panels, by_model.items(), strict=True):
+        fields = answer["fields"][::-1]
         for row, each in enumerate(fields):
             ends = [(text, scale * slip) for slip, text in ends_of(each, units)]
-            _bar(axes, row, ends, scale * told["base"])
-        axes.axvline(scale * told["base"], color="#444444", linewidth=0.8)
+            _bar(axes, row, ends, scale * answer["base"])
+        axes.axvline(scale * answer["base"], color="#444444", linewidth=0.8)
         axes.margins(x=0.2)
-        _rows(axes, [each["name"] for each in fields])
+        _rows(axes, [field["name"] for field in fields])
         axes.set_xlabel(f"residual slip, either way, mean of the motions [{unit}]")
-        axes.set_title(f"{name} model{_left_out(told['left_out'], 'motions')}", fontsize=9, loc="left")
+        axes.set_title(f"{name} model{_left_out(answer['left_out'], 'motions')}", fontsize=9, loc="left")
     # Room for the values beside the bars, but no slips below zero.
     low, high = panels[-1].get_xlim()
     ticks = [tick for tick in panels[-1].get_xticks() if max(low, 0.0) <= tick <= high]
