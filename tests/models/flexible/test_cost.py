@@ -121,8 +121,12 @@ def test_silence_and_spread_are_counted():
     case = example("typical-base", "flexible.evidence=none", "motion.duration=20s")
     alone = analysing(case, 20.0, 0.01).seconds - building(parts_of(case)).seconds
     with_silence = analysing(case, 20.0, 0.01, silence=10.0).seconds - building(parts_of(case)).seconds
-    # To the end of the motion, through all of the silence, and the one that counts, which ends somewhere between.
-    assert with_silence == pytest.approx(alone * (20.0 + 30.0 + 22.5) / 20.0, rel=1e-6)
+    # The run that counts, and all of the silence at most.
+    assert with_silence == pytest.approx(alone * (22.5 + 10.0) / 20.0, rel=1e-6)
+    # A run by penalties begins anew.
+    penalties = case.with_("flexible.contact=idce", "flexible.damping=stiffness")
+    again = analysing(penalties, 20.0, 0.01, silence=10.0).seconds - building(parts_of(penalties)).seconds
+    assert again == pytest.approx(alone * (22.5 + 30.0) / 20.0, rel=1e-6)
     spread = analysing(case, 20.0, 0.01, spread=11).seconds - building(parts_of(case)).seconds
     assert spread == pytest.approx(12.0 * alone, rel=1e-6)
 

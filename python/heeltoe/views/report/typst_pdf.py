@@ -50,7 +50,7 @@ _NO_FONT = Notes(
     (("For some letters no font was found here; they may show as boxes. In the HTML report a browser shows them.",),),
 )
 _SHORT = 18
-"""Rows of a table that is kept on one page; longer ones are broken, so that no page stays half empty."""
+"""Lines of a table that is kept on one page; longer ones are broken, so that no page stays half empty."""
 _LONG = 8
 """Rows from which on a table of two columns has its second half beside the first."""
 _TABLE_PT = 8.5
@@ -240,8 +240,9 @@ def _table(table: Table) -> str:
     count = len(table.head)
     widths = [f"{share:g}fr" for share in table.widths] or ["auto"] * count
     letters = table.align.ljust(count, "l")
-    broken = len(table.rows) > _SHORT and not table.whole
-    if broken:
+    broken = _lines(table) > _SHORT and not table.whole
+    held_together = broken and len(table.rows) > _SHORT
+    if held_together:
         widths, letters = ["0pt", *widths], "l" + letters
     columns = ", ".join(widths)
     align = ", ".join("right" if letter == "r" else "left" for letter in letters)
@@ -249,19 +250,28 @@ def _table(table: Table) -> str:
     held = f"table.cell(rowspan: {_HELD}, breakable: false, inset: 0pt, [])"
     cells = [
         "table.hline(stroke: 0.8pt)",
-        f"table.header({'[], ' * broken}{', '.join(f'strong({_words(name)})' for name in table.head)}, "
+        f"table.header({'[], ' * held_together}{', '.join(f'strong({_words(name)})' for name in table.head)}, "
         "table.hline(stroke: 0.4pt))",
     ]
     for place, row in enumerate(table.rows):
-        if broken and place in (0, len(table.rows) - _HELD):
+        if held_together and place in (0, len(table.rows) - _HELD):
             cells.append(held)
-        elif broken and _HELD <= place < len(table.rows) - _HELD:
+        elif held_together and _HELD <= place < len(table.rows) - _HELD:
             cells.append("[]")
         cells += [_inline((cell,), _NARROW if table.widths else _WIDE) for cell in row]
     cells.append("table.hline(stroke: 0.8pt)")
     body = f"text({_TABLE_PT}pt, table(columns: ({columns}), align: ({align},), {', '.join(cells)}))"
     figure = f"figure(kind: table, supplement: [Table], caption: {_words(table.caption)}, {body})"
     return f"#{{ show figure: set block(breakable: {str(broken).lower()}); {figure} }}"
+
+
+def _lines(table: Table) -> int:
+    """Return about how many lines the rows of a table take."""
+    longest = (
+        max((len(getattr(cell, "text", cell if isinstance(cell, str) else "")) for cell in row), default=0)
+        for row in table.rows
+    )
+    return sum(max(1, -(-letters // _WIDE)) for letters in longest)
 
 
 def _inline(parts: tuple[Inline, ...], most: int = _WIDE) -> str:
