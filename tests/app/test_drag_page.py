@@ -62,18 +62,20 @@ _PULL = """async ([id, way]) => {
 _AT_REST = """() => !document.querySelector("#page-answer .plot.quick, .card.stale:not([hidden])")"""
 _OUTSIDE = """() => {
   const plot = document.querySelector("#page-answer .plot");
-  const found = [];
-  for (const { name, x, y, yaxis } of plot.data) {
+  const outside = [], longest = new Map();
+  for (const { name, y, yaxis } of plot.data) {
     const axis = plot._fullLayout[(yaxis || "y").replace("y", "yaxis")];
     if (axis.type === "category") continue;
     const [low, high] = axis.range;
-    const values = [...y].filter((each) => each !== null);
+    const values = [...y].filter((value) => value !== null);
     const [least, most] = [values.reduce((a, b) => Math.min(a, b), 0), values.reduce((a, b) => Math.max(a, b), 0)];
-    // Nor may an axis be so long that the curve is a line along zero.
-    const flat = most - least > 0 && high - low > 20 * (most - least) && yaxis === "y2";
-    if (least < low || most > high || flat) found.push([name, yaxis, least, most, low, high]);
+    longest.set(yaxis, Math.max(longest.get(yaxis) || 0, most - least));
+    if (least < low || most > high) outside.push([name, yaxis, least, most, low, high]);
   }
-  return found;
+  // Nor may an axis be so long that all of its curves, of the block and of the elastic dam, are lines along zero.
+  const [low, high] = plot._fullLayout.yaxis2.range, span = longest.get("y2");
+  if (span > 0 && high - low > 20 * span) outside.push(["flat", span, low, high]);
+  return outside;
 }"""
 
 
