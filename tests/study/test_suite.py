@@ -275,6 +275,13 @@ def test_what_is_wrong_with_a_suite_names_the_field_of_the_case(dam, records):
     assert {error.value.field, *(other.field for other in error.value.others)} == {"suite.pga", "suite.unit"}
 
 
+def test_a_single_run_of_a_case_without_a_motion_names_its_suite(dam, records):
+    fields = listed(dam, {"file": str(records / "quake-a-000.txt")}).model_dump(mode="json", exclude_unset=True)
+    with pytest.raises(InputError, match=r"heeltoe\.run_suite") as error:
+        heeltoe.run(heeltoe.read_case({name: value for name, value in fields.items() if name != "motion"}))
+    assert (error.value.code, error.value.field) == ("motion-of-suite", "motions")
+
+
 def test_a_case_that_lists_motions_is_run_as_a_suite(dam, records, tmp_path):
     fields = dam.model_dump(mode="json", exclude_unset=True, exclude={"motion"})
     fields |= {"motions": [{"file": "quakes/quake-a-000.txt"}], "suite": {"pga": "0.5 g"}}

@@ -47,6 +47,8 @@ from heeltoe.units.parse import (
         ("3 ksi", "pressure", 3000 * 4.4482216152605 / 0.0254**2),
         ("3000 lb/in^2", "pressure", 3000 * 4.4482216152605 / 0.0254**2),
         ("5 kips/ft", "line force", 5e3 * 4.4482216152605 / 0.3048),
+        ("100 J/m^2", "fracture energy", 100.0),
+        ("7 lb/ft", "fracture energy", 7.0 * 4.4482216152605 / 0.3048),
         ("5 klf", "line force", 5e3 * 4.4482216152605 / 0.3048),
         ("5000 plf", "line force", 5e3 * 4.4482216152605 / 0.3048),
         ("5000 lbs/ft", "line force", 5e3 * 4.4482216152605 / 0.3048),

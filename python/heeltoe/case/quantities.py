@@ -50,6 +50,10 @@ MemorySize = Annotated[float, BeforeValidator(_validator("memory")), _written("m
 """A size of memory [B]."""
 LineForce = Annotated[float, BeforeValidator(_validator("line force")), _written("line force"), _schema("line force")]
 """A force per metre of dam [N/m]."""
+FractureEnergy = Annotated[
+    float, BeforeValidator(_validator("fracture energy")), _written("fracture energy"), _schema("fracture energy")
+]
+"""An energy for each area that cracks [N/m]."""
 Stiffness = Annotated[float, BeforeValidator(_validator("stiffness")), _written("stiffness"), _schema("stiffness")]
 """A force per metre of dam and metre of displacement [N/m^2]."""
 Gravity = Annotated[

@@ -89,7 +89,7 @@ def resolve_all(case: Case) -> tuple[GroundMotion, GroundMotion | None]:
         Where it has none, or one that cannot be used.
     """
     if case.motion is None:
-        raise InputError("motion-missing", "motion")
+        raise InputError("motion-of-suite", "motions") if case.motions else InputError("motion-missing", "motion")
     if not case.aftershocks:
         return resolve(case.motion, case.gravity, case.base_directory)
     motions = {"motion": case.motion, **{f"aftershocks[{k}]": motion for k, motion in enumerate(case.aftershocks)}}

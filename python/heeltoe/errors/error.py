@@ -227,6 +227,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "is required but missing",
         "add [motion] with a file or points, or give --motion FILE-or-NAME",
     ),
+    "motion-of-suite": (
+        "lists records for a suite, and there is no [motion] for a single run",
+        "run the suite with `heeltoe run` or heeltoe.run_suite, or add [motion]",
+    ),
     "unknown-figure": ("{value} is not a figure of this result", "choose {names}{near}"),
     "figure-nothing": ('has nothing to draw (outcome "{value}")', "draw a run that has started"),
     "pandas-package": ("needs the package pandas, which is not installed", "pip install pandas"),

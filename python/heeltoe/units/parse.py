@@ -39,7 +39,7 @@ _SHORT = {
 }
 _SHORT_UNIT = re.compile(rf"(?<![A-Za-z_])(?:{'|'.join(_SHORT)})(?![A-Za-z_])")
 _POUND = re.compile(r"(?<![A-Za-z_])(?:lbs?|pounds?)(?![A-Za-z_])")
-_OF_FORCES = ("pressure", "line force", "stiffness")
+_OF_FORCES = ("pressure", "line force", "fracture energy", "stiffness")
 # Numbers above this are no accelerations in g.
 _LARGEST_IN_G = 10.0
 _UNIT = re.compile(r"[A-Za-z%µμ_0-9()*/^²³⁻·. -]+")
@@ -64,6 +64,7 @@ DIMENSIONS = {
     "frequency": Dimension("a frequency", "Hz", "0.1 Hz"),
     "angle": Dimension("an angle", "rad", "5 deg"),
     "line force": Dimension("a force per metre of dam", "N/m", "150 kN/m"),
+    "fracture energy": Dimension("an energy for each area that cracks", "N/m", "150 N/m"),
     "stiffness": Dimension("a stiffness per metre of dam", "N/m^2", "50 MN/m/m"),
     "wear coefficient": Dimension("a wear coefficient", "m^2/J", "1e-5 m^2/J"),
     "memory": Dimension("a size of memory", "B", "8 GB"),

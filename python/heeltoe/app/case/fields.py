@@ -22,6 +22,7 @@ _UNITS = {
     "velocity": ("m/s", "ft/s"),
     "angle": ("deg", "deg"),
     "line force": ("kN/m", "kip/ft"),
+    "fracture energy": ("N/m", "lbf/ft"),
     "stiffness": ("MN/m/m", "kip/ft/ft"),
     "wear coefficient": ("m^2/J", "m^2/J"),
     "memory": ("GB", "GB"),

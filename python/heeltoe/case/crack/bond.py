@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field
 
 from heeltoe.case.fields import Fields
-from heeltoe.case.quantities import DimensionlessNumber, LineForce, Pressure
+from heeltoe.case.quantities import DimensionlessNumber, FractureEnergy, Pressure
 
 
 class Bond(Fields):
@@ -20,9 +20,9 @@ class Bond(Fields):
     cohesion: Annotated[Pressure, Field(ge=1.0, le=1e9)]
     """Static shear strength without normal stress; at least friction times the tensile strength, where the line of the
     shear strength ends."""
-    fracture_energy: Annotated[LineForce, Field(ge=1e-3, le=1e7)]
+    fracture_energy: Annotated[FractureEnergy, Field(ge=1e-3, le=1e7)]
     """Energy for each area that opens; mass concrete takes 100 to 300 N/m, a joint less."""
-    shear_energy: Annotated[LineForce, Field(ge=1e-3, le=1e7)]
+    shear_energy: Annotated[FractureEnergy, Field(ge=1e-3, le=1e7)]
     """Energy for each area that is sheared off, beside friction."""
     dynamic_factor: Annotated[DimensionlessNumber, Field(ge=1.0, le=3.0)] = 1.0
     """Factor on both strengths during the earthquake; 1 takes the static ones."""
