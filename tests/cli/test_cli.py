@@ -289,7 +289,7 @@ def test_vtk_files_go_beside_the_rest(tmp_path):
     (folder / "dam-9999.vtu").write_text("mine")
     result = command("run", BASE, *arguments)
     assert result.returncode == 0, result.stderr
-    assert "vtk/dam.pvd" in result.stdout
+    assert f"wrote {tmp_path}/vtk\n     pvd  crack, dam" in result.stdout
     # Not one line for each of hundreds of frames.
     assert ".vtu" not in result.stdout
     assert len(list(folder.glob("dam-*.vtu"))) > 100

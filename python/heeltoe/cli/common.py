@@ -147,13 +147,39 @@ def finish(
         written = [*written, write_text(str(json_), text + "\n", "--json")]
     words = console(stderr=json_ == "-")
     show(words)
-    for done, paths in (("wrote", written), ("removed", removed)):
-        for path in paths:
-            # There are as many of these as frames; what lists them is told.
-            if path.suffix != ".vtu":
-                say_file(done, path, words)
+    say_written(written, words)
+    for path in removed:
+        if path.suffix != ".vtu":
+            say_file("removed", path, words)
     if json_ == "-":
         print_data(text)
+
+
+def say_written(paths: Sequence[Path], words: Console) -> None:
+    """Say which files were written: a file alone by its path, those of a folder by their kinds."""
+    from rich.table import Table
+    from rich.text import Text
+
+    folders: dict[Path, list[Path]] = {}
+    for path in paths:
+        # There are as many of these as frames; the file that lists them is shown.
+        if path.suffix != ".vtu":
+            folders.setdefault(path.parent, []).append(path)
+    for folder, files in folders.items():
+        if len(files) == 1:
+            say_file("wrote", files[0], words)
+            continue
+        say_file("wrote", folder, words)
+        stems: dict[str, list[str]] = {}
+        for path in files:
+            stems.setdefault(path.stem, []).append(path.suffix[1:])
+        kinds: dict[str, list[str]] = {}
+        for stem, suffixes in stems.items():
+            kinds.setdefault(", ".join(sorted(suffixes)), []).append(plain(stem, LONGEST_PATH))
+        table = Table.grid(padding=(0, 2, 0, 0))
+        for kind, names in kinds.items():
+            table.add_row("   ", Text(kind), Text(", ".join(names)))
+        words.print(table)
 
 
 def say_file(done: str, path: Path, words: Console) -> None:
