@@ -9,7 +9,7 @@ import pytest
 from heeltoe.app.case.draft import back, case_of, draft_of, edit, fields_in_force, fields_of, start
 from heeltoe.app.case.drawing import drawing
 from heeltoe.app.case.fields import blocks, field_of, form, typed
-from heeltoe.app.case.handles import corners_of, handles, length_text, moved, told
+from heeltoe.app.case.handles import corners_of, handle_data, handles, length_text, moved
 from heeltoe.app.open_case import begin
 from heeltoe.app.sessions import Session, Sessions
 from heeltoe.app.settings import Settings
@@ -214,7 +214,7 @@ def test_what_is_typed():
 def test_handles_move_what_they_stand_for(name, units):
     case = example(name)
     for handle in handles(case, units):
-        assert told(handle)["text"]
+        assert handle_data(handle)["text"]
         for way in handle.ways:
             changed = case.with_(moved(case, units, handle.name, by={way.axis: -1}))
             again = next(item for item in handles(changed, units) if item.name == handle.name)

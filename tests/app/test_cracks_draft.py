@@ -33,7 +33,7 @@ def choose(session, name):
 
 
 def put(session, path, *, there):
-    edit(session, block(session.case, session.units, path, there=there))
+    edit(session, block(session.case, session.units, path, wanted=there))
     assert not draft_of(session).errors
 
 

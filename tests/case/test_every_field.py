@@ -103,7 +103,7 @@ def idle(warnings: Sequence[Notice]) -> list[str]:
     return [path for text in message for path in text.split(", ")]
 
 
-def told(model: str, fields: Fields) -> list[str]:
+def idle_fields(model: str, fields: Fields) -> list[str]:
     """Return the fields of a case that are said to have no effect, without a run."""
     try:
         return idle(unused_fields(read_case(fields), [model]))
@@ -122,7 +122,7 @@ def faults(model: str, records: dict[str, tuple[Fields, Any]], skip: Skip, *, br
         if brief and not path.startswith("analysis."):
             for item in (before, after):
                 put(item, "analysis.silence", "0 s")
-        if skip(path, told(model, after)):
+        if skip(path, idle_fields(model, after)):
             continue
         old, _, _ = outcome(model, json.dumps(before))
         if isinstance(old, str) and old.startswith("further_cracks: "):

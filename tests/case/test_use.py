@@ -188,7 +188,7 @@ def test_every_result_tells_it():
 
 
 def test_pressures_that_an_elastic_dam_does_not_have_are_told():
-    def told(value, *models):
+    def fields_without_effect(value, *models):
         given = dam(reservoir={"depth": "80 m", "hydrodynamic": value})
         return [
             str(unused_field)
@@ -198,9 +198,9 @@ def test_pressures_that_an_elastic_dam_does_not_have_are_told():
 
     message = ['reservoir.hydrodynamic = "zangar" has no effect on the motion of the elastic dam']
     for models in (("flexible",), ("rigid", "flexible")):
-        assert [item.partition(",")[0] for item in told("zangar", *models)] == message
-        assert told("westergaard", *models) == []
-    assert told("zangar", "rigid") == []
+        assert [item.partition(",")[0] for item in fields_without_effect("zangar", *models)] == message
+        assert fields_without_effect("westergaard", *models) == []
+    assert fields_without_effect("zangar", "rigid") == []
 
 
 def test_an_unusual_modulus_is_told_wherever_it_is_read():

@@ -19,7 +19,7 @@ def response(typical_elastic) -> Response:
     return typical_elastic
 
 
-def told(response: Response, **summary: object) -> str:
+def verdict_of(response: Response, **summary: object) -> str:
     return verdict(with_numbers(response, **summary))
 
 
@@ -33,15 +33,15 @@ def with_slip(response: Response, *slips: float) -> Response:
 
 def test_slides(response):
     assert verdict(response).startswith(f"The dam slides {1e3 * response.residual_slip_m:.1f} mm downstream.")
-    back = told(response, residual_slip_m=-0.02, peak_slip_upstream_m=-0.03)
+    back = verdict_of(response, residual_slip_m=-0.02, peak_slip_upstream_m=-0.03)
     assert "slides 20.0 mm upstream, after up to 30.0 mm on the way." in back
 
 
 def test_elastic_to_and_fro_is_no_sliding(response):
     small = {"peak_slip_upstream_m": -2e-5, "peak_slip_downstream_m": 9e-5, "residual_slip_m": 5e-5}
-    assert told(response, **small).startswith("The dam does not slide. ")
+    assert verdict_of(response, **small).startswith("The dam does not slide. ")
     back = {"peak_slip_upstream_m": -2e-4, "peak_slip_downstream_m": 9e-4, "residual_slip_m": 5e-5}
-    assert "does not slide: its crack shifts by up to 0.90 mm and comes back." in told(response, **back)
+    assert "does not slide: its crack shifts by up to 0.90 mm and comes back." in verdict_of(response, **back)
 
 
 def with_times(response: Response, **seconds: float) -> Response:
@@ -74,16 +74,16 @@ def test_a_quiet_dam_stays_where_it_is():
 
 
 def test_openings_and_strikes(response):
-    text = told(response, opening_upstream_m=0.012, opening_downstream_m=5e-5, impacts=1)
+    text = verdict_of(response, opening_upstream_m=0.012, opening_downstream_m=5e-5, impacts=1)
     assert "opens up to 12.0 mm at the upstream face, the part above it rotates" in text
     assert "nodes of the crack strike once at" in text
-    assert "strike 7 times, the fastest at" in told(response, impacts=7)
-    assert "strike" not in told(response, impacts=0)
+    assert "strike 7 times, the fastest at" in verdict_of(response, impacts=7)
+    assert "strike" not in verdict_of(response, impacts=0)
     nothing = {"opening_upstream_m": 0.0, "opening_downstream_m": 0.0}
-    assert "stays closed at both faces" in told(response, **nothing)
-    assert "less than anyone could measure" in told(response, **{**nothing, "opening_upstream_m": 9e-5})
+    assert "stays closed at both faces" in verdict_of(response, **nothing)
+    assert "less than anyone could measure" in verdict_of(response, **{**nothing, "opening_upstream_m": 9e-5})
     times = {**response.time_by_mode_s, "drifting": 0.25}
-    assert "For 0.25 s in all it touches nothing." in told(response, time_by_mode_s=times)
+    assert "For 0.25 s in all it touches nothing." in verdict_of(response, time_by_mode_s=times)
 
 
 def test_at_rest_or_not(response):

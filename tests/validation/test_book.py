@@ -61,21 +61,21 @@ def test_what_carries_rounding_on_may_move_a_little():
 
 
 def test_drift_is_told():
-    before = [store.told(Row("slip", 100.0, 104.0, 0.07, remark="print"))]
+    before = [store.row_texts(Row("slip", 100.0, 104.0, 0.07, remark="print"))]
     assert store.drift(before, before) == []
-    now = [store.told(Row("slip", 100.0, 109.0, 0.07, remark="print"))]
+    now = [store.row_texts(Row("slip", 100.0, 109.0, 0.07, remark="print"))]
     text = "\n".join(store.drift(before, now))
     assert "slip, ours: '104' before, '109' now" in text
     assert "slip, verdict: 'within' before, 'outside' now" in text
     assert store.drift(before, [*now, *now]) == ["1 rows before, 2 now"]
     assert store.drift(before, [now[0] | {"verdict": "within"}], steady=math.inf) == []
     assert "verdict" in store.drift(before, now, steady=math.inf)[0]
-    spread = [store.told(Row("slip", 100.0, 104.0, 0.07, remark="print", spread=(103.0, 105.0)))]
+    spread = [store.row_texts(Row("slip", 100.0, 104.0, 0.07, remark="print", spread=(103.0, 105.0)))]
     assert "columns" in store.drift(before, spread)[0]
 
 
 def test_a_row_outside_stands_out():
-    page = pages.page("impulse", [store.told(Row("slip", 100.0, 140.0, 0.07, remark="print", spread=(1.0, 2.0)))])
+    page = pages.page("impulse", [store.row_texts(Row("slip", 100.0, 140.0, 0.07, remark="print", spread=(1.0, 2.0)))])
     assert "**outside**" in page
     assert "| slip [1] |" in page
     assert "1. print" in page

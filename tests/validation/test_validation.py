@@ -36,7 +36,7 @@ def _judge(name):
     assert all(row.remark for row in rows if row.tolerance is None or row.explained or row.kind == "thesis")
     outside = [f"{row.what}: {row.ours_text} instead of {row.reference_text}" for row in rows if row.holds is False]
     assert not outside
-    drift = store.drift(store.read(BOOK)[name], [store.told(row) for row in rows], steady=CASES[name].steady)
+    drift = store.drift(store.read(BOOK)[name], [store.row_texts(row) for row in rows], steady=CASES[name].steady)
     assert not drift, "\n".join(["make book:", *drift])
 
 

@@ -97,7 +97,7 @@ def start(desk: Desk, what: str, work: Work, *arguments: Any, parent: bool = Fal
     task = asyncio.create_task(job.follow(session.say))
     _RUNNING.add(task)
     task.add_done_callback(_RUNNING.discard)
-    return job.told()
+    return job.payload()
 
 
 async def cancel(desk: Desk, request: Asked) -> dict[str, Any]:
@@ -106,7 +106,7 @@ async def cancel(desk: Desk, request: Asked) -> dict[str, Any]:
     if job is None:
         raise BadRequestError("there is no such run")
     job.cancel()
-    return job.told()
+    return job.payload()
 
 
 ACTIONS = {

@@ -60,7 +60,7 @@ class Job:
         """Of its process."""
         return self._process.pid
 
-    def told(self) -> dict[str, Any]:
+    def payload(self) -> dict[str, Any]:
         """Return what a page shows of it."""
         seconds = (self._ended or monotonic()) - self._began
         payload = {"of": "job", "number": self.number, "what": self.what, "state": self.state, "seconds": seconds}
@@ -110,11 +110,11 @@ class Job:
         if self.state == "running":
             self.state, self.said = "lost", _lost(self._process.exitcode)
         if self.state != state:
-            await tell(self.told())
+            await tell(self.payload())
 
     async def _tell(self, tell: Tell) -> str:
         """Tell what goes on, and return the state that was told: a run may be cancelled while that is sent."""
-        message = self.told()
+        message = self.payload()
         await tell(message)
         return str(message["state"])
 

@@ -97,7 +97,7 @@ async def _begin(desk: Desk) -> None:
 
     await desk.tell(await desk.workers.quick(begin, desk.session))
     for job in desk.session.jobs.values():
-        await desk.tell(job.told())
+        await desk.tell(job.payload())
 
 
 def _teller(socket: WebSocket, session: Session) -> Any:

@@ -101,10 +101,10 @@ class Case(Shown, Fields):
         levels = [z for _, z in self.section.vertices()]
         parts = [
             f"dam of {max(levels) - min(levels):.4g} m",
-            f"crack at {self.crack.elevation:.4g} m, {self.crack.told()}",
+            f"crack at {self.crack.elevation:.4g} m, {self.crack.friction_text()}",
             *(f"another at {crack.elevation:.4g} m" for crack in self.further_cracks),
             f"water of {self.reservoir.depth:.4g} m" if self.reservoir else "no water",
-            plain(self.motion.told()) if self.motion else "no motion",
+            plain(self.motion.source_text()) if self.motion else "no motion",
         ]
         return f"<Case {self.title or 'untitled'!r}: {'; '.join(parts)}>"
 

@@ -39,7 +39,7 @@ class Source(Fields):
     processing: tuple[ProcessingStep, ...] = ()
     """Steps of processing in their order, before the motion is scaled to `pga`."""
 
-    def told(self) -> str:
+    def source_text(self) -> str:
         """Say in a few words where the motion comes from."""
         return (self.file or f"{len(self.points or ())} points") + (f", peak {self.pga}" if self.pga else "")
 

@@ -216,7 +216,7 @@ def study_bar() -> Iterator[Callable[[StudyProgress], None]]:
     with Bar(*columns, console=console(stderr=True), transient=True) as bar:
         task = bar.add_task("running", total=None)
 
-        def told(progress: StudyProgress) -> None:
+        def show_progress(progress: StudyProgress) -> None:
             bar.update(task, description=progress_text(progress), completed=progress.done, total=progress.of)
 
-        yield told
+        yield show_progress

@@ -47,7 +47,7 @@ async def put(desk: Desk, request: Asked) -> dict[str, Any]:
     path, session, present = text(request, "path"), desk.session, request.get("there") is True
     if path not in {block.path for block in blocks() if block.path}:
         raise BadRequestError(f"a case has no block {path}")
-    return await _done(desk, lambda: change(session, block(session.case, session.units, path, there=present)))
+    return await _done(desk, lambda: change(session, block(session.case, session.units, path, wanted=present)))
 
 
 async def add(desk: Desk, request: Asked) -> dict[str, Any]:
@@ -102,12 +102,12 @@ async def corners(desk: Desk, request: Asked) -> dict[str, Any]:
 
     session = desk.session
 
-    def said() -> None:
+    def write_corners() -> None:
         case = case_of(session)
         if case is not None and valued(fields_of(session)[0], "section.polygon") is None:
             change(session, {"section": {"polygon": corners_of(case, session.units)}})
 
-    return await _done(desk, said)
+    return await _done(desk, write_corners)
 
 
 async def open_file(desk: Desk, request: Asked) -> dict[str, Any]:
@@ -172,7 +172,7 @@ async def _done(desk: Desk, do: Callable[[], None]) -> dict[str, Any]:
 def _told(session: Session) -> dict[str, Any]:
     from heeltoe.app.case.draft import case_of, draft_of, fields_of, valued
     from heeltoe.app.case.drawing import drawing
-    from heeltoe.app.case.handles import handles, told
+    from heeltoe.app.case.handles import handle_data, handles
     from heeltoe.app.case.law import law
 
     fields, errors = fields_of(session)
@@ -190,7 +190,7 @@ def _told(session: Session) -> dict[str, Any]:
     }
     if case is not None:
         seen = drawing(case, session.units)
-        payload["drawing"] = {**seen, "handles": [told(handle) for handle in handles(case, session.units)]}
+        payload["drawing"] = {**seen, "handles": [handle_data(handle) for handle in handles(case, session.units)]}
     payload["law"] = None if case is None else law(case, session.units)
     return payload
 

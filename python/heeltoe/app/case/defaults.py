@@ -42,11 +42,11 @@ _OWN_COEFFICIENTS = ("friction", "static_friction", "kinetic_friction")
 _COEFFICIENTS = tuple(f"crack.{name}" for name in _OWN_COEFFICIENTS)
 
 
-def block(case: Case | None, units: str, path: str, *, there: bool) -> dict[str, Any]:
+def block(case: Case | None, units: str, path: str, *, wanted: bool) -> dict[str, Any]:
     """Return the changes that put in a block, or take one away where it shall not be `there`."""
     if path == _LAW:
-        return _law(case, there=there)
-    if not there:
+        return _law(case, wanted=wanted)
+    if not wanted:
         return {path: None}
     if path.endswith(".bond"):
         return {path: dict(_BOND)}
@@ -126,9 +126,9 @@ def _named(law: str, had: Mapping[str, Any]) -> dict[str, Any]:
     return {"name": law, **SAMPLES[law], **kept}
 
 
-def _law(case: Case | None, *, there: bool) -> dict[str, Any]:
+def _law(case: Case | None, *, wanted: bool) -> dict[str, Any]:
     """Return the changes from coefficients to a law or back, each with the friction before any slip of the other."""
-    if there:
+    if wanted:
         begins = {} if case is None else {"peak_friction": case.crack.mu_static}
         law = _named("slip weakening", begins)
         law["residual_friction"] = min(law["residual_friction"], law["peak_friction"])

@@ -100,7 +100,7 @@ def moved(
     return changes
 
 
-def told(handle: Handle) -> dict[str, Any]:
+def handle_data(handle: Handle) -> dict[str, Any]:
     """Return a handle as the page shows it."""
     texts = [f"{way.value:.5g} {way.unit}".strip() for way in handle.ways]
     text = f"x {texts[0]}, z {texts[1]}" if len(texts) > 1 else texts[0]

@@ -157,7 +157,7 @@ def _made(session: Session, request: Asked) -> Made:
 def _listed(session: Session) -> dict[str, Any]:
     return {
         "studies": [
-            {"number": study.number, "title": study.title, "job": session.jobs[study.job].told()}
+            {"number": study.number, "title": study.title, "job": session.jobs[study.job].payload()}
             for study in session.studies.values()
         ]
     }

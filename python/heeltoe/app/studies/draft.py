@@ -48,7 +48,7 @@ def choices(session: Session) -> dict[str, Any]:
         "records": _records(session),
         "elastic": case is not None and case.concrete.modulus is not None,
         "usual": "rigid" if case is None else models_for(case)["models"][0],
-        "own": (case is not None and case.motion is not None and case.motion.told()) or "",
+        "own": (case is not None and case.motion is not None and case.motion.source_text()) or "",
     }
 
 

@@ -112,7 +112,7 @@ def run(say: Callable[..., None], folder: Path, resume: bool, units: str) -> dic
     from heeltoe.study.run.run import run_study
     from heeltoe.views.terminal.study import outlook_text, progress_text
 
-    def told(progress: Progress) -> None:
+    def show_progress(progress: Progress) -> None:
         done = f"{progress.done:,} of {progress.of:,} runs, {progress_text(progress)}"
         say(done, progress.done / progress.of)
 
@@ -122,7 +122,7 @@ def run(say: Callable[..., None], folder: Path, resume: bool, units: str) -> dic
         folder / STUDY,
         folder / OUT,
         resume=resume and started,
-        progress=told,
+        progress=show_progress,
         before=lambda expected: say(outlook_text(expected)),
     )
     say("drawing what it says", 1.0)

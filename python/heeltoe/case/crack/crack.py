@@ -137,7 +137,7 @@ class Crack(CrackFields):
         slope = self.roughness.slope
         return (self.mu_static + slope) / (1.0 - self.mu_static * slope)
 
-    def told(self) -> str:
+    def friction_text(self) -> str:
         """Return its friction in words."""
         return f"friction {self.mu_kinetic:g}" if self.law is None else f"friction by {self.law.name}"
 

@@ -302,7 +302,7 @@ def _references(case: Case, dam: FlexibleDam) -> tuple[str, ...]:
 
 def _about_the_laws(case: Case, worn: Sequence[Worn | None]) -> Iterator[Notice]:
     """Say of each crack with a law where that is used beyond what it was made for."""
-    for alone, each in zip(case.single_crack_cases, worn, strict=True):
-        if each is not None:
+    for alone, wear in zip(case.single_crack_cases, worn, strict=True):
+        if wear is not None:
             where = Sentence.of(" at {at_m:g m}", at_m=alone.crack.elevation) if case.further_cracks else ""
-            yield from law_warnings(each, where)
+            yield from law_warnings(wear, where)

@@ -86,10 +86,10 @@ def rigid_many(
     with Progress(console=Console(stderr=True), transient=True, disable=not progress) as bar:
         task, began = bar.add_task("rigid runs", total=len(rows.numbers), visible=False), monotonic()
 
-        def told(done: int) -> None:
+        def advance(done: int) -> None:
             bar.update(task, advance=done, visible=monotonic() - began > 1.0)
 
-        return run_rows(rows, earthquakes, limits, threads, told if progress else None)
+        return run_rows(rows, earthquakes, limits, threads, advance if progress else None)
 
 
 def run_rows(

@@ -28,7 +28,7 @@ def make(folder: Path, names: list[str]) -> None:
             save(chart.draw(rows), folder / f"{pages.file_of(name)}.png", dpi=90)
         if history := CASES[name].history:
             save(response_figure(history()), folder / f"{pages.file_of(name)}-history.png", dpi=90)
-        book[name] = [store.told(row) for row in rows]
+        book[name] = [store.row_texts(row) for row in rows]
         sys.stdout.write(f"{name}: {len(rows)} rows, {time.perf_counter() - start:.0f} s\n")
         sys.stdout.flush()
     write(folder, {name: book[name] for name in CASES if name in book})

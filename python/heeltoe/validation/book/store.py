@@ -16,7 +16,7 @@ VERDICTS = ("within", "deviates, explained", "outside", "no verdict")
 NAME = "rows.json"
 
 
-def told(row: Row) -> dict[str, str]:
+def row_texts(row: Row) -> dict[str, str]:
     """Return a row in texts."""
     verdict = VERDICTS[3] if row.tolerance is None else VERDICTS[1] if row.deviates else VERDICTS[0 if row.holds else 2]
     record = {

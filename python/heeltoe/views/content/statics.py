@@ -51,7 +51,7 @@ _DEFAULTS = ("flexible", "decoupled", "analysis", "limits")
 class _Subject:
     """What the report is about."""
 
-    found: Joints
+    answer: Joints
     figures: Mapping[str, FigureBlock]
     units: str
     command: str = ""
@@ -59,7 +59,7 @@ class _Subject:
     @property
     def references(self) -> tuple[str, ...]:
         """Sources of the criteria and methods, numbered."""
-        return tuple(dict.fromkeys(text for joint in self.found.joints for text in joint.statics.references))
+        return tuple(dict.fromkeys(text for joint in self.answer.joints for text in joint.statics.references))
 
     def at(self, joint: Joint) -> str:
         """Say where a section is."""
@@ -151,7 +151,7 @@ def _caption(name: str, cases: Mapping[str, str]) -> str:
 
 def _answer(subject: _Subject) -> Section:
     """Return page one: the verdict, what is not met, the section, every section of many."""
-    joints, units = subject.found, subject.units
+    joints, units = subject.answer, subject.units
     items = missed_of(joints, units, MOST_MISSED)
     warnings = tuple((glued(text),) for text in section_warnings(joints.joints, units))
     blocks = (
@@ -199,7 +199,7 @@ def _sheets(subject: _Subject, joint: Joint) -> Section:
 
     blocks: list[Block] = []
     for case in joint.statics.cases:
-        figure = subject.figures.get(forces_name(subject.found, joint, case)) if subject.figures else None
+        figure = subject.figures.get(forces_name(subject.answer, joint, case)) if subject.figures else None
         inner = without_gaps(_forces(subject, case), _steps(subject, case, joint), figure)
         blocks.append(Section(f"{case.name[0].upper()}{case.name[1:]}", inner))
     return Section(f"Calculation sheets, crack at {subject.at(joint)}", tuple(blocks))

@@ -98,7 +98,7 @@ def keys_of_the_json() -> Iterator[Meaning]:
         units[name] = number.unit
         places.setdefault(name, []).append(where)
     for above, kind, where in _CLASSES:
-        for name, text in told(kind).items():
+        for name, text in attribute_meanings(kind).items():
             if name not in _NOT_THERE and f"{above}{name}" != "asked":
                 meanings.setdefault(f"{above}{name}", text)
                 places.setdefault(f"{above}{name}", []).append(where)
@@ -140,7 +140,7 @@ def columns() -> Iterator[Meaning]:
             yield Meaning(name, kind, meaning, unit_of(name), found_in=where)
 
 
-def told(kind: type) -> dict[str, str]:
+def attribute_meanings(kind: type) -> dict[str, str]:
     """Return what a class says of its attributes: in the section of its docstring, by their own descriptions, or by
     those of its properties."""
     text = inspect.cleandoc(kind.__doc__ or "")

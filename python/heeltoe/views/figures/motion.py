@@ -56,8 +56,8 @@ def history_figure(motion: GroundMotion, vertical: GroundMotion | None, gravity:
     figure = Figure(figsize=(WIDTH, 4.4), layout="constrained")
     columns = figure.subplots(3, len(motions), sharex=True, squeeze=False).T
     heading(figure, " and ".join(motion.name for motion in motions))
-    for axes, each, way in zip(columns, motions, ("horizontal, + downstream", "vertical, + up"), strict=False):
-        draw_history(list(axes), each, gravity, unit_system(units))
+    for axes, motion, way in zip(columns, motions, ("horizontal, + downstream", "vertical, + up"), strict=False):
+        draw_history(list(axes), motion, gravity, unit_system(units))
         axes[0].set_title(way, loc="left", fontsize=9)
         figure.align_ylabels(axes)
     return figure

@@ -197,7 +197,7 @@ def draw_dimensions(canvas: Canvas, case: Case, units: Units, below: float, *, s
     left, base, right, crest = whole.bounds
     size, length = canvas.size, units.scale("length")
 
-    def said(value: float) -> str:
+    def length_text(value: float) -> str:
         return f"{length(value):.4g} {length.unit}"
 
     corners = shapely.get_coordinates(whole.exterior)[:-1]
@@ -205,12 +205,15 @@ def draw_dimensions(canvas: Canvas, case: Case, units: Units, below: float, *, s
     canvas.dimension(
         [top[:, 0].max(), crest],
         [top[:, 0].max(), base],
-        said(crest - base),
+        length_text(crest - base),
         shift=[right - top[:, 0].max() + 0.16 * size, 0.0],
     )
     if np.ptp(top[:, 0]) > 0.0:
         canvas.dimension(
-            [top[:, 0].min(), crest], [top[:, 0].max(), crest], said(float(np.ptp(top[:, 0]))), shift=[0.0, 0.07 * size]
+            [top[:, 0].min(), crest],
+            [top[:, 0].max(), crest],
+            length_text(float(np.ptp(top[:, 0]))),
+            shift=[0.0, 0.07 * size],
         )
     foot = corners[corners[:, 1] == base]
     if np.ptp(foot[:, 0]) > 0.0:
@@ -218,18 +221,21 @@ def draw_dimensions(canvas: Canvas, case: Case, units: Units, below: float, *, s
         lowest = min(section.heel[1], section.toe[1]) - base
         drop = -(0.1 * size + max(0.0, below - lowest))
         canvas.dimension(
-            [foot[:, 0].min(), base], [foot[:, 0].max(), base], said(float(np.ptp(foot[:, 0]))), shift=[0.0, drop]
+            [foot[:, 0].min(), base],
+            [foot[:, 0].max(), base],
+            length_text(float(np.ptp(foot[:, 0]))),
+            shift=[0.0, drop],
         )
     if section.crack_elevation > base and not small:
         canvas.dimension(
             [section.toe[0], base],
             section.toe,
-            said(section.toe[1] - base),
+            length_text(section.toe[1] - base),
             shift=[right - section.toe[0] + 0.07 * size, 0.0],
         )
     if case.reservoir is not None and case.reservoir.depth:
         at = left - 0.45 * size
-        canvas.dimension([at, base], [at, base + case.reservoir.depth], said(case.reservoir.depth))
+        canvas.dimension([at, base], [at, base + case.reservoir.depth], length_text(case.reservoir.depth))
     if case.tailwater is not None and case.tailwater.depth and not small:
         at = right + 0.28 * size
-        canvas.dimension([at, base], [at, base + case.tailwater.depth], said(case.tailwater.depth))
+        canvas.dimension([at, base], [at, base + case.tailwater.depth], length_text(case.tailwater.depth))

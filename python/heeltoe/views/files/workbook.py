@@ -115,11 +115,11 @@ def _numbers(data: Mapping[str, Any]) -> Iterator[Row]:
 
 def _leaves(value: Any, path: str) -> Iterator[tuple[str, Any]]:
     if isinstance(value, Mapping):
-        for name, each in value.items():
-            yield from _leaves(each, f"{path}.{name}" if path else str(name))
+        for name, entry in value.items():
+            yield from _leaves(entry, f"{path}.{name}" if path else str(name))
     elif isinstance(value, list | tuple):
-        for place, each in enumerate(value):
-            yield from _leaves(each, f"{path}.{place}")
+        for place, entry in enumerate(value):
+            yield from _leaves(entry, f"{path}.{place}")
     elif value is not None:
         yield path, value
 

@@ -79,10 +79,10 @@ def bonded_dam(case: Case) -> BondedDam:
     InputError
         Where the case has no modulus, or a mesh cannot be made or used.
     """
-    return _KEPT.get(told(case, NOT_OF_MODES), lambda: _build(case))
+    return _KEPT.get(case_key(case, NOT_OF_MODES), lambda: _build(case))
 
 
-def told(case: Case, left_out: Any) -> tuple[str, ...]:
+def case_key(case: Case, left_out: Any) -> tuple[str, ...]:
     """Return a case without what is left out, with what its mesh files contain."""
     return case.model_dump_json(exclude=left_out), *fingerprints(case)
 

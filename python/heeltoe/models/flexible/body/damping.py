@@ -96,8 +96,8 @@ def damping_of(case: Case, dam: Dam, modes: tuple[Modes, ...]) -> Damping:
     rows: tuple[Floats, ...] = tuple(np.empty((0, mode.omega_squared.size)) for mode in modes)
     free = sticking
     if choice in ("relative", "deformation"):
-        for coefficients_of, each in zip(sticking, modes, strict=True):
-            coefficients_of[: each.rigid] = 0.0
+        for coefficients_of, mode in zip(sticking, modes, strict=True):
+            coefficients_of[: mode.rigid] = 0.0
     if choice == "relative":
         rows = tuple(
             math.sqrt(mass) * np.vstack(all_of) for all_of in zip(*lags, *([water] if dry else []), strict=True)
@@ -193,7 +193,7 @@ def _root_of_water(body: Body) -> tuple[NDArray[np.int64], Floats]:
 
 def _norms(rows: tuple[Floats, ...], bonded: tuple[Floats, ...]) -> Floats:
     """Return the sums of squares of rows on modes (j, m) of the bonded dam."""
-    moved = sum(row @ each.T for row, each in zip(rows, bonded, strict=True))
+    moved = sum(row @ motion.T for row, motion in zip(rows, bonded, strict=True))
     total: Floats = np.sum(np.square(moved), axis=0)
     return total
 
@@ -231,7 +231,7 @@ def _without_slip(rows: list[Floats], lags: list[list[Floats]], modes: tuple[Mod
         count = modes[place].rigid
         held = rows[place][:, :count].copy()
         rows[place][:, :count] = 0.0
-        rows = [each - held @ motion for each, motion in zip(rows, lag, strict=True)]
+        rows = [row - held @ motion for row, motion in zip(rows, lag, strict=True)]
     return tuple(rows)
 
 
@@ -244,8 +244,8 @@ def _ratios(
     """Return the share of critical damping of bonded modes: the power of damping over that of critical damping."""
     rows, signs = dashpots
     power, stretched = np.zeros_like(omega), np.zeros((len(rows[0]), omega.size))
-    for each, c, row in zip(bonded, coefficients, rows, strict=True):
-        power += each**2 @ c
-        stretched += row @ each.T
+    for mode, c, row in zip(bonded, coefficients, rows, strict=True):
+        power += mode**2 @ c
+        stretched += row @ mode.T
     result: Floats = (power + signs @ stretched**2) / (2.0 * omega)
     return result

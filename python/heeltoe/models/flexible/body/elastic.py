@@ -123,7 +123,7 @@ def dam(case: Case, mesh: DamMesh) -> Dam:
     InputError
         Where the case has no Young's modulus, or one that is no solid's.
     """
-    return Dam(tuple(_body(case, each, place) for place, each in enumerate(mesh.parts)), _tie(mesh))
+    return Dam(tuple(_body(case, part, place) for place, part in enumerate(mesh.parts)), _tie(mesh))
 
 
 def bonded_state(dam: Dam) -> tuple[tuple[Floats, ...], tuple[Floats, ...]]:
@@ -144,8 +144,8 @@ def bonded_state(dam: Dam) -> tuple[tuple[Floats, ...], tuple[Floats, ...]]:
     displacements = dam.tie @ splu(stiffness).solve(dam.tie.T @ load)
     moved = np.split(displacements, np.cumsum([body.load.size for body in dam.bodies])[:-1])
     forces = [
-        (body.stiffness @ each - body.load)[dofs(body.mesh.faces[-1])]
-        for body, each in zip(dam.bodies[: dam.free], moved, strict=False)
+        (body.stiffness @ displacement - body.load)[dofs(body.mesh.faces[-1])]
+        for body, displacement in zip(dam.bodies[: dam.free], moved, strict=False)
     ]
     return tuple(moved), tuple(forces)
 
@@ -345,8 +345,8 @@ def _tie(mesh: DamMesh) -> Sparse:
             columns.append(column[low + 2 * leaders + axis])
             values.append(shares)
     row, place, value = (np.concatenate(item) for item in (rows, columns, values))
-    there = (place >= 0) & (value != 0.0)
-    return sparse.csr_array((value[there], (row[there], place[there])), (starts[-1], count))
+    entries = (place >= 0) & (value != 0.0)
+    return sparse.csr_array((value[entries], (row[entries], place[entries])), (starts[-1], count))
 
 
 def _led(upper: BodyMesh, lower: BodyMesh) -> tuple[Integers, Floats]:

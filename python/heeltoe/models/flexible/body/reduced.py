@@ -18,7 +18,7 @@ from heeltoe.geometry.section import CutSection
 from heeltoe.kernel.dam import CrackedDam, CrackLine
 from heeltoe.mechanics.friction import law_of
 from heeltoe.models.flexible.body.bond import kernel_bond
-from heeltoe.models.flexible.body.bonded import NOT_OF_DAM, BondedDam, bonded_dam, told
+from heeltoe.models.flexible.body.bonded import NOT_OF_DAM, BondedDam, bonded_dam, case_key
 from heeltoe.models.flexible.body.damping import Damping, damping_of
 from heeltoe.models.flexible.body.elastic import Body
 from heeltoe.models.flexible.body.inside import CrackAnchor, FollowingWater, crack_anchors, following_water
@@ -166,7 +166,7 @@ def build_flexible_dam(case: Case) -> FlexibleDam:
         Where the case has no modulus, or a mesh cannot be made or used.
     """
     expect(case, Case, "not-a-case", "case")
-    return _KEPT.get(told(case, NOT_OF_DAM), lambda: _build(case))
+    return _KEPT.get(case_key(case, NOT_OF_DAM), lambda: _build(case))
 
 
 def _build(case: Case) -> FlexibleDam:

@@ -54,9 +54,9 @@ def in_bodies(places: tuple[StressPlaces, ...]) -> tuple[Floats, ...]:
             continue
         both = np.zeros((sum(len(row) for row in rows), sum(row.shape[1] for row in rows), 3))
         place = mode = 0
-        for each in rows:
-            both[place : place + len(each), mode : mode + each.shape[1]] = each
-            place, mode = place + len(each), mode + each.shape[1]
+        for row in rows:
+            both[place : place + len(row), mode : mode + row.shape[1]] = row
+            place, mode = place + len(row), mode + row.shape[1]
         result.append(both)
     return tuple(result)
 

@@ -96,20 +96,20 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
     return Answer(trials.dam_of(level.mesh), trials.whole(level), evidence[trials.asked], beside, evidence)
 
 
-def _worst(found: Sequence[Evidence]) -> Evidence:
+def _worst(evidences: Sequence[Evidence]) -> Evidence:
     """Return the evidence of the crack whose slip is the least certain, the first of them where several are as bad."""
-    return max(found, key=lambda each: (not each.converged, each.slip.uncertainty / each.allowed))
+    return max(evidences, key=lambda each: (not each.converged, each.slip.uncertainty / each.allowed))
 
 
-def _finer(found: Evidence, level: Level, options: Flexible) -> Level | None:
+def _finer(evidences: Evidence, level: Level, options: Flexible) -> Level | None:
     """Return the level at which the slip may be certain enough; None where it is, or nothing can make it so."""
-    slip = found.slip
-    if found.converged or (slip.shaking or 0.0) > found.allowed:
+    slip = evidences.slip
+    if evidences.converged or (slip.shaking or 0.0) > evidences.allowed:
         return None
     # What the case gives is kept.
     step = 0.0 if options.time_step is not None else slip.step
     mesh = 0.0 if "elements_across" in options.model_fields_set else slip.mesh or 0.0
-    if max(step, mesh) < _MATTERS * found.allowed:
+    if max(step, mesh) < _MATTERS * evidences.allowed:
         return None
     return Level(level.mesh, level.halvings + 1) if step > mesh else Level(level.mesh + 1, level.halvings)
 

@@ -87,8 +87,8 @@ def meshed_rows(left: Floats, right: Floats, across: int, finer: tuple[int, int]
     if sloping:
         ends = (face[[0, -1], 1] for face in faces)
         back = [
-            _stretched(np.array(points), span, given)
-            for points, given in zip(zip(*lines, strict=True), ends, strict=True)
+            _stretched(np.array(points), span, ends_of_line)
+            for points, ends_of_line in zip(zip(*lines, strict=True), ends, strict=True)
         ]
         lines = list(zip(*back, strict=True))
     fields = _fields(lines, across, halvings)
@@ -100,9 +100,9 @@ def meshed_rows(left: Floats, right: Floats, across: int, finer: tuple[int, int]
     return nodes, elements
 
 
-def _stretched(points: Floats, given: Floats, wanted: Floats) -> Floats:
+def _stretched(points: Floats, ends_of_line: Floats, wanted: Floats) -> Floats:
     """Return points with their heights moved as the two ends of their range are, which come out to the last bit."""
-    part = (points[:, 1] - given[0]) / (given[1] - given[0])
+    part = (points[:, 1] - ends_of_line[0]) / (ends_of_line[1] - ends_of_line[0])
     return np.column_stack([points[:, 0], wanted[0] * (1.0 - part) + wanted[1] * part])
 
 

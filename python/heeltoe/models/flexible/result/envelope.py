@@ -71,7 +71,7 @@ def _of_parts(dam: FlexibleDam, run: DamRun) -> list[Mapping[str, Floats]]:
     for side, table in enumerate(run.extremes):
         ends = np.cumsum([stress_place.nodes.size for stress_place in dam.stress_places[side::2]])[:-1]
         pieces = {name: np.split(values, ends) for name, values in table.by_name().items()}
-        result[side::2] = [{name: each[k] for name, each in pieces.items()} for k in range(ends.size + 1)]
+        result[side::2] = [{name: values[k] for name, values in pieces.items()} for k in range(ends.size + 1)]
     return result
 
 

@@ -89,7 +89,7 @@ def histories_of_cracks(case: Case, dam: FlexibleDam, run: DamRun) -> tuple[Crac
 
 def contactors_of(nodes: list[int], contactors: int) -> int:
     """Return how many nodes of a crack are watched."""
-    return sum(each.size for _, each in watched_nodes(nodes, contactors))
+    return sum(watched.size for _, watched in watched_nodes(nodes, contactors))
 
 
 def crack_numbers(
@@ -261,15 +261,15 @@ def crest_of(shaken: ShakenDam, run: DamRun) -> dict[str, Floats]:
 
 
 def crack_responses(
-    found: Answer, histories: Sequence[CrackHistory], static: StaticState
+    answer: Answer, histories: Sequence[CrackHistory], static: StaticState
 ) -> list[ElasticCrackResponse]:
     """Return what each crack did, from the crest down; `static` is the state at the one asked of."""
-    shaken, run = found.shaken, found.run
+    shaken, run = answer.shaken, answer.run
     crest = crest_of(shaken, run)
     responses = []
     for history, case in zip(histories, shaken.case.single_crack_cases, strict=True):
         place = history.place
-        evidence = found.evidences[place] if found.evidences else None
+        evidence = answer.evidences[place] if answer.evidences else None
         section = shaken.dam.sections[place]
         responses.append(
             ElasticCrackResponse(

@@ -26,10 +26,10 @@ from heeltoe.warnings.notice import Notice
 _PARTS = ("above", "below")
 
 
-def tension_of(found: Answer, parts: Sequence[PartEnvelope]) -> Tension | None:
+def tension_of(answer: Answer, parts: Sequence[PartEnvelope]) -> Tension | None:
     """Return what the contract says of the largest tension of a run, with what another mesh makes of it; None where no
     point is far enough from where the stress has no bound."""
-    dam = found.shaken.dam
+    dam = answer.shaken.dam
     tension, compression = largest_tension(parts), largest_compression(parts)
     if tension is None or compression is None:
         return None
@@ -38,9 +38,9 @@ def tension_of(found: Answer, parts: Sequence[PartEnvelope]) -> Tension | None:
         **_where(dam, parts, tension),
         direction_rad=float(parts[tension.part].direction[tension.index]),
         before_shaking_pa=before,
-        strength=_judged(found.shaken.case, dam, parts, (tension.stress, before)),
+        strength=_judged(answer.shaken.case, dam, parts, (tension.stress, before)),
         read_from_crack_m=dam.stress_places[0].apart,
-        mesh=_by_mesh(found, tension),
+        mesh=_by_mesh(answer, tension),
         compression=_where(dam, parts, compression),
     )
 
@@ -107,11 +107,11 @@ def _judged(
     )
 
 
-def _by_mesh(found: Answer, tension: Peak) -> TensionByMesh | None:
+def _by_mesh(answer: Answer, tension: Peak) -> TensionByMesh | None:
     """Return what another mesh makes of the largest tension; None where there is none beside."""
-    if found.beside is None:
+    if answer.beside is None:
         return None
-    shaken, run = found.beside
+    shaken, run = answer.beside
     other = largest_tension(envelope_of(shaken.dam, run))
     if other is None:
         return None

@@ -68,18 +68,18 @@ class ShakenDam:
             Where the step of the case is too long to follow it, or what acts in the crack is too stiff for any step.
         """
         period = self._period()
-        given = self.case.flexible.time_step
-        wanted = given or usual_step(period)
+        stated = self.case.flexible.time_step
+        wanted = stated or usual_step(period)
         step, field = longest_step(self.dam, self.case.flexible.theta, wanted)
-        if step < (wanted if given else _SHORTEST_OF_ALL):
+        if step < (wanted if stated else _SHORTEST_OF_ALL):
             raise InputError("step-stiff", field, step=f"{step:.2g} s")
-        if given is None:
+        if stated is None:
             return step
-        if given > period / _FEWEST_STEPS:
+        if stated > period / _FEWEST_STEPS:
             raise InputError(
-                "time-step-long", "flexible.time_step", f"{given:g} s", longest=f"{period / _FEWEST_STEPS:.2g} s"
+                "time-step-long", "flexible.time_step", f"{stated:g} s", longest=f"{period / _FEWEST_STEPS:.2g} s"
             )
-        return given
+        return stated
 
     def _period(self) -> float:
         """Return the longest period of the part above a crack that vibrates fastest [s]."""

@@ -72,9 +72,9 @@ class Worn:
     def apparent(self, path: Floats, bonded: Floats) -> tuple[float, list[float]]:
         """Return what the crack bears over what presses it, and the least and the most of a contact that is pressed."""
         borne, pressed = self.borne(path, bonded), self.pressed
-        each = borne[pressed] / self.stress[pressed]
+        friction = borne[pressed] / self.stress[pressed]
         whole = float(self.length @ borne) / max(float(self.length @ self.stress), 1.0)
-        return whole, [float(each.min()), float(each.max())] if each.size else [whole, whole]
+        return whole, [float(friction.min()), float(friction.max())] if friction.size else [whole, whole]
 
 
 def worn_of(alone: Case, place: int, dam: FlexibleDam, run: DamRun) -> Worn | None:

@@ -132,7 +132,7 @@ def _arms(arrows: list[_Arrow], *, up: bool) -> list[tuple[float, str]]:
         if bool(force[1]) == up and arm:
             known = next((item for item in by_arm if math.isclose(item, arm, rel_tol=1e-6)), arm)
             by_arm.setdefault(known, []).append(line.name)
-    return [(arm, ", ".join(names)) for arm, names in sorted(by_arm.items(), key=lambda each: abs(each[0]))]
+    return [(arm, ", ".join(names)) for arm, names in sorted(by_arm.items(), key=lambda item: abs(item[0]))]
 
 
 def _colour(name: str) -> str:
