@@ -80,7 +80,8 @@ def _signs(response: Response, units: str) -> str:
     if other.outcome == "overturned":
         does = "it overturns, too"
     elif other.residual_slip_m is not None:
-        does = f"it slides {length(abs(other.residual_slip_m), units)}"
+        slip = abs(other.residual_slip_m)
+        does = f"it slides {length(slip, units)}" if slip else "it does not slide"
     words = {"recorded": "as recorded", "reversed": "reversed"}
     return f"This is for the motion {words[own.sign]}; {words[other.sign]} {does}."
 

@@ -43,7 +43,8 @@ class CrackFields(Fields):
     law: Law | None = None
     """A friction law, in place of the coefficients."""
     bond: Bond | None = None
-    """The bond of a joint that is not cracked before the earthquake. Only the flexible model supports it."""
+    """The bond of a joint that is not cracked before the earthquake. The flexible model cracks it step by
+    step; a rigid block bears it as a whole or loses it."""
     restitution: Fraction | None = None
     """Newton's coefficient of restitution of a corner that strikes: 0 stays down, 1 loses nothing."""
     uplift: Literal["none", "uniform", "triangular"] | None = None
