@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 import tomllib
 
 import numpy as np
 import pytest
 
+from heeltoe.app.case.draft import edit
 from heeltoe.app.desk import BadRequestError
 from heeltoe.app.open_case import begin
 from heeltoe.app.sessions import Session
 from heeltoe.app.studies.draft import choices, study_asked
-from heeltoe.app.studies.work import look
+from heeltoe.app.studies.work import OUT, answers, lay, look, run
 from heeltoe.errors.error import InputError
+from heeltoe.study.answers.study_results import open_study
+from heeltoe.study.run.suite import run_suite
 
 EVIL = "../../evil <script>'\".dat"
 FORM = {"models": ["rigid"], "method": "grid", "source": "case", "vary": []}
@@ -120,6 +124,58 @@ def test_motions_are_ordered_by_magnitude_and_distance(session):
         with pytest.raises(InputError) as refused:
             study_asked({**form, f"scenario.{wrong}": field}, session)
         assert refused.value.field == ("scenario.count" if wrong == "count" else "scenario")
+
+
+def test_a_suite_has_the_numbers_of_the_shell(session):
+    """The records of the form, run as a suite by the app, are those of `run_suite`, with its governing record."""
+    for number in range(3):
+        values = 3.0 * np.sin((9.0 + number) * 0.01 * np.arange(400))
+        np.savetxt(
+            session.folder / f"quake{number}.txt", values, header="time step: 0.01 s, units: acceleration [m/s^2]"
+        )
+        session.sent[f"quake{number}.txt"] = f"quake{number}.txt"
+    edit(session, {"limits": {"residual_slip": "5 mm"}})
+    records = [f"quake{number}.txt" for number in range(3)]
+    form = {**FORM, "method": "suite", "source": "records", "records": records, "both_signs": True}
+    form |= {"suite.judge": "84%", "scale.measure": "pga", "scale.values": "0.9 g", "suite.target": "en1998:0.3g,B"}
+    # What only a study has is left out.
+    form |= {"limit.opening": "10 mm", "vary": [{"path": "crack.friction", "kind": "list", "values": "1"}]}
+    folder = session.folder / "suite"
+    lay(study_asked(form, session), folder, 100)
+    run(lambda *_: None, folder, False, "si")
+    app = open_study(folder / OUT)
+    shell = run_suite(
+        folder / "case.toml", [folder / name for name in records], model="rigid", pga="0.9 g", judge="84%",
+        target="en1998:0.3g,B",
+    )  # fmt: skip
+    answer, expected = app.suite["models"][0], shell.suite["models"][0]
+    for record in (*answer["records"], *expected["records"]):
+        del record["event"]  # the app groups components by their names
+    assert answer == expected
+    assert answer["limits"][0]["value"] == answer["statistics"]["residual_slip_m"]["84%"] > 0.0
+    document = answers(folder, "si")
+    (headline,) = document["headlines"]
+    assert headline["label"] == "residual slip, what 84 % of the records stay below"
+    assert headline["state"] == ("met" if answer["limits"][0]["met"] else "failed")
+    text = json.dumps(document)
+    assert document["subtitle"].startswith("A suite of 6 runs")
+    assert all(word in text for word in ("governs", "The mean is", "84 % stay below", "suite-spectra", "quake2"))
+
+
+def test_the_motions_of_a_case_are_its_suite(session):
+    assert choices(session)["suite"] is None
+    names = ["elcentro-1940-180-nga", EVIL]
+    edit(session, {"motions": [{"file": names[0]}, {"file": EVIL}], "suite": {"sa": "0.5 g", "judge": "mean"}})
+    own = choices(session)["suite"]
+    assert (own["of"], own["suite.judge"], own["scale.measure"], own["scale.values"], own["scale.period"]) == (
+        2, "mean", "sa", "0.5 g", "T1")  # fmt: skip
+    _, study, _ = study_asked({**FORM, "method": "suite", "suite.judge": "mean", "both_signs": True}, session)
+    assert study["motions"]["events"] == [{"horizontal": [name]} for name in names]
+    assert study["suite"] == {"judge": "mean"}
+    for form, field in (({"suite.target": "/etc/passwd"}, "suite.target"), ({"motions.match": "x"}, "motions.match")):
+        with pytest.raises(InputError) as refused:
+            study_asked({**FORM, "method": "suite", **form}, session)
+        assert refused.value.field == field
 
 
 def test_every_choice_is_a_field_of_a_study(session):

@@ -69,16 +69,22 @@ def _headline(response: Response, units: str) -> dict[str, Any]:
     if not response.ok or response.outcome != "ok":
         value = _ENDS.get(response.outcome, "No result")
         return {"value": value, "label": "", "limit": "", "state": "failed", "limits": []}
-    checks = sorted(response.limits, key=_share, reverse=True)
+    slip = response.residual_slip_m
+    way = "" if abs(slip) < LEAST_M else " downstream" if slip > 0.0 else " upstream"
+    return judged(response.limits, abs(slip), f"residual slip{way}", units)
+
+
+def judged(limits: Sequence[LimitCheck], slip: float, label: str, units: str, by: str = "") -> dict[str, Any]:
+    """Return the headline of some limits, or of a slip [m], not negative, where there are none; `by` says which number
+    over several runs it is."""
+    checks = sorted(limits, key=_share, reverse=True)
     if not checks:
-        slip = response.residual_slip_m
-        way = "" if abs(slip) < LEAST_M else " downstream" if slip > 0.0 else " upstream"
-        value = length(abs(slip), units) if way else "0"
-        return {"value": value, "label": f"residual slip{way}", "limit": "no limit set", "state": "free", "limits": []}
+        value = length(slip, units) if slip >= LEAST_M else "0"
+        return {"value": value, "label": label + by, "limit": "no limit set", "state": "free", "limits": []}
     first, *others = checks
     return {
         "value": measured(first.value, first.unit, units),
-        "label": limited(first, units),
+        "label": limited(first, units) + by,
         "limit": _within(first, units),
         "state": _state(first),
         "limits": [

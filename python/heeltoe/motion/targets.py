@@ -16,6 +16,8 @@ from heeltoe.motion.records.quantities import units_in
 from heeltoe.motion.records.raw import table as rows_of
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit, parse, parse_acceleration
 
+#: What the names of spectra of standards begin with.
+STANDARDS = ("en1998:", "asce7:")
 # No table of a spectrum comes near.
 _LARGEST_BYTES = 1_000_000
 

@@ -3,7 +3,7 @@
 import { element } from "./dom.js";
 import { row, table } from "./table.js";
 
-const NAMES = /** @type {Record<string, string>} */ ({ rigid: "Rigid block", decoupled: "Rigid block on an elastic part", flexible: "Elastic dam" });
+export const NAMES = /** @type {Record<string, string>} */ ({ rigid: "Rigid block", decoupled: "Rigid block on an elastic part", flexible: "Elastic dam" });
 
 /** @param {any} answer */
 function numbers(answer) {
@@ -38,7 +38,7 @@ function warnings(answer) {
 const BADGES = /** @type {Record<string, string>} */ ({ met: "✓ ", doubted: "? ", failed: "✗ ", free: "" });
 
 /** Number, limit and colour, which nobody has to read a sentence for. @param {any} headline */
-function headlineOf({ value, label, limit, state, limits }) {
+export function headlineOf({ value, label, limit, state, limits }) {
   const badge = (/** @type {string} */ of) => element("span", { "aria-hidden": "true" }, BADGES[of]);
   const free = state === "free" ? [" (", element("a", { href: "#case" }, "page Case"), ")"] : [];
   const judged = limit ? [element("p", { class: "judged" }, badge(state), limit, ...free)] : [];

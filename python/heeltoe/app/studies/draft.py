@@ -13,9 +13,11 @@ from heeltoe.app.case.fields import blocks, field_of, in_unit, typed, unit_of
 from heeltoe.app.desk import BadRequestError
 from heeltoe.app.open_case import models_for
 from heeltoe.case.paths import value_of
+from heeltoe.case.suite import SuiteRule
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.catalog import MADE_TO_ORDER, PREFIX, available
 from heeltoe.motion.scenario import order_of, scenario_parameters
+from heeltoe.motion.targets import STANDARDS
 from heeltoe.study.plan.file import Distribution, Measure, Method, Model, Scale
 
 if TYPE_CHECKING:
@@ -26,6 +28,8 @@ if TYPE_CHECKING:
 #: Fields, values of each, and records of a study.
 MOST_FIELDS, MOST_VALUES, MOST_RECORDS = 30, 1000, 400
 _KINDS = tuple(get_args(Distribution.model_fields["distribution"].annotation))
+#: What the form calls the study that is a suite of records, among the methods.
+SUITE = "suite"
 _LIMITS = ("residual_slip", "peak_slip", "opening", "rotation", "cracked_length")
 # What tells components of one event in the catalogue apart stands before these.
 _SOURCE = re.compile(r"-nga2?$")
@@ -36,9 +40,10 @@ _LAST = re.compile(r"(.+)[-_ .]([^-_ .]+)")
 def choices(session: Session) -> dict[str, Any]:
     """Return what can be chosen in the form."""
     case = case_of(session)
+    models = ["rigid"] if case is None else models_for(case)["models"]
     return {
         "fields": [_shown(field, block.label, case, session.units) for block, field in _fields()],
-        "methods": list(get_args(Method)),
+        "methods": [SUITE, *get_args(Method)],
         "models": list(get_args(Model)),
         "kinds": list(_KINDS),
         "scales": list(get_args(Scale.model_fields["measure"].annotation)),
@@ -47,8 +52,28 @@ def choices(session: Session) -> dict[str, Any]:
         "units": session.units,
         "records": _records(session),
         "elastic": case is not None and case.concrete.modulus is not None,
-        "usual": "rigid" if case is None else models_for(case)["models"][0],
+        "usual": models[0],
+        "better": models[-1],
         "own": (case is not None and case.motion is not None and case.motion.source_text()) or "",
+        "judges": list(get_args(SuiteRule.model_fields["judge"].annotation)),
+        "suite": None if case is None or not case.motions else _suite_of(case),
+    }
+
+
+def _suite_of(case: Case) -> dict[str, Any]:
+    """Return how a form with the suite of a case is filled in."""
+    rule = case.suite
+    strength = {name: str(value) for name in ("pga", "sa") if (value := getattr(rule, name)) is not None}
+    period = f"{rule.period!r} s" if isinstance(rule.period, float) else "T1"
+    return {
+        "of": len(case.motions),
+        "suite.judge": rule.judge,
+        "suite.target": rule.target or "",
+        "motions.match": rule.match or "",
+        "both_signs": rule.both_signs is not False,
+        "scale.measure": next(iter(strength), ""),
+        "scale.values": next(iter(strength.values()), ""),
+        "scale.period": period if "sa" in strength else "",
     }
 
 
@@ -105,24 +130,14 @@ def study_asked(request: object, session: Session) -> tuple[dict[str, Any], dict
     form = _mapping(request)
     content: dict[str, Any] = {"title": _text(form, "title").strip(), "case": "case.toml"}
     content["model"] = _words(form, "models")
-    content["method"] = _text(form, "method")
-    for name in ("samples", "seed"):
-        text = _text(form, name).strip()
-        if text:
-            content[name] = _whole(text)
-    content["vary"] = _vary(_list(form, "vary", MOST_FIELDS), session.units)
-    content["correlation"] = _correlation(_text(form, "correlation"))
-    motions = _motions(form, session)
+    suite = _text(form, "method") == SUITE
+    if suite:
+        content["suite"] = {"judge": _text(form, "suite.judge") or "largest", **_spectrum(form, "suite.target")}
+    else:
+        content |= _varied(form, session.units)
+    motions = _motions(form, session, suite=suite)
     if motions:
         content["motions"] = motions
-    limits = {name: _split(_text(form, f"limit.{name}")) for name in _LIMITS}
-    if any(limits.values()):
-        content["fragility"] = {
-            "limits": {name: values for name, values in limits.items() if values},
-            "measure": _text(form, "fragility.measure") or "pga",
-            **_given(form, "fragility.period", "period"),
-            **{name: _numeric(text) for name, text in _given(form, "fragility.confidence", "confidence").items()},
-        }
     study = {name: value for name, value in content.items() if value not in ("", {}, [])}
     case = fields_in_force(session)
     if not motions and not form.get("both_signs") and isinstance(case.get("motion"), dict):
@@ -131,6 +146,26 @@ def study_asked(request: object, session: Session) -> tuple[dict[str, Any], dict
         kept = {name: value for name, value in case["motion"].items() if name not in ("reverse", "sign")}
         case = {**case, "motion": {**kept, "sign": "reversed" if turned else "recorded"}}
     return case, study, sent_files(session)
+
+
+def _varied(form: Mapping[str, Any], units: str) -> dict[str, Any]:
+    """Return what varies, how, and the limits of the curves: all that a suite of records does without."""
+    content: dict[str, Any] = {"method": _text(form, "method")}
+    for name in ("samples", "seed"):
+        text = _text(form, name).strip()
+        if text:
+            content[name] = _whole(text)
+    content["vary"] = _vary(_list(form, "vary", MOST_FIELDS), units)
+    content["correlation"] = _correlation(_text(form, "correlation"))
+    limits = {name: _split(_text(form, f"limit.{name}")) for name in _LIMITS}
+    if any(limits.values()):
+        content["fragility"] = {
+            "limits": {name: values for name, values in limits.items() if values},
+            "measure": _text(form, "fragility.measure") or "pga",
+            **_given(form, "fragility.period", "period"),
+            **{name: _numeric(text) for name, text in _given(form, "fragility.confidence", "confidence").items()},
+        }
+    return content
 
 
 def _vary(rows: list[Any], units: str) -> dict[str, Any]:
@@ -168,16 +203,13 @@ def _numbers() -> tuple[str, ...]:
     )
 
 
-def _motions(form: Mapping[str, Any], session: Session) -> dict[str, Any]:
+def _motions(form: Mapping[str, Any], session: Session, *, suite: bool) -> dict[str, Any]:
     scale = _scale(form)
     chosen = _words(form, "records", MOST_RECORDS)
     if _text(form, "source") == "case":
-        if not scale and not form.get("both_signs"):
+        if not suite and not scale and not form.get("both_signs"):
             return {}
-        events, chosen = _own(session)
-        case = case_of(session)
-        motion = None if case is None else case.motion
-        read = {"unit": motion.unit if motion else None, "time_step": _seconds(motion.time_step if motion else None)}
+        events, chosen, read = _own(session, suite=suite)
     else:
         read = {name: _text(form, f"motions.{name}").strip() for name in ("unit", "time_step")}
         events = _events(chosen, vertical=bool(form.get("vertical")))
@@ -192,6 +224,8 @@ def _motions(form: Mapping[str, Any], session: Session) -> dict[str, Any]:
     motions: dict[str, Any] = {"events": events, **{name: value for name, value in read.items() if value}}
     motions |= {name: True for name in ("pairs", "vertical") if form.get(name)}
     motions["both_signs"] = bool(form.get("both_signs"))
+    if suite:
+        motions |= _spectrum(form, "motions.match")
     if form.get("every"):
         motions["every"] = True
     if scale:
@@ -225,19 +259,37 @@ def _seconds(time_step: float | None) -> str | None:
     return None if time_step is None else f"{time_step!r} s"
 
 
-def _own(session: Session) -> tuple[list[dict[str, Any]], list[str]]:
-    """Return the motion of the case as the event of a study."""
+def _own(session: Session, *, suite: bool) -> tuple[list[dict[str, Any]], list[str], dict[str, Any]]:
+    """Return the motion of the case, or those of its suite, as events of a study, the records in them, and how these
+    are read."""
     case = case_of(session)
-    motion = None if case is None else case.motion
-    if motion is None or motion.file is None:
+    if case is None:
         raise InputError("study-motions", "motions")
+    suite = suite and bool(case.motions)
     called = {stored: name for name, stored in session.sent.items()}
-    event: dict[str, Any] = {"horizontal": [called.get(motion.file, motion.file)]}
-    names = list(event["horizontal"])
-    if motion.vertical is not None and motion.vertical.file is not None:
-        event["vertical"] = called.get(motion.vertical.file, motion.vertical.file)
-        names.append(event["vertical"])
-    return [event], names
+    pairs = [(motion.file, motion.vertical) for motion in case.motions] if suite else []
+    if not suite and case.motion is not None and case.motion.file is not None:
+        vertical = case.motion.vertical
+        pairs = [(case.motion.file, None if vertical is None else vertical.file)]
+    if not pairs:
+        raise InputError("study-motions", "motions")
+    events, names = list[dict[str, Any]](), list[str]()
+    for pair in pairs:
+        own = [called.get(name, name) for name in pair if name is not None]
+        events.append({"horizontal": own[:1], **({"vertical": own[1]} if own[1:] else {})})
+        names += own
+    read = case.suite if suite else case.motion
+    how = {} if read is None else {"unit": read.unit, "time_step": _seconds(read.time_step)}
+    return events, names, how
+
+
+def _spectrum(form: Mapping[str, Any], path: str) -> dict[str, str]:
+    """Return a target spectrum of a standard; no file is looked for."""
+    name = path.rpartition(".")[2]
+    spectrum = _given(form, path, name)
+    if spectrum and not spectrum[name].startswith(STANDARDS):
+        raise InputError("target-form", path, spectrum[name])
+    return spectrum
 
 
 def _events(names: list[str], *, vertical: bool) -> list[dict[str, Any]]:

@@ -6,7 +6,7 @@ import base64
 import json
 import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -140,13 +140,39 @@ def answers(folder: Path, units: str) -> dict[str, Any]:
         subject = study_subject(results, folder, units, command(), None)
     except InputError as error:
         return refused(error)
-    payload = {"complete": results.complete, **told_document(study_document(subject))}
+    headlines = _headlines(results.suite, units)
+    payload = {"complete": results.complete, "headlines": headlines, **told_document(study_document(subject))}
     if results.complete:
         text = json.dumps(payload, allow_nan=False)
         fresh = folder / f"answers-{units}.fresh"
         fresh.write_text(text, encoding="utf-8")
         fresh.replace(folder / f"answers-{units}.json")
     return payload
+
+
+def _headlines(suite: Mapping[str, Any] | None, units: str) -> list[dict[str, Any]]:
+    """Return what a reader looks for first in a suite, model by model: the number that is judged, and its limit."""
+    from heeltoe.app.response_payload import judged
+    from heeltoe.result.limits import LimitCheck
+    from heeltoe.views.words.studies import JUDGED
+
+    headlines = list[dict[str, Any]]()
+    if suite is None:
+        return headlines
+    for row in suite["models"]:
+        slip, by = row["statistics"]["residual_slip_m"][suite["judge"]], JUDGED[suite["judge"]]
+        checks = [
+            LimitCheck(failed=False, **{name: check[name] for name in ("name", "value", "allowed", "uncertainty")})
+            for check in row["limits"]
+            if check["value"] is not None
+        ]
+        if slip is None or len(checks) < len(row["limits"]):
+            headline = {"value": "No result", "label": "", "limit": "", "state": "failed", "limits": []}
+            headline["label"] = "in every record: the dam fails, or a run has none"
+        else:
+            headline = judged(checks, slip, "residual slip", units, f", {by}")
+        headlines.append({"model": row["model"], **headline})
+    return headlines
 
 
 def kept_answers(folder: Path, units: str) -> dict[str, Any] | None:

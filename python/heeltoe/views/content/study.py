@@ -67,7 +67,7 @@ _CAPTIONS |= {
     "hazard": "The hazard curve (left), and how much of each annual rate motions of each strength make (right).",
     "ranks": "The worst dams of the table: residual slip over the motions, from the median to the 84 % (bar) and the "
     "largest (mark), and the share of the motions in which the first limit is exceeded.",
-    "suite-spectra": "Response spectra of the records as they shake the dam, with their mean and the target.",
+    "suite-spectra": "Response spectra of the records as they shake the dam, with mean and any target.",
 }
 _SOURCES = {"fragility": ("fragility", "likelihood", "jackknife"), "measures": ("measures",), "sensitivity": ("sobol",)}
 
@@ -159,10 +159,10 @@ def study_sections(study: Opened, units: str) -> tuple[Block, ...]:
     sections = (
         suite(subject),
         portfolio_section(subject),
-        results(subject),
+        None if study.suite else results(subject),
         fragility(subject),
         hazard_section(subject),
-        measures_compared(subject),
+        None if study.suite else measures_compared(subject),
         hangs_on(subject),
         _fine(subject),
     )
@@ -178,10 +178,10 @@ def study_document(subject: StudySubject) -> Document:
         portfolio_section(subject),
         _varied(subject),
         _motions(subject),
-        results(subject),
+        None if study.suite else results(subject),
         fragility(subject),
         hazard_section(subject),
-        measures_compared(subject),
+        None if study.suite else measures_compared(subject),
         hangs_on(subject),
         _fine(subject),
         Section("References", (References(_references(subject)),)),
@@ -266,6 +266,8 @@ def _base_case(subject: StudySubject) -> Block | None:
 
 def _varied(subject: StudySubject) -> Section:
     study, blocks = subject.study, list[Block]()
+    if study["suite"]:
+        return Section("The dam", subject.figure("section"))
     drawn = study["samples"] is not None
     how = f"By the method “{study['method']}”"
     how += f", {study['samples']:,} samples, seed {study['seed']}." if drawn else "."

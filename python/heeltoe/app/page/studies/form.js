@@ -5,6 +5,7 @@ import { RecordFolder } from "./folder.js";
 import { VaryRows } from "./vary.js";
 
 const METHODS = /** @type {Record<string, string>} */ ({
+  suite: "suite: this dam in each record, judged by a number over all",
   grid: "grid: every combination of the values",
   "one at a time": "one at a time: each value by itself",
   "latin hypercube": "Latin hypercube: dams drawn evenly over each field",
@@ -15,9 +16,12 @@ const MODELS = /** @type {Record<string, string>} */ ({ rigid: "rigid block", de
 const LIMITS = /** @type {Record<string, string>} */ ({ residual_slip: "Residual slip", peak_slip: "Peak slip", opening: "Opening", rotation: "Rotation", cracked_length: "Cracked length" });
 /** Slips that people ask for, in the units that are chosen. @type {Record<string, string>} */
 const SLIPS = { si: "10 mm, 150 mm", us: "0.5 in, 6 in" };
+/** How a suite is judged. @type {Record<string, string>} */
+const JUDGES = { largest: "the largest of all records", mean: "their mean", median: "their median", "84%": "what 84 % stay below" };
 const DRAWN = ["latin hypercube", "sobol", "sensitivity"];
 /** What people begin with. @type {Record<string, Record<string, any>>} */
 const BEGIN = {
+  "Suite of records": { method: "suite", source: "records", "scale.measure": "", both_signs: true, vary: [] },
   Grid: { method: "grid", source: "case", "scale.measure": "", both_signs: true, vary: [{ path: "crack.friction", kind: "list", values: "0.8, 1.0, 1.2" }, { path: "reservoir.depth", kind: "uniform", from: "80 %", to: "100 %", count: "3" }] },
   "Stronger and stronger (IDA)": { method: "grid", source: "case", "scale.measure": "pga", "scale.kind": "list", "scale.values": "0.1 g, 0.2 g, 0.3 g, 0.4 g, 0.5 g, 0.6 g, 0.8 g, 1.0 g", both_signs: true, vary: [] },
   Fragility: { method: "latin hypercube", samples: "1000", source: "records", "scale.measure": "pga", "scale.kind": "drawn", "scale.from": "0.1 g", "scale.to": "1.2 g", both_signs: true, "fragility.measure": "pga", "limit.residual_slip": "slips", vary: [{ path: "crack.friction", kind: "lognormal", median: "now", dispersion: "0.15" }] },
@@ -32,6 +36,7 @@ export class StudyForm {
   constructor(changed, send, renew) {
     this.changed = changed;
     this.folder = new RecordFolder(send, renew);
+    this.chosen = element("span", { class: "faint", role: "status" });
     /** @type {Record<string, HTMLInputElement | HTMLSelectElement>} */
     this.inputs = {};
     this.vary = new VaryRows(changed);
@@ -50,13 +55,20 @@ export class StudyForm {
     this.vary.fields = choices.fields;
     this.vary.root.querySelector("[data-field=correlation]")?.remove();
     this.vary.root.append(this._field("correlation", "Drawn together", "two fields and their rank correlation; several with ; between them", "crack.friction, reservoir.depth, 0.4"));
-    this.root.replaceChildren(this._begin(), this._what(choices), this.vary.root, this._motions(choices), this._fragility(choices));
-    this.write(before || BEGIN.Grid);
+    this.root.replaceChildren(this._begin(), this._what(choices), this.vary.root, this._motions(choices), this._judged(choices), this._fragility(choices));
+    this.write(before || (choices.suite ? this._beginning("Suite of records") : BEGIN.Grid));
   }
 
   _begin() {
-    const buttons = Object.entries(BEGIN).map(([name, given]) => element("button", { type: "button", onclick: () => this.write(given, true) }, name));
+    const buttons = Object.keys(BEGIN).map((name) => element("button", { type: "button", onclick: () => this.write(this._beginning(name), true) }, name));
     return element("fieldset", { class: "begin" }, element("legend", {}, "Begin with"), ...buttons);
+  }
+
+  /** What a form begins with; a suite with what the case says of its own. @param {string} name */
+  _beginning(name) {
+    if (BEGIN[name].method !== "suite") return BEGIN[name];
+    const own = this.choices.suite ? { source: "case", ...this.choices.suite } : {};
+    return { ...BEGIN[name], models: [this.choices.better], ...own };
   }
 
   /** @param {any} choices */
@@ -77,15 +89,15 @@ export class StudyForm {
   /** @param {any} choices */
   _motions(choices) {
     const groups = choices.records.map((/** @type {any} */ group) => element("div", { class: "ticks", role: "group", "aria-label": group.event }, ...group.records.map((/** @type {any} */ motion) => this._tick(`record.${motion.name}`, motion.vertical ? `${motion.name} (vertical)` : motion.name))));
-    const own = choices.own ? `that of the case: ${choices.own}` : "that of the case, which has none";
     return element(
       "fieldset",
       { "data-field": "motions" },
       element("legend", {}, "Earthquakes"),
-      this._select("source", "Which", [["case", own], ["records", "records that are chosen here"]]),
+      this._select("source", "Which", [["case", ""], ["records", "records that are chosen here"]]),
       element(
         "div",
         { class: "of-records" },
+        element("p", { class: "in-line" }, this.chosen, element("button", { type: "button", class: "link", onclick: () => this._choose(true) }, "all that are horizontal"), element("button", { type: "button", class: "link", onclick: () => this._choose(false) }, "none")),
         element("div", { class: "records", tabindex: "0", role: "group", "aria-label": "Records" }, ...groups),
         element("p", { class: "faint" }, "Records whose names differ only in their last part belong to one event."),
         this.folder.root,
@@ -106,8 +118,28 @@ export class StudyForm {
         this._select("scale.kind", "Its values", [["list", "a list"], ["drawn", "drawn evenly between two"]]),
         this._field("scale.values", "Strengths", "one after the other", "0.1 g, 0.2 g, 0.4 g", "motions.scale.values"),
         element("div", { class: "pair" }, this._field("scale.from", "From", "", "0.1 g", "motions.scale.values.from"), this._field("scale.to", "To", "", "1.2 g", "motions.scale.values.to")),
-        this._field("scale.period", "Period", "of sa", "0.3 s", "motions.scale.period"),
+        this._field("scale.period", "Period", "of sa; T1 for the first of the dam", "0.3 s", "motions.scale.period"),
       ),
+    );
+  }
+
+  /** Tick all horizontal records, or none. @param {boolean} all */
+  _choose(all) {
+    for (const { records } of this.choices.records) for (const { name, vertical } of records) /** @type {HTMLInputElement} */ (this.inputs[`record.${name}`]).checked = all && !vertical;
+    this.arrange();
+    this.changed();
+  }
+
+  /** How a suite is judged. @param {any} choices */
+  _judged(choices) {
+    return element(
+      "fieldset",
+      { class: "of-suite", "data-field": "suite" },
+      element("legend", {}, "Judged"),
+      this._select("suite.judge", "By", choices.judges.map((/** @type {string} */ name) => [name, JUDGES[name] || name]), "suite.judge"),
+      element("p", { class: "faint" }, "against the limits of the case. EN 1998-1 takes the mean of seven or more records, the largest of fewer; ASCE/SEI 7 the mean of eleven."),
+      this._field("suite.target", "Target spectrum", "drawn with those of the records", "en1998:0.3g,B"),
+      this._field("motions.match", "Match each record to", "a spectrum, before it is scaled", "asce7:0.9g,0.4g,8s"),
     );
   }
 
@@ -156,10 +188,20 @@ export class StudyForm {
   arrange() {
     const at = (/** @type {string} */ name) => this.inputs[name].value;
     const drawn = DRAWN.includes(at("method"));
+    const suite = at("method") === "suite";
+    const own = suite && this.choices.suite ? `the ${this.choices.suite.of} of [[motions]] in the case` : this.choices.own ? `that of the case: ${this.choices.own}` : "that of the case, which has none";
+    /** @type {HTMLSelectElement} */ (this.inputs.source).options[0].text = own;
+    const ticked = Object.entries(this.inputs).filter(([name, input]) => name.startsWith("record.") && /** @type {HTMLInputElement} */ (input).checked).length;
+    this.chosen.textContent = `${ticked} chosen`;
     this._row("samples").hidden = !drawn;
     this._row("seed").hidden = !drawn;
     this._row("correlation").hidden = !drawn || at("method") === "sensitivity";
     const find = (/** @type {string} */ name) => /** @type {HTMLElement} */ (this.root.querySelector(name));
+    find(".of-suite").hidden = !suite;
+    find("[data-field=fragility]").hidden = suite;
+    this.vary.root.hidden = suite;
+    /** @type {HTMLElement} */ (this.inputs.pairs.closest("label")).hidden = suite;
+    this._row("scale.values").querySelector("label").textContent = suite ? "Strength of each record" : "Strengths";
     find(".of-records").hidden = at("source") !== "records";
     find(".of-scale").hidden = at("scale.measure") === "";
     if (!drawn) this.inputs["scale.kind"].value = "list";

@@ -1,4 +1,5 @@
 /** The page "Studies": a form, the studies of this tab with how far they are, and what one of them says. */
+import { headlineOf, NAMES } from "../card.js";
 import { element } from "../dom.js";
 import { save } from "../save.js";
 import { documentOf } from "./document.js";
@@ -122,7 +123,7 @@ export function studiesPage(talk) {
       return;
     }
     const take = TAKE.map(([what, label]) => element("button", { type: "button", onclick: () => fetchOf(told.number, what) }, label));
-    said.replaceChildren(element("div", { class: "actions", role: "group", "aria-label": "Export" }, ...take), documentOf(told));
+    said.replaceChildren(element("div", { class: "actions", role: "group", "aria-label": "Export" }, ...take), ...told.headlines.map((/** @type {any} */ row) => element("section", { class: "card", "aria-label": `${NAMES[row.model]}: suite` }, element("h3", {}, NAMES[row.model]), headlineOf(row))), documentOf(told));
   });
 
   /** @param {number} number @param {string} what */

@@ -78,7 +78,8 @@ def _slip(record: Mapping[str, Any]) -> float:
 
 def _name(name: str) -> str:
     text = plain(name)
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
+    # Names of one event differ at their ends.
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST // 2]}…{text[1 - _LONGEST // 2 :]}"
 
 
 def _bars(axes: Axes, records: list[Mapping[str, Any]], scale: float) -> None:
@@ -134,5 +135,5 @@ def suite_spectra_figure(found: Opened) -> Figure | None:
     axes.set_xlabel("period [s]")
     axes.set_ylabel(f"pseudo-acceleration, {100.0 * spectra['damping']:.3g} % damping [g]")
     axes.set_xticks([0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0], ["0.05", "0.1", "0.2", "0.5", "1", "2", "4"])
-    axes.legend(loc="upper right", fontsize=8)
+    axes.legend(loc="upper right", fontsize=8, frameon=True, framealpha=0.9, edgecolor="none")
     return headed(figure, found, "response spectra of the records as they shake the dam")
