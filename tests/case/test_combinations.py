@@ -29,7 +29,6 @@ def refusals(*names: str) -> set[str]:
     """Return the features that the table refuses in any case that has all of these."""
     had = set(names)
     had |= {"several cracks"} if "three cracks" in had else set()
-    had |= {"elastic rock"} if "elastic rock without a crack at the base" in had else set()
     had |= {"kinks"} if "kinks off the straight line" in had else set()
     had |= {"a friction law"} if "a law with cohesion" in had else set()
     had |= {"rotation beyond small angles"} if "finite rotation" in had else set()
@@ -115,8 +114,5 @@ def test_fields_are_explained_with_what_they_do_not_go_with():
 
 
 def test_what_is_refused_of_a_part_of_a_feature_is_named():
-    """Elastic rock goes with the flexible model; without a crack at the base it does not."""
-    words = [rule.without("rock") for rule in rules_of("rock")]
-    assert "elastic rock without a crack at the base in the flexible model" in words
-    assert "the flexible model" not in words
+    """A crack goes with the rigid model; three of them do not."""
     assert "three cracks in the rigid model" in [rule.without("cracks") for rule in rules_of("cracks")]

@@ -47,8 +47,7 @@ CHANGES: dict[str, Fields] = {
     "virtual water that does not rotate": {"reservoir.virtual_mass_rotates": False},
     "Zangar's water pressure": {"reservoir.hydrodynamic": "zangar"},
     "compressible water": {"reservoir.compressible": True},
-    "elastic rock": {"rock": {"modulus": "20 GPa"}, "crack.elevation": "0 m"},
-    "elastic rock without a crack at the base": {"rock": {"modulus": "20 GPa"}},
+    "elastic rock": {"rock": {"modulus": "20 GPa"}},
     "water that follows the vertical motion": {
         "reservoir.follows_vertical_motion": True,
         "motion.vertical": {"points": [["0 s", "0 g"], ["1 s", "0.05 g"]]},
@@ -71,9 +70,6 @@ def same_field(one: str, other: str) -> bool:
 def changes_of(one: str, other: str) -> Fields:
     """Return the changes that give a case two features."""
     changes = CHANGES[one] | CHANGES[other]
-    if "elastic rock" in (one, other) and any(name.startswith("kinks") for name in (one, other)):
-        # A crack with kinks is nowhere at a base.
-        del changes["crack.elevation"]
     if {one, other} == {"damping of free parts", "penalty contact"}:
         changes["flexible.damping"] = "modal"
     return changes

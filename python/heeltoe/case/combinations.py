@@ -129,11 +129,6 @@ def _options(*fields: str, unlike: tuple[object, ...] = (None,), among: tuple[ob
     return find
 
 
-def _bonded_to_rock(case: Case) -> Found:
-    if case.rock is not None and min(crack.elevation for crack in (case.crack, *case.further_cracks)) > 0.0:
-        yield "rock.modulus", None
-
-
 def _anchors(*names: str) -> Finder:
     def find(case: Case) -> Found:
         for place, anchor in enumerate(case.anchors):
@@ -284,12 +279,6 @@ FEATURES = {
         ),
         Feature("elastic rock", ("rock",), "remove the block rock", _options("rock.modulus")),
         Feature(
-            "elastic rock without a crack at the base",
-            ("rock",),
-            "add a crack at the base, which a strong bond may hold",
-            _bonded_to_rock,
-        ),
-        Feature(
             "water that follows the vertical motion",
             ("reservoir.follows_vertical_motion", "tailwater.follows_vertical_motion"),
             "set follows_vertical_motion = false",
@@ -339,9 +328,7 @@ RULES = (
     ),
     Rule("elastic rock", "penalty contact", (), _NOT_THERE),
     Rule("elastic rock", "options of the thesis", (), "the dam of the thesis stands on a rigid plane"),
-    Rule("elastic rock", "uplift that changes during shaking", (), "the water would change what presses on the rock"),
-    Rule("elastic rock", "an anchor with stiffness", (), "the feet of anchors are held by a rigid plane"),
-    Rule("elastic rock without a crack at the base", "", ("flexible",), "no part of its dam is bonded to the rock"),
+    Rule("elastic rock", "kinks off the straight line", (), _STRAIGHT),
     Rule("three cracks", "", ("rigid",), "its blocks are two at most, one on the other"),
     Rule(
         "several cracks",

@@ -9,11 +9,18 @@ from typing import Any
 
 import numpy as np
 import pytest
+import scipy.sparse as sparse
+from scipy.sparse.linalg import spsolve
 
 from heeltoe import InputError, flexible, read_case, run
 from heeltoe.models.flexible.body import rock as rock_module
-from heeltoe.models.flexible.body.reduced import _KEPT
+from heeltoe.models.flexible.body.bonded import bonded_dam
+from heeltoe.models.flexible.body.elastic import dofs
+from heeltoe.models.flexible.body.reduced import _KEPT, build_flexible_dam, damped
+from heeltoe.models.flexible.body.rock import founded, rock_material
 from heeltoe.models.flexible.result.history import crack_table
+from heeltoe.models.flexible.surroundings.response import base_nodes
+from heeltoe.models.flexible.surroundings.rock import full_rock
 from shared.dams import example
 
 PULSES = [["0 s", "0 g"], ["0.1 s", "0.6 g"], ["0.3 s", "-0.9 g"], ["0.5 s", "0.9 g"], ["0.6 s", "0 g"]]
@@ -46,7 +53,12 @@ CASES = {
         motion={"points": PULSES, "vertical": {"points": [["0 s", "0 g"], ["0.2 s", "0.3 g"], ["0.5 s", "0 g"]]}}
     ),
     "uplift": dam(uplift={"pattern": "triangular"}, tailwater={"depth": "6 m"}),
+    "uplift that changes": dam(uplift={"pattern": "triangular", "during_shaking": "zero while open"}),
+    "anchor": dam(anchors=[{"distance": "8 m", "prestress": "1 MN/m", "axial_stiffness": "40 MN/m/m"}]),
 }
+HIGH = {"elevation": "6 m", "friction": 0.8}
+CASES |= {f"{name}, bonded to the rock": case | {"crack": case["crack"] | HIGH} for name, case in CASES.items()}
+del CASES["law, bonded to the rock"]["crack"]["friction"]
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -60,22 +72,27 @@ def test_the_ledger_closes_and_energy_leaves_in_the_rock(name):
     assert response.dam.contact_residual < 1e-9
 
 
-def test_without_an_earthquake_nothing_moves():
+@pytest.mark.parametrize("crack", [DAM["crack"], HIGH], ids=["cracked at the base", "bonded to the rock"])
+def test_without_an_earthquake_nothing_moves(crack):
     still = {"points": [["0 s", "0 g"], ["1 s", "0 g"]], "allow_zero": True}
-    response = run(read_case(dam(motion=still)), "flexible")
+    response = run(read_case(dam(motion=still, crack=crack)), "flexible")
     assert response.residual_slip_m == 0.0
     assert response.energy.input_j == 0.0
     assert response.energy.rock_j == 0.0
     assert not np.any(response.histories["slip_m"])
 
 
-def test_stiff_rock_is_a_rigid_plane():
-    rigid = dam()
+@pytest.mark.parametrize("crack", [DAM["crack"], HIGH], ids=["cracked at the base", "bonded to the rock"])
+def test_stiff_rock_is_a_rigid_plane(crack):
+    rigid = dam(crack=crack)
     del rigid["rock"]
     plane = run(read_case(rigid), "flexible")
-    stiff = run(read_case(dam(rock={"modulus": "25 TPa"})), "flexible")
+    stiff = run(read_case(dam(crack=crack, rock={"modulus": "25 TPa"})), "flexible")
     assert stiff.residual_slip_m == pytest.approx(plane.residual_slip_m, rel=2e-3)
-    assert stiff.energy.rock_j < 1e-3 * stiff.energy.input_j
+    # Of a dam bonded to the rock a part of the damping of the concrete counts with the rock.
+    taken = stiff.energy.rock_j + stiff.energy.damping_j
+    assert taken == pytest.approx(plane.energy.damping_j, rel=2e-2)
+    assert stiff.energy.rock_j < 2e-3 * stiff.energy.input_j
     assert plane.energy.rock_j == 0.0
 
 
@@ -100,7 +117,7 @@ def test_a_larger_box_answers_the_same(monkeypatch):
     assert larger == pytest.approx(usual, rel=0.02)
 
 
-def test_a_base_that_is_not_level_and_a_dam_that_is_bonded_to_the_rock_are_refused():
+def test_a_base_that_is_not_level_is_refused():
     tilted = dam(
         section={"polygon": [["0 m", "0 m"], ["20 m", "2 m"], ["5 m", "30 m"], ["0 m", "30 m"]]},
         crack={"elevation": "0 m", "inclination": f"{math.degrees(math.atan(0.1))} deg", "friction": 0.8},
@@ -108,8 +125,81 @@ def test_a_base_that_is_not_level_and_a_dam_that_is_bonded_to_the_rock_are_refus
     with pytest.raises(InputError) as refused:
         flexible(read_case(tilted))
     assert refused.value.code == "rock-level"
-    with pytest.raises(InputError, match="add a crack at the base"):
-        flexible(read_case(dam(crack={"elevation": "6 m", "friction": 0.8})))
+
+
+def test_dam_and_rock_as_one_body_answer_as_all_their_elements_do():
+    case = read_case(dam(crack=HIGH))
+    bonded = bonded_dam(case)
+    lowest = bonded.bodies[-1]
+    whole = founded(case, bonded)
+    nodes = base_nodes(lowest)
+    rock = full_rock(lowest.mesh.nodes[nodes], rock_material(case.rock))
+    # The unknowns of the part, those of its base shared with the rock.
+    own, extra = lowest.load.size, rock.mass.shape[0] - 2 * nodes.size
+    joined = np.concatenate([dofs(nodes), own + np.arange(extra)])
+    pushed = np.column_stack(
+        [np.eye(own)[:, dofs(lowest.mesh.faces[0])[::5]], lowest.mass @ np.tile([1.0, 0.0], own // 2)]
+    )
+
+    def all_of(part, below):
+        coordinates = below.tocoo()
+        total = sparse.lil_matrix((own + extra, own + extra), dtype=complex)
+        total[:own, :own] = part
+        placed = (coordinates.data, (joined[coordinates.row], joined[coordinates.col]))
+        return sparse.csc_matrix(total) + sparse.csc_matrix(placed, shape=total.shape)
+
+    for frequency in (0.5, 3.0, 8.0, 15.0):
+        omega = 2.0 * math.pi * frequency
+        operator = all_of(
+            lowest.stiffness - omega**2 * lowest.mass,
+            rock.stiffness - omega**2 * rock.mass + 1j * omega * (rock.damping_material + rock.damping_radiation),
+        )
+        exact = spsolve(operator, sparse.csc_matrix(np.vstack([pushed, np.zeros((extra, pushed.shape[1]))])))[:own]
+        few = np.diag(whole.modes.omega_squared - omega**2) + 1j * omega * whole.rock
+        ours = whole.modes.shapes @ np.linalg.solve(few, whole.modes.shapes.T @ pushed)
+        met = dofs(lowest.mesh.faces[0])
+        assert np.abs(ours - exact.toarray())[met].max(axis=0) == pytest.approx(
+            np.zeros(pushed.shape[1]), abs=0.01 * np.abs(exact.toarray()[met]).max()
+        )
+
+
+def test_a_mirrored_dam_on_rock_slides_the_other_way():
+    even = {"polygon": [["0 m", "0 m"], ["20 m", "0 m"], ["14 m", "30 m"], ["6 m", "30 m"]]}
+    one, other = (
+        run(
+            read_case(
+                dam(
+                    section=even, crack={"elevation": "6 m", "friction": 0.5}, reservoir=None, motion={"points": points}
+                )
+            ),
+            "flexible",
+        )
+        for points in (PULSES, [[time, f"{-float(value.split()[0])} g"] for time, value in PULSES])
+    )
+    assert abs(one.residual_slip_m) > 1e-3
+    assert other.residual_slip_m == pytest.approx(-one.residual_slip_m, rel=1e-3)
+    assert other.energy.rock_j == pytest.approx(one.energy.rock_j, rel=1e-6)
+
+
+def test_a_thin_layer_bonded_to_the_rock_hardly_matters():
+    """A crack just above the base is one at the base."""
+    thin = run(read_case(dam(crack={"elevation": "0.5 m", "friction": 0.8})), "flexible")
+    none = run(read_case(dam()), "flexible")
+    assert thin.residual_slip_m == pytest.approx(none.residual_slip_m, rel=0.05)
+    assert thin.energy.rock_j == pytest.approx(none.energy.rock_j, rel=0.1)
+
+
+def test_twice_the_damping_is_that_of_the_concrete():
+    case = read_case(dam(crack=HIGH))
+    dam_on_rock = build_flexible_dam(case)
+    twice = damped(case, dam_on_rock, 2.0)
+    whole = founded(case, bonded_dam(case))
+    for one, factor in ((dam_on_rock, 1.0), (twice, 2.0)):
+        part = one.reduced[-1]
+        own = np.diag(part.damping_sticking) + part.boundary - whole.rock
+        assert own == pytest.approx(
+            factor * (np.diag(dam_on_rock.reduced[-1].damping_sticking) + dam_on_rock.damping.between)
+        )
 
 
 def test_the_surface_goes_on_beyond_the_toe():

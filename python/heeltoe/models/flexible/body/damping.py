@@ -6,7 +6,7 @@ and a few rows d over the modes of both parts, the dashpots, with signs s."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,10 +39,14 @@ class Damping:
         (k,) 1 for dashpots that take energy, -1 for those that give back what the mass of the water is damped with.
     coefficients
         Rayleigh coefficients of mass [1/s] and stiffness [s]; None with `modal`.
+    of_stiffness
+        That of the stiffness, with `modal`, too [s].
     periods
         Longest periods of the intact dam with its water [s], at most five.
     ratios
         Share of critical damping that these modes really get while the crack sticks.
+    between
+        (m, m) what couples the modes of the lowest part [1/s], where the rock is one body with it; (0, 0) elsewhere.
     """
 
     sticking: tuple[Floats, ...]
@@ -50,8 +54,10 @@ class Damping:
     dashpots: tuple[Floats, ...]
     signs: Floats
     coefficients: tuple[float, float] | None
+    of_stiffness: float
     periods: Floats
     ratios: Floats
+    between: Floats = field(default_factory=lambda: np.empty((0, 0)))
 
     def scaled(self, factor: float) -> Damping:
         """Return so many times this damping."""
@@ -61,9 +67,29 @@ class Damping:
             tuple(math.sqrt(factor) * d for d in self.dashpots),
             self.signs,
             None if self.coefficients is None else (factor * self.coefficients[0], factor * self.coefficients[1]),
+            factor * self.of_stiffness,
             self.periods,
             factor * self.ratios,
+            factor * self.between,
         )
+
+    def founded(self, held: Floats, bent: Floats) -> Damping:
+        """Return the same damping of the concrete where the lowest part is one body with the rock.
+
+        The mass of that part is damped relative to the motion of its base. Damping couples the modes of both.
+
+        Parameters
+        ----------
+        held
+            (h, m) share of each of its modes on a base that is still in each mode of both.
+        bent
+            (m, m) stiffness of the concrete that the motion of its base bends [1/s2].
+        """
+        between = held.T @ (self.sticking[-1][:, None] * held) + self.of_stiffness * bent
+        own = np.diag(between).copy()
+        dashpots = (*self.dashpots[:-1], self.dashpots[-1] @ held)
+        sticking, free = ((*of_parts[:-1], own) for of_parts in (self.sticking, self.free))
+        return replace(self, sticking=sticking, free=free, dashpots=dashpots, between=between - np.diag(own))
 
 
 def damping_of(case: Case, dam: Dam, modes: tuple[Modes, ...]) -> Damping:
@@ -112,7 +138,7 @@ def damping_of(case: Case, dam: Dam, modes: tuple[Modes, ...]) -> Damping:
     if dry:
         signs[sum(len(lag[0]) for lag in lags) :] = -1.0
     ratios = _ratios(sticking, (rows, signs), omega, bonded)[:TOLD]
-    return Damping(sticking, free, rows, signs, coefficients, periods, ratios)
+    return Damping(sticking, free, rows, signs, coefficients, stiffness, periods, ratios)
 
 
 def _own(modes: Modes, ratio: float) -> Floats:

@@ -141,13 +141,29 @@ def bonded_state(dam: Dam) -> tuple[tuple[Floats, ...], tuple[Floats, ...]]:
 
     load = np.concatenate([body.load for body in dam.bodies])
     stiffness = (dam.tie.T @ side_by_side(dam, "stiffness") @ dam.tie).tocsc()
-    displacements = dam.tie @ splu(stiffness).solve(dam.tie.T @ load)
+    return crack_forces(dam, dam.tie @ splu(stiffness).solve(dam.tie.T @ load))
+
+
+def crack_forces(dam: Dam, displacements: Floats) -> tuple[tuple[Floats, ...], tuple[Floats, ...]]:
+    """Return what :func:`bonded_state` does, of the displacements of one part after the other."""
     moved = np.split(displacements, np.cumsum([body.load.size for body in dam.bodies])[:-1])
     forces = [
         (body.stiffness @ displacement - body.load)[dofs(body.mesh.faces[-1])]
         for body, displacement in zip(dam.bodies[: dam.free], moved, strict=False)
     ]
     return tuple(moved), tuple(forces)
+
+
+def base_shapes(dam: Dam, held: Integers) -> Floats:
+    """Return the static shapes of the dam with its cracks bonded for a unit displacement of each of k degrees of
+    freedom of its base, (2 n, k) of one part after the other."""
+    from scipy.sparse.linalg import splu
+
+    stiffness = side_by_side(dam, "stiffness")
+    moved = stiffness[:, held].toarray()
+    shapes: Floats = -(dam.tie @ splu((dam.tie.T @ stiffness @ dam.tie).tocsc()).solve(dam.tie.T @ moved))
+    shapes[held, np.arange(held.size)] += 1.0
+    return shapes
 
 
 def side_by_side(dam: Dam, name: str) -> Sparse:
@@ -347,6 +363,12 @@ def _tie(mesh: DamMesh) -> Sparse:
     row, place, value = (np.concatenate(item) for item in (rows, columns, values))
     entries = (place >= 0) & (value != 0.0)
     return sparse.csr_array((value[entries], (row[entries], place[entries])), (starts[-1], count))
+
+
+def held_alone(body: Body) -> Sparse:
+    """Return the tie of a part by itself, its base held."""
+    free = np.setdiff1d(np.arange(body.load.size), dofs(body.mesh.fixed))
+    return sparse.csr_array((np.ones(free.size), (free, np.arange(free.size))), (body.load.size, free.size))
 
 
 def _led(upper: BodyMesh, lower: BodyMesh) -> tuple[Integers, Floats]:

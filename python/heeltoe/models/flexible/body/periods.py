@@ -9,6 +9,7 @@ from typing import Any
 
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError, expect
+from heeltoe.models.flexible.body.bonded import bonded_dam
 from heeltoe.models.flexible.body.modes import intact_periods, part_periods
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.surroundings.amplification import Amplification, crest_amplification
@@ -126,7 +127,7 @@ def dam_periods(case: Case, count: int = COUNT, *, response: bool = False, field
     expect(case, Case, "not-a-case", "case")
     if not 1 <= count <= _MOST:
         raise InputError("period-count", field, count, most=_MOST)
-    dam, massed = build_flexible_dam(case), build_flexible_dam(case.with_water_as_mass())
+    dam, massed = build_flexible_dam(case), bonded_dam(case.with_water_as_mass())
     elevations = tuple(crack.elevation for crack in case.cracks)
     names = _names(elevations, len(dam.modes))
     return DamPeriods(

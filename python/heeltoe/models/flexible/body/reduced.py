@@ -20,12 +20,13 @@ from heeltoe.mechanics.friction import law_of
 from heeltoe.models.flexible.body.bond import kernel_bond
 from heeltoe.models.flexible.body.bonded import NOT_OF_DAM, BondedDam, bonded_dam, case_key
 from heeltoe.models.flexible.body.damping import Damping, damping_of
-from heeltoe.models.flexible.body.elastic import Body
+from heeltoe.models.flexible.body.elastic import Body, crack_forces
 from heeltoe.models.flexible.body.inside import CrackAnchor, FollowingWater, crack_anchors, following_water
 from heeltoe.models.flexible.body.modes import Modes
 from heeltoe.models.flexible.body.reservoir import WaterBody, water_body
-from heeltoe.models.flexible.body.rock import RockBody, rock_body
+from heeltoe.models.flexible.body.rock import RockBody, founded, rock_body
 from heeltoe.models.flexible.body.rocking_thresholds import elastic_give
+from heeltoe.models.flexible.body.stress_places import stress_places
 from heeltoe.models.flexible.mesh.kinks import angles
 
 
@@ -50,7 +51,8 @@ class ReducedBody:
         (w, m) rows of the modes of the water with sound, see
         :class:`heeltoe.models.flexible.surroundings.water.ReducedWater`; as many on the other body.
     boundary
-        (m, m) damping of the boundary of the rock [1/s]; (0, 0) where there is none.
+        (m, m) damping of the boundary of the rock [1/s], of a part that is one body with the rock with what of its own
+        couples modes; (0, 0) where there is none.
     """
 
     omega_squared: Floats
@@ -119,7 +121,7 @@ class FlexibleDam(BondedDam):
     reservoir
         The compressible water before it, if there is any.
     rock
-        The rock below it, if it is elastic.
+        The rock below the crack at its base, if it is elastic.
     """
 
     section: CutSection
@@ -175,12 +177,23 @@ def _build(case: Case) -> FlexibleDam:
     sections = tuple(single_crack_case.cut for single_crack_case in case.single_crack_cases)
     damping = damping_of(case, bonded, modes)
     reservoir = water_body(case, bodies)
+    whole = founded(case, bonded)
+    if whole is not None:
+        damping = damping.founded(whole.held, whole.bent)
+        modes = (*modes[:-1], whole.modes)
+        seen = (*bonded.stress_places[:-1], stress_places(bodies[-1], whole.modes))
+        bent, forces = crack_forces(bonded, whole.displacements)
+        bonded = replace(bonded, modes=modes, stress_places=seen, bent=bent, bonded_forces=forces)
     reduced = tuple(
         _reduced(body, basis, still, damping, place, sections, reservoir)
         for place, (body, basis, still) in enumerate(zip(bodies, modes, bonded.bent, strict=True))
     )
-    water, anchors = following_water(case, bodies), crack_anchors(case, bodies)
+    if whole is not None:
+        part = reduced[-1]
+        part = replace(part, boundary=whole.rock + damping.between, start=part.start + whole.settled)
+        reduced = (*reduced[:-1], part)
     rock = rock_body(case, bodies[-1])
+    water, anchors = following_water(case, bodies, rock), crack_anchors(case, bodies, rock)
     lines = _lines(case, bonded, rock)
     kernel = _cracked(case, reduced, water, anchors, lines, reservoir, rock)
     # The penalty method begins with its crack bonded and its springs unloaded.
@@ -314,6 +327,9 @@ def damped(case: Case, dam: FlexibleDam, factor: float) -> FlexibleDam:
             dam.reduced, damping.sticking, damping.free, damping.dashpots, strict=True
         )
     )
+    if damping.between.size:
+        boundary = reduced[-1].boundary + (damping.between - dam.damping.between)
+        reduced = (*reduced[:-1], replace(reduced[-1], boundary=boundary))
     kernel = _cracked(case, reduced, dam.water, dam.anchors, dam.lines, dam.reservoir, dam.rock)
     return replace(dam, reduced=reduced, damping=damping, kernel=kernel)
 

@@ -1,17 +1,22 @@
-"""The rock below a meshed dam, tied to the crack at its base by contact, ready for the kernel."""
+"""The rock below a meshed dam, ready for the kernel: under a crack at its base, or one body with its lowest part."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import eigh
 
 from heeltoe.base.arrays import Floats
 from heeltoe.base.cache import Kept
 from heeltoe.case.dam import Rock
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
-from heeltoe.models.flexible.body.elastic import Body
+from heeltoe.models.flexible.body.bonded import BondedDam
+from heeltoe.models.flexible.body.elastic import Body, Dam, base_shapes, dofs, held_alone, side_by_side
+from heeltoe.models.flexible.body.modes import Modes
+from heeltoe.models.flexible.surroundings.reduction import congruent
+from heeltoe.models.flexible.surroundings.response import base_nodes
 from heeltoe.models.flexible.surroundings.rock import EXTENT, ReducedRock, RockMaterial, reduced_rock
 
 # Frequency [Hz] up to which the rock answers well.
@@ -37,16 +42,97 @@ class RockBody:
         (m, 2 k) motion of the nodes of the surface, all downstream, then all upward.
     points
         (k, 2) where these are, x and z [m].
+    beyond
+        How many of them are beyond the heel, and beyond the toe.
     """
 
     omega_squared: Floats
     damping: Floats
     shapes: Floats
     points: Floats
+    beyond: int = 2 * _BEYOND
+
+
+@dataclass(frozen=True, eq=False)
+class Founded:
+    """A dam whose lowest part is bonded to the rock and one body with it; m modes of both, h of the part on a base that
+    is still.
+
+    Attributes
+    ----------
+    modes
+        Of both; their shapes are those of the nodes of the part.
+    held
+        (h, m) share of each mode of both in those of the part on a base that is still.
+    bent
+        (m, m) stiffness of the concrete that the motion of its base bends [1/s2].
+    rock
+        (m, m) damping of the rock [1/s].
+    displacements
+        Of all parts under the static loads, the cracks bonded, one after the other [m].
+    settled
+        (m,) state of the rock then.
+    """
+
+    modes: Modes
+    held: Floats
+    bent: Floats
+    rock: Floats
+    displacements: Floats
+    settled: Floats
+
+
+def founded(case: Case, bonded: BondedDam, *, larger: float = 1.0) -> Founded | None:
+    """Return a dam whose lowest part, below all cracks, is one body with the rock; None on a rigid plane, or where the
+    dam is cracked at its base.
+
+    The part moves by its modes on a base that is still and by its static shapes for the motion of the nodes of that
+    base (Craig and Bampton 1968), which the rock shares with it. The earthquake acts on the mass of the part alone.
+
+    Parameters
+    ----------
+    case
+        With `rock`.
+    bonded
+        The dam on a rigid plane.
+    larger
+        Factor on the extent of the rock that is meshed.
+    """
+    lowest, held = bonded.bodies[-1], bonded.modes[-1]
+    if case.rock is None or not lowest.mesh.fixed.size:
+        return None
+    nodes = base_nodes(lowest)
+    rock = _rock_below(lowest.mesh.nodes[nodes], case.rock, larger)
+    load = np.concatenate([body.load for body in bonded.bodies])
+    # Of the whole dam, for the settlement, and of the part alone.
+    every = base_shapes(bonded, load.size - lowest.load.size + dofs(nodes)) @ rock.shapes
+    spring = np.diag(rock.omega_squared) + congruent(side_by_side(bonded, "stiffness"), every)
+    settled = np.linalg.solve(spring, every.T @ load)
+    below = base_shapes(Dam((lowest,), held_alone(lowest)), dofs(nodes)) @ rock.shapes
+    count = held.omega_squared.size
+    mass = np.eye(count + settled.size)
+    mass[:count, count:] = held.shapes.T @ (lowest.mass @ below)
+    mass[count:, :count] = mass[:count, count:].T
+    mass[count:, count:] += congruent(lowest.mass, below)
+    bent = congruent(lowest.stiffness, below)
+    stiffness = np.diag(np.concatenate([held.omega_squared, rock.omega_squared]))
+    stiffness[count:, count:] += bent
+    squares, vectors = eigh(stiffness, mass)
+    own, moved = vectors[:count], vectors[count:]
+    modes = Modes(squares, held.shapes @ own + below @ moved, 0, squares.size, held.total + settled.size, True)
+    return Founded(
+        modes,
+        own,
+        congruent(bent, moved),
+        congruent(rock.damping, moved),
+        np.concatenate(bonded.bent) + every @ settled,
+        moved.T @ settled,
+    )
 
 
 def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | None:
-    """Return the rock below the part of the dam that stands on it by a crack; None on a rigid plane.
+    """Return the rock below the part of the dam that stands on it by a crack; None on a rigid plane, and where the dam
+    is bonded to the rock.
 
     Parameters
     ----------
@@ -62,7 +148,7 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
     InputError
         Where the base is not level.
     """
-    if case.rock is None:
+    if case.rock is None or lowest.mesh.fixed.size:
         return None
     cut = case.single_crack_cases[-1].cut
     base = lowest.mesh.nodes[lowest.mesh.faces[-1]]
@@ -73,14 +159,17 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
     ahead = [base[0] - (_BEYOND - k / 2.0) * first for k in range(2 * _BEYOND)]
     behind = [base[-1] + (k + 1) / 2.0 * last for k in range(2 * _BEYOND)]
     points = np.vstack([*ahead, base, *behind])
-    material = rock_material(case.rock)
-    extent = larger * EXTENT
-    # The same rock lies below dams that differ in all else.
-    key = (points.tobytes(), material, extent)
-    reduced = _KEPT.get(key, lambda: reduced_rock(points, material, highest=_HIGHEST, extent=extent))
+    reduced = _rock_below(points, case.rock, larger)
     count = reduced.omega_squared.size
     shapes = reduced.shapes.T.reshape(count, -1, 2).swapaxes(1, 2).reshape(count, -1)
     return RockBody(reduced.omega_squared, reduced.damping, np.ascontiguousarray(shapes), points)
+
+
+def _rock_below(points: Floats, rock: Rock, larger: float) -> ReducedRock:
+    material, extent = rock_material(rock), larger * EXTENT
+    # The same rock lies below dams that differ in all else.
+    key = (points.tobytes(), material, extent)
+    return _KEPT.get(key, lambda: reduced_rock(points, material, highest=_HIGHEST, extent=extent))
 
 
 def rock_material(rock: Rock) -> RockMaterial:

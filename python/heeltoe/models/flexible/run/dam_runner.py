@@ -157,7 +157,7 @@ class ShakenDam:
 
     @cached_property
     def _shaken_dam(self) -> CrackedDam:
-        return self.dam.kernel.under(rising_water(self.case, self.dam.bodies, self.shaking.drainage))
+        return self.dam.kernel.under(rising_water(self.case, self.dam.bodies, self.dam.rock, self.shaking.drainage))
 
     def _ground(self, step: float) -> tuple[int, float, Floats]:
         """Return how many steps of about this length make the whole run, their length [s], and what the kernel needs to
