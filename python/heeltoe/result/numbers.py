@@ -371,13 +371,19 @@ class HeadlineWorth(Block):
 
     value: Annotated[float, Number("The number to trust: that of the run, or the mean where single runs scatter.")]
     run: Annotated[float, Number("The number of the run itself.")]
-    uncertainty: Annotated[float, Number("How far it may be off: what step, mesh and shaking move it by, together.")]
+    uncertainty: Annotated[
+        float, Number("How far it may be off: what step, mesh, shaking and surroundings move it by, together.")
+    ]
     step: Annotated[float, Number("By how much another time step moves it.")]
     mesh: Annotated[float | None, Number("By how much another mesh moves it; null where there is none beside it.")]
     shaking: Annotated[
         float | None,
         Number("Standard deviation over runs with the shaking varied by up to 1 %; null where there are none."),
     ]
+    surroundings: Annotated[
+        float | None,
+        Number("By how much rock and water with sound that reach 1.5 times as far move it; null where there are none."),
+    ] = None
 
 
 class EvidenceNumbers(Block):
@@ -388,7 +394,7 @@ class EvidenceNumbers(Block):
     value_is: Annotated[
         str, Number("Whether the numbers to trust are those of the run, or means over runs that scatter.")
     ]
-    moved_most_by: Annotated[str, Number("What moves the residual slip most: step, mesh or shaking.")]
+    moved_most_by: Annotated[str, Number("What moves the residual slip most: step, mesh, shaking or surroundings.")]
     allowed_m: Annotated[float, Number("How uncertain a slip may be that is said to be converged.", "m")]
     time_step_s: Annotated[float, Number("Time step of the run.", "s")]
     other_time_step_s: Annotated[float, Number("Time step of the run beside it.", "s")]

@@ -15,10 +15,12 @@ from scipy.sparse.linalg import spsolve
 from heeltoe import InputError, flexible, read_case, run
 from heeltoe.models.flexible.body import rock as rock_module
 from heeltoe.models.flexible.body.bonded import bonded_dam
+from heeltoe.models.flexible.body.cost import surroundings_of
 from heeltoe.models.flexible.body.elastic import dofs
 from heeltoe.models.flexible.body.reduced import _KEPT, build_flexible_dam, damped
 from heeltoe.models.flexible.body.rock import founded, rock_material
 from heeltoe.models.flexible.result.history import crack_table
+from heeltoe.models.flexible.run.expected import analysing
 from heeltoe.models.flexible.surroundings.response import base_nodes
 from heeltoe.models.flexible.surroundings.rock import full_rock
 from shared.dams import example
@@ -115,6 +117,21 @@ def test_a_larger_box_answers_the_same(monkeypatch):
     _KEPT.clear()
     assert larger != usual
     assert larger == pytest.approx(usual, rel=0.02)
+
+
+@pytest.mark.parametrize("name", ["plain", "sound, bonded to the rock"])
+def test_evidence_tells_what_the_extent_of_rock_and_water_is_worth(name):
+    case = read_case(CASES[name] | {"flexible": {"elements_across": 4}})
+    response = run(case, "flexible")
+    worth = response.summary["evidence"]["residual_slip_m"]
+    assert 0.0 < worth["surroundings"] < 0.02 * response.residual_slip_m
+    parts = sum(worth[part] for part in ("step", "mesh", "shaking", "surroundings"))
+    assert worth["uncertainty"] == max(parts, 0.03 * worth["value"], 0.5e-4)
+    rigid = CASES[name] | {"flexible": {"elements_across": 4}, "reservoir": {"depth": "26 m"}}
+    del rigid["rock"]
+    before = analysing(read_case(rigid), 1.0, 0.01)
+    assert analysing(case, 1.0, 0.01).seconds > before.seconds + 3.0 * surroundings_of(case).seconds
+    assert run(read_case(rigid), "flexible").summary["evidence"]["residual_slip_m"]["surroundings"] is None
 
 
 def test_a_base_that_is_not_level_is_refused():

@@ -35,6 +35,7 @@ _FLEXIBLE = (
     ("Of that, by the time step", "evidence.residual_slip_m.step", "displacement"),
     ("Of that, by the mesh", "evidence.residual_slip_m.mesh", "displacement"),
     ("Of that, by the shaking, 0.99 to 1.01 times", "evidence.residual_slip_m.shaking", "displacement"),
+    ("Of that, by rock and water that reach 1.5 times as far", "evidence.residual_slip_m.surroundings", "displacement"),
     ("Uncertainty that is allowed", "evidence.allowed_m", None),
     ("Slip under the static loads before the shaking", "before_shaking.slip_m", "displacement"),
     ("Nodes of the crack that open then", "before_shaking.open_contacts", None),

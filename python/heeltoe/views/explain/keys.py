@@ -160,6 +160,10 @@ def _plain(text: str) -> str:
     return " ".join(re.sub(r"\bNone\b", "null", bare).split())
 
 
+# What a number is worth, whose unit is that of the number.
+_OF_A_NUMBER = ["mean", "std", "min", "max", "value", "run", "uncertainty", "step", "mesh", "shaking", "surroundings"]
+
+
 def unit_of(name: str) -> str:
     """Return the unit that the name of a key or a column ends in; empty where it says none."""
     parts = [part.removesuffix("[]") for part in name.split(".") if part != "*"]
@@ -167,6 +171,6 @@ def unit_of(name: str) -> str:
         for ending, unit in _UNITS.items():
             if part.endswith(ending):
                 return unit
-        if part not in ("mean", "std", "min", "max", "value", "run", "uncertainty", "step", "mesh", "shaking"):
+        if part not in _OF_A_NUMBER:
             break
     return ""

@@ -159,8 +159,9 @@ _KEPT: Kept[FlexibleDam] = Kept(4)
 
 
 @one_blas_thread()
-def build_flexible_dam(case: Case) -> FlexibleDam:
-    """Mesh, assemble and reduce both parts of a case; the last few are kept, by all that they depend on.
+def build_flexible_dam(case: Case, larger: float = 1.0) -> FlexibleDam:
+    """Mesh, assemble and reduce both parts of a case; the last few are kept, by all that they depend on. Rock and water
+    with sound reach so many times `larger` as far as they need.
 
     Raises
     ------
@@ -168,16 +169,16 @@ def build_flexible_dam(case: Case) -> FlexibleDam:
         Where the case has no modulus, or a mesh cannot be made or used.
     """
     expect(case, Case, "not-a-case", "case")
-    return _KEPT.get(case_key(case, NOT_OF_DAM), lambda: _build(case))
+    return _KEPT.get((larger, case_key(case, NOT_OF_DAM)), lambda: _build(case, larger))
 
 
-def _build(case: Case) -> FlexibleDam:
+def _build(case: Case, larger: float) -> FlexibleDam:
     bonded = bonded_dam(case)
     bodies, modes = bonded.bodies, bonded.modes
     sections = tuple(single_crack_case.cut for single_crack_case in case.single_crack_cases)
     damping = damping_of(case, bonded, modes)
-    reservoir = water_body(case, bodies)
-    whole = founded(case, bonded)
+    reservoir = water_body(case, bodies, longer=larger)
+    whole = founded(case, bonded, larger=larger)
     if whole is not None:
         damping = damping.founded(whole.held, whole.bent)
         modes = (*modes[:-1], whole.modes)
@@ -192,7 +193,7 @@ def _build(case: Case) -> FlexibleDam:
         part = reduced[-1]
         part = replace(part, boundary=whole.rock + damping.between, start=part.start + whole.settled)
         reduced = (*reduced[:-1], part)
-    rock = rock_body(case, bodies[-1])
+    rock = rock_body(case, bodies[-1], larger=larger)
     water, anchors = following_water(case, bodies, rock), crack_anchors(case, bodies, rock)
     lines = _lines(case, bonded, rock)
     kernel = _cracked(case, reduced, water, anchors, lines, reservoir, rock)

@@ -21,8 +21,13 @@ FLOOR, FLOOR_M = 0.03, 0.5 * JOINT_METER_M
 BUDGET = 20.0
 
 
-#: What people call the three.
-MOVED_BY = {"step": "the time step", "mesh": "the mesh", "shaking": "the last per cent of the shaking"}
+#: What people call what moves a number.
+MOVED_BY = {
+    "step": "the time step",
+    "mesh": "the mesh",
+    "shaking": "the last per cent of the shaking",
+    "surroundings": "how far rock and water reach",
+}
 
 
 def allowed(slip: float) -> float:
@@ -46,6 +51,8 @@ class Worth:
         Standard deviation of the runs with the shaking varied by up to 1 %; None as well.
     least
         Less than this is never said, in the unit of the number.
+    surroundings
+        By how much rock and water with sound that reach farther move it; None where there are none.
     """
 
     value: float
@@ -54,17 +61,21 @@ class Worth:
     mesh: float | None
     shaking: float | None
     least: float = 0.0
+    surroundings: float | None = None
+
+    @property
+    def _parts(self) -> dict[str, float]:
+        return {name: getattr(self, name) or 0.0 for name in MOVED_BY}
 
     @property
     def uncertainty(self) -> float:
-        """The three together, and never less than what two meshes or two steps that agree by chance may hide."""
-        return max(self.step + (self.mesh or 0.0) + (self.shaking or 0.0), FLOOR * abs(self.value), self.least)
+        """All together, and never less than what two meshes or two steps that agree by chance may hide."""
+        return max(sum(self._parts.values()), FLOOR * abs(self.value), self.least)
 
     @property
     def most(self) -> str:
-        """Which of the three moves it most."""
-        parts = {"step": self.step, "mesh": self.mesh or 0.0, "shaking": self.shaking or 0.0}
-        return max(parts, key=lambda name: parts[name])
+        """Which of them moves it most."""
+        return max(MOVED_BY, key=lambda name: self._parts[name])
 
     def numbers(self) -> HeadlineWorth:
         """Return what the result says of it."""
@@ -75,6 +86,7 @@ class Worth:
             step=self.step,
             mesh=self.mesh,
             shaking=self.shaking,
+            surroundings=self.surroundings,
         )
 
 
@@ -85,7 +97,7 @@ class Evidence:
     Attributes
     ----------
     asked
-        ``"step"``: half the step alone; ``"full"``: the next mesh and the shaking, too.
+        ``"step"``: half the step alone; ``"full"``: the next mesh, the shaking and the extent of rock and water, too.
     mean
         Whether the numbers to trust are means over the runs with the shaking varied, as single runs scatter.
     worth

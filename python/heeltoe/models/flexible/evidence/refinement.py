@@ -11,6 +11,7 @@ import numpy as np
 from heeltoe.base.arrays import Floats
 from heeltoe.case.options import Flexible
 from heeltoe.kernel.dam import DamRun
+from heeltoe.models.flexible.body.cost import wave_bodies
 from heeltoe.models.flexible.body.reduced import FlexibleDam
 from heeltoe.models.flexible.evidence.evidence import BUDGET, FLOOR_M, Evidence, Worth, allowed
 from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
@@ -115,11 +116,17 @@ def _finer(evidences: Evidence, level: Level, options: Flexible) -> Level | None
 
 
 def _worth(
-    key: str, value: float, run: float, other: float, mesh: float | None, varied: Sequence[Floats] | None
+    key: str,
+    value: float,
+    run: float,
+    other: float,
+    mesh: float | None,
+    varied: Sequence[Floats] | None,
+    surroundings: float | None,
 ) -> Worth:
     deviation = None if varied is None else max(float(runs.std(ddof=1)) for runs in varied)
     least = FLOOR_M if key.endswith("_m") else 0.0
-    return Worth(value, run, abs(run - other), mesh, deviation, least)
+    return Worth(value, run, abs(run - other), mesh, deviation, least, surroundings)
 
 
 def _moved_by_mesh(
@@ -155,6 +162,10 @@ class _Stand:
         self._halvings = min(level.halvings, self._step.halvings)
         #: The other mesh, None where there is none.
         self.mesh = self._beside() if full else None
+        #: The same with rock and water that reach farther, where there are any.
+        self._larger = replace(self._cheap, larger=True) if full and wave_bodies(shaken.case) else None
+        if self._larger is not None:
+            trials.dam_of(self._larger.mesh, larger=True)
 
     def _beside(self) -> Level | None:
         if self._options.mesh_above or self._options.mesh_below:
@@ -187,8 +198,9 @@ class _Stand:
             wanted += [(self._cheap, SCALES), (self._own, SCALES if means else _AS_IT_IS)]
             if self.mesh is not None:
                 wanted.append((self.mesh, SCALES if means else _AS_IT_IS))
-            if self._third is not None:
-                wanted.append((self._third, SCALES if means else _AS_IT_IS))
+            for level in (self._third, self._larger):
+                if level is not None:
+                    wanted.append((level, SCALES if means else _AS_IT_IS))
         return wanted
 
     def evidences(self, *, spent: bool = False) -> tuple[Evidence, ...]:
@@ -214,6 +226,8 @@ class _Stand:
         beside = None if self.mesh is None else trials.numbers(self.mesh, scales, crack)
         own = trials.numbers(self._own, scales, crack) if self._full else run
         third = None if self._third is None else trials.numbers(self._third, scales, crack)
+        farther = None if self._larger is None else trials.numbers(self._larger, scales, crack)
+        near = None if farther is None else trials.numbers(self._cheap, scales, crack)
         # Of runs that scatter those of both meshes tell by how much.
         ensembles = ([own] if beside is None else [own, beside]) if mean else None if varied is None else [varied]
 
@@ -225,6 +239,7 @@ class _Stand:
                 float(other[key][0]),
                 _moved_by_mesh(key, own, beside, third),
                 None if ensembles is None else [runs[key] for runs in ensembles],
+                None if farther is None or near is None else abs(float(farther[key].mean() - near[key].mean())),
             )
 
         worth = {item.key: worth_of(item.key) for item in HEADLINES}

@@ -20,6 +20,8 @@ from heeltoe.result.contract import CRACKED, HEADLINES, headlines
 
 #: Factors on the shaking: as it is, and up to 1 % either way.
 SCALES = (1.0, 0.99, 0.995, 1.005, 1.01)
+# Rock and water that reach farther do so this many times.
+_LARGER = 1.5
 _OK = DAM_OUTCOMES.index("ok")
 # Twice as many elements along the crack cost about so many times as much; half the step twice.
 _WORK_OF_MESH = 4.0
@@ -27,10 +29,12 @@ _WORK_OF_MESH = 4.0
 
 @dataclass(frozen=True, order=True)
 class Level:
-    """How fine a run is: so many times twice the elements along the crack and half the step; -1 is half and twice."""
+    """How fine a run is: so many times twice the elements along the crack and half the step; -1 is half and twice; and
+    whether rock and water reach farther."""
 
     mesh: int
     halvings: int
+    larger: bool = False
 
     @property
     def work(self) -> float:
@@ -56,7 +60,7 @@ class Trials:
     def __init__(self, shaken: ShakenDam, step: float, frame_step: float, first: DamRun | None = None) -> None:
         self.step = step
         self._frame_step = frame_step
-        self._shaken = {0: shaken}
+        self._shaken = {(0, False): shaken}
         # Of each crack.
         self._numbers: dict[tuple[Level, float], tuple[dict[str, float], ...]] = {}
         self._whole: dict[Level, DamRun] = {}
@@ -81,24 +85,25 @@ class Trials:
 
     def expected(self, level: Level, work: float) -> Cost:
         """Return what so many runs at level 0 are estimated to take with one at another level among them."""
-        first = self._shaken[0]
+        first = self._shaken[0, False]
         case, end = with_mesh(first.case, level.mesh), first.shaking.end
         parts = building(parts_of(case), surroundings_of(case))
         runs = running(first.case, end, self._frame_step, self.step, runs=work)
         finest = running(case, end, self._frame_step, self.step_of(level))
         return Cost(parts.seconds + runs.seconds, parts.memory + finest.memory)
 
-    def dam_of(self, mesh: int) -> ShakenDam:
-        """Return the dam with another mesh."""
-        if mesh not in self._shaken:
-            first = self._shaken[0]
+    def dam_of(self, mesh: int, *, larger: bool = False) -> ShakenDam:
+        """Return the dam with another mesh, or with rock and water that reach farther."""
+        if (mesh, larger) not in self._shaken:
+            first = self._shaken[0, False]
             case = with_mesh(first.case, mesh)
-            self._shaken[mesh] = replace(first, case=case, dam=build_flexible_dam(case))
-        return self._shaken[mesh]
+            dam = build_flexible_dam(case, _LARGER if larger else 1.0)
+            self._shaken[mesh, larger] = replace(first, case=case, dam=dam)
+        return self._shaken[mesh, larger]
 
     def has_mesh(self, mesh: int, least: int) -> bool:
         """Whether the dam has another mesh with at least so many elements along its crack."""
-        if with_mesh(self._shaken[0].case, mesh).flexible.elements_across < least:
+        if with_mesh(self._shaken[0, False].case, mesh).flexible.elements_across < least:
             return False
         try:
             self.dam_of(mesh)
@@ -153,18 +158,20 @@ class Trials:
     @property
     def cracks(self) -> int:
         """How many there are."""
-        return len(self._shaken[0].dam.lines)
+        return len(self._shaken[0, False].dam.lines)
 
     @property
     def asked(self) -> int:
         """Which of them is asked of."""
-        return self._shaken[0].dam.asked
+        return self._shaken[0, False].dam.asked
 
     def numbers(self, level: Level, scales: Sequence[float], crack: int = 0) -> dict[str, Floats]:
         """Return the headline numbers of a crack in runs with these factors on the shaking, (n,) by name."""
         missing = [scale for scale in scales if (level, scale) not in self._numbers]
         if missing:
-            tables = self.dam_of(level.mesh).run_scaled_cracks(self.step_of(level), np.array(missing), self._ending)
+            tables = self.dam_of(level.mesh, larger=level.larger).run_scaled_cracks(
+                self.step_of(level), np.array(missing), self._ending
+            )
             for place, scale in enumerate(missing):
                 self._numbers[level, scale] = tuple(
                     {name: float(column[place]) for name, column in table.items()} for table in tables
