@@ -45,8 +45,8 @@ def address():
 
 # Not longer: what drives the browser has a loop of its own, beside which other tests cannot have theirs.
 @pytest.fixture(scope="module")
-def chromium():
-    """Start the browser of this machine."""
+def launch():
+    """Return what starts the browser of this machine."""
     result = next((item for item in map(shutil.which, _BROWSERS) if item), None)
     if result is None:
         leave = pytest.fail if _REQUIRED else pytest.skip
@@ -54,9 +54,15 @@ def chromium():
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as tools:
-        browser = tools.chromium.launch(executable_path=result)
-        yield browser
-        browser.close()
+        yield lambda: tools.chromium.launch(executable_path=result)
+
+
+@pytest.fixture(scope="module")
+def chromium(launch):
+    """Start the browser for all tests of a module."""
+    browser = launch()
+    yield browser
+    browser.close()
 
 
 @pytest.fixture(scope="module")

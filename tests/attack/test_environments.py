@@ -29,6 +29,13 @@ COMMANDS: dict[str, Sequence[str | Path]] = {
     "validate": ["validate", "impulse"],
     "new": ["new", "fresh"],
 }
+FURTHER: dict[str, Sequence[str | Path]] = {
+    "solve": ["solve", "dam.toml", "crack.friction", "--until", "residual_slip = 1 mm"],
+    "law": ["law", "cohesion"],
+    "explain": ["explain", "crack.friction"],
+    "examples": ["examples"],
+    "study": ["study", "study.toml", "--out", "out"],
+}
 RECORD = "# units: time [s], acceleration [g]\n" + "".join(f"{0.01 * k:.2f} {(-1) ** k * 0.2}\n" for k in range(50))
 
 
@@ -53,6 +60,7 @@ PLACES = {
     "no place for fonts": Place({"MPLCONFIGDIR": "/proc", "FONTCONFIG_FILE": os.devnull, "XDG_CACHE_HOME": "/proc"}),
     "no TMPDIR": Place({"TMPDIR": NOWHERE}),
     "C": Place({"LANG": "C", "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}),
+    "a locale that is not installed": Place({"LANG": "xx_YY.UTF-8", "LC_ALL": "xx_YY.UTF-8", "LANGUAGE": "xx"}),
     "ascii": Place({"PYTHONIOENCODING": "ascii"}),
     "latin-1": Place({"PYTHONIOENCODING": "latin-1"}),
     "no input": Place(closed=(0,)),
@@ -71,10 +79,12 @@ PLACES = {
 # What differs in how a terminal shows texts alone, and what takes long to draw and says little: not both.
 SCREENS = ("no input", "no columns", "one column", "a million columns", "words for columns", "ascii", "latin-1")
 DRAWN = {"report", "page", "video"}
+LOCALES = ("C", "a locale that is not installed")
 QUICK = [
     *[("1 GB", name) for name in ("run", "report")],
     ("files of 30 kB", "report"),
     ("C", "report"),
+    ("a locale that is not installed", "motion"),
     # A command that draws one figure.
     *[(around, "motion") for around in ("no home", "no figures")],
     *[(around, "run") for around in ("latin-1", "no output", "no streams", "no columns")],
@@ -85,6 +95,7 @@ def prepared(place: Path) -> Path:
     text = BLOCK.read_text(encoding="utf-8").replace("Block pushed once", "Stürzender Block 水壩 שלום")
     (place / "dam.toml").write_text(text, encoding="utf-8")
     (place / "record.txt").write_text(RECORD)
+    (place / "study.toml").write_text('case = "dam.toml"\n[vary]\n"crack.friction" = [0.3, 0.5]\n')
     return place
 
 
@@ -103,7 +114,7 @@ def ended(name: str, around: Place, cwd: Path) -> subprocess.CompletedProcess[by
         if value is None:
             environment.pop(key, None)
     return subprocess.run(
-        [sys.executable, "-m", "heeltoe", *map(str, COMMANDS[name])],
+        [sys.executable, "-m", "heeltoe", *map(str, (COMMANDS | FURTHER)[name])],
         capture_output=True,
         stdin=subprocess.DEVNULL,
         cwd=cwd,
@@ -129,7 +140,11 @@ def judge(name: str, around: Place, cwd: Path) -> None:
     assert not left, left
     # Files come before what is said of them.
     if run.returncode == 2 and 1 not in around.closed:
-        assert {path.name for path in cwd.iterdir()} - {path.name for path in before} <= {"dam.toml", "record.txt"}
+        assert {path.name for path in cwd.iterdir()} - {path.name for path in before} <= {
+            "dam.toml",
+            "record.txt",
+            "study.toml",
+        }
 
 
 @pytest.mark.parametrize(("around", "name"), QUICK)
@@ -140,7 +155,8 @@ def test_where_a_command_runs(around, name, tmp_path):
 @pytest.mark.slow
 @pytest.mark.parametrize("around", PLACES)
 def test_where_every_command_runs(around, tmp_path):
-    for name in COMMANDS if around not in SCREENS else COMMANDS.keys() - DRAWN:
+    further = FURTHER if around in LOCALES else {}
+    for name in COMMANDS | further if around not in SCREENS else COMMANDS.keys() - DRAWN:
         (tmp_path / name).mkdir()
         judge(name, PLACES[around], tmp_path / name)
 

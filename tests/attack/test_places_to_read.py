@@ -1,4 +1,4 @@
-"""What stands where a case, a record or a mesh should be: nothing, noise, directories, devices, pipes, circles."""
+"""What stands where a file should be that is read: nothing, noise, directories, devices, pipes, circles."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -81,13 +80,17 @@ WHAT: dict[str, Callable[[Path], object]] = {
         for device in ("/dev/zero", "/dev/null", "/dev/urandom", "/dev/full", "/proc/self/mem", "/proc/kmsg/x")
     },
 }
-#: How each is read.
-READERS: dict[str, list[str | Path]] = {
-    "case": ["run", "what"],
-    "record": ["run", BLOCK, "--motion", "what"],
-    "motion": ["motion", "what"],
-    "mesh": ["periods", BASE, "--set", "flexible.mesh_above=what.inp", *(w for c in COARSE for w in ("--set", c))],
-    "gmsh": ["periods", BASE, "--set", "flexible.mesh_above=what.msh", *(w for c in COARSE for w in ("--set", c))],
+_COARSE = [word for change in COARSE for word in ("--set", change)]
+#: How each is read: the name of the file, and a command with it for "{}".
+READERS: dict[str, tuple[str, list[str | Path]]] = {
+    "case": ("what", ["run", "{}"]),
+    "record": ("what", ["run", BLOCK, "--motion", "{}"]),
+    "motion": ("what", ["motion", "{}"]),
+    "mesh": ("what.inp", ["periods", BASE, "--set", "flexible.mesh_above={}", *_COARSE]),
+    "gmsh": ("what.msh", ["periods", BASE, "--set", "flexible.mesh_above={}", *_COARSE]),
+    "section": ("what.csv", ["run", BLOCK, "--set", "section={{file = '{}', unit = 'm'}}"]),
+    "criteria": ("what", ["statics", BLOCK, "--criteria", "{}"]),
+    "study": ("what", ["study", "{}", "--dry-run"]),
 }
 
 
@@ -95,6 +98,7 @@ READERS: dict[str, list[str | Path]] = {
 def test_what_is_there_is_read_or_refused(reader, tmp_path, record_property, monkeypatch):
     if reader in ("mesh", "gmsh"):
         pytest.importorskip("meshio")
+    name, words = READERS[reader]
     strikes = Attack(f"places to read, {reader}")
     for what, make in WHAT.items():
         if what == "no permission" and os.geteuid() == 0:
@@ -102,13 +106,8 @@ def test_what_is_there_is_read_or_refused(reader, tmp_path, record_property, mon
         place = tmp_path / what.replace("/", "-").replace(" ", "-")
         place.mkdir()
         monkeypatch.chdir(place)
-        names = [str(argument).partition("=")[2] or argument for argument in READERS[reader] if "what" in str(argument)]
-        writing = make(place / str(names[0]))
-        arguments: list[Any] = [
-            f"flexible.mesh_above={place / str(names[0])}" if "=what" in str(argument) else argument
-            for argument in READERS[reader]
-        ]
-        end = strikes.strike(f"{reader} {what}", *arguments, cwd=place)
+        writing = make(place / name)
+        end = strikes.strike(f"{reader} {what}", *(str(word).format(place / name) for word in words), cwd=place)
         if isinstance(writing, subprocess.Popen):
             writing.kill()
             writing.wait()

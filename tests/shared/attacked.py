@@ -15,8 +15,8 @@ from typing import Any, NoReturn
 
 from shared.command import Reply, command
 
-# Of computing, on any machine; of waiting, on one that others share.
-SECONDS, WAITED, BYTES = 10.0, 60.0, 3 * 10**9
+# Of computing, on any machine; times as long of waiting, on one that others share.
+SECONDS, WAITED, BYTES = 10.0, 10.0, 3 * 10**9
 ENDS = {0: "accepted", 2: "refused", 3: "no result"}
 
 
@@ -124,7 +124,7 @@ def limited(seconds: float = SECONDS, bytes_: int = BYTES) -> Iterator[None]:
 
     soft, hard = resource.getrlimit(resource.RLIMIT_AS)
     used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize() if _PROC else 0
-    clocks = {signal.SIGPROF: (signal.ITIMER_PROF, seconds), signal.SIGALRM: (signal.ITIMER_REAL, WAITED)}
+    clocks = {signal.SIGPROF: (signal.ITIMER_PROF, seconds), signal.SIGALRM: (signal.ITIMER_REAL, WAITED * seconds)}
     before = {kind: signal.signal(kind, end) for kind in clocks}
     if used:
         resource.setrlimit(resource.RLIMIT_AS, (used + bytes_, hard))

@@ -20,7 +20,8 @@ FILE_FIELDS = ("file", "layer", "unit")
 _LARGEST, _MOST_CORNERS = 10_000_000, 10_000
 # Every DXF begins with a group code, 0 or that of a comment, or says that it is binary.
 _DXF = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:0\s*\r?\n\s*SECTION|999\s*\r?\n)|AutoCAD Binary DXF", re.IGNORECASE)
-_UNIT = re.compile(r"[\[(]\s*([^\])]+?)\s*[\])]|_(m|mm|cm|ft|in)\s*$")
+# Bounded: a line of brackets alone would be searched from each of them to its end.
+_UNIT = re.compile(r"[\[(]([^\][()]{1,30})[\])]|_(m|mm|cm|ft|in)$")
 _UP = ("z", "y", "elevation", "level", "height")
 
 
@@ -145,7 +146,7 @@ def _number(cell: str) -> float | None:
 
 def _head(cells: Sequence[str]) -> tuple[tuple[int, int], str]:
     """Return the columns of x and z, and the unit that both state."""
-    units = {match[1] or match[2] for cell in cells if (match := _UNIT.search(cell))}
+    units = {(match[1] or match[2]).strip() for cell in cells if (match := _UNIT.search(cell))}
     names = [_UNIT.sub("", cell).strip().lower() for cell in cells]
     if len(units) > 1:
         raise InputError("section-head", "section.file", shown(", ".join(cells)))

@@ -126,8 +126,11 @@ def fourier_amplitudes(
         return frequency[inside], amplitude[inside]
     first, last = np.ceil(band[0] / step), np.floor(min(band[1] / step, size / 2))
     wanted: Floats = np.arange(first, last + 1.0) * step
-    moments = np.arange(motion.time.size) * motion.dt
-    sums: Floats = np.array([abs(motion.acceleration @ np.exp(-2j * np.pi * value * moments)) for value in wanted])
+    # A chirp transform: each frequency by a sum of its own takes 10 s for a million samples.
+    from scipy.signal import zoom_fft
+
+    bounds, count = [first * step, (first + max(wanted.size, 1)) * step], max(wanted.size, 1)
+    sums: Floats = np.abs(zoom_fft(motion.acceleration, bounds, count, fs=1.0 / motion.dt))[: wanted.size]
     return wanted, motion.dt * sums
 
 
