@@ -172,7 +172,7 @@ def build_flexible_dam(case: Case, larger: float = 1.0) -> FlexibleDam:
     return _KEPT.get((larger, case_key(case, NOT_OF_DAM)), lambda: _build(case, larger))
 
 
-def _build(case: Case, larger: float) -> FlexibleDam:
+def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
     bonded = bonded_dam(case)
     bodies, modes = bonded.bodies, bonded.modes
     sections = tuple(single_crack_case.cut for single_crack_case in case.single_crack_cases)
