@@ -101,7 +101,7 @@ def _dam(draw: random.Random, height: float) -> Fields:
         "section": section,
         "concrete": {"modulus": f"{draw.uniform(5.0, 40.0)} GPa"},
         "crack": crack,
-        "motion": {"points": _pulse(draw)},
+        "motion": {"points": pulse(draw)},
         "flexible": {
             "elements_across": draw.choice((1, 1, 2, 2, 3)),
             "evidence": "step" if draw.random() < _HEAVY_SHARE else "none",
@@ -130,7 +130,8 @@ def _m(value: float) -> str:
     return f"{value:.6g} m"
 
 
-def _pulse(draw: random.Random) -> list[list[str]]:
+def pulse(draw: random.Random) -> list[list[str]]:
+    """Return a short motion of random points."""
     times = sorted(draw.uniform(0.02, 0.5) for _ in range(draw.randint(2, 8)))
     peak = 10.0 ** draw.uniform(-2.0, 0.6)
     points = [["0 s", "0 g"], *([f"{time:.6f} s", f"{draw.uniform(-peak, peak):.6f} g"] for time in times)]
@@ -247,8 +248,8 @@ _FEATURES = (
         }
     },
     lambda draw, height, width: {"crack.inclination": f"{draw.uniform(-12, 12)} deg"},
-    lambda draw, height, width: {"aftershocks": [{"points": _pulse(draw), "pause": "0.2 s"}]},
-    lambda draw, height, width: {"motion.vertical": {"points": _pulse(draw)}},
+    lambda draw, height, width: {"aftershocks": [{"points": pulse(draw), "pause": "0.2 s"}]},
+    lambda draw, height, width: {"motion.vertical": {"points": pulse(draw)}},
     lambda draw, height, width: {"analysis.rotation": draw.choice(("p-delta", "finite"))},
     lambda draw, height, width: {"flexible.contact": "idce", "flexible.damping": "stiffness"},
     lambda draw, height, width: {
@@ -260,7 +261,7 @@ _FEATURES = (
     lambda draw, height, width: {"reservoir": {"depth": _m(0.8 * height), "virtual_mass_rotates": False}},
     lambda draw, height, width: {
         "reservoir": {"depth": _m(0.8 * height), "follows_vertical_motion": True},
-        "motion.vertical": {"points": _pulse(draw)},
+        "motion.vertical": {"points": pulse(draw)},
     },
     lambda draw, height, width: {"ice": {"force": "100 kN/m"}, "silt": {"depth": _m(0.3 * height)}},
     lambda draw, height, width: {"concrete.tensile_strength": f"{draw.uniform(0.05, 3.0)} MPa"},

@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 import time
+import tracemalloc
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from heeltoe import InputError
 from heeltoe.models.flexible.body import bonded
 from heeltoe.models.flexible.body.cost import building, part_of, parts_of, surroundings_of
 from heeltoe.models.flexible.body.reduced import _build
+from heeltoe.models.flexible.body.reservoir import water_body
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import analysing, running
 from heeltoe.models.run import cost_of, earthquake
@@ -126,6 +128,21 @@ def test_memory(name, across, changes):
     measured, estimated = map(float, child.stdout.split())
     print(f"{name}, {across} across, {changes.keys()}: {measured / 1e6:.0f} MB, estimated {estimated / 1e6:.0f} MB")
     assert factor(measured, estimated) < 2.0
+
+
+@pytest.mark.parametrize("depth", [10, 100])
+def test_memory_of_water_with_sound(depth):
+    """It grows with the depth, and is no other with a full reservoir than a metre below the crest."""
+    case, lower = (
+        example("typical-base", "reservoir.compressible=true", f"reservoir.depth={z} m") for z in (depth, depth - 1)
+    )
+    bodies = bonded.bonded_dam(case).bodies
+    tracemalloc.start()
+    water_body(case, bodies)
+    _, measured = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert factor(measured, surroundings_of(case).memory) < 1.3
+    assert factor(surroundings_of(case).memory, surroundings_of(lower).memory) < 1.02
 
 
 def test_silence_and_spread_are_counted():

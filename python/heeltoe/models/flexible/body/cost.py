@@ -14,6 +14,7 @@ from itertools import pairwise
 
 import shapely
 
+from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.models.flexible.body.modes import FIRST_KEPT
@@ -21,8 +22,9 @@ from heeltoe.models.flexible.mesh.rows import ROWS
 
 # Seconds of the equations of a dam, of each d m and of each k^3 of them.
 _SET_UP, _SOLVED, _RESTED = 0.15, 8e-7, 2e-6
-# Seconds and bytes of the modes of water with sound on one side; with a full reservoir it is twice the memory.
-_WATER = 0.45, 4e7
+# Seconds and bytes of the modes of water with sound on one side, and bytes for each second that sound takes through its
+# depth: the deeper, the more of its resonances are below the highest frequency, and each has samples of its own.
+_WATER, _WATER_BY_DEPTH = (0.45, 3.6e7), 6.4e8
 # The same of rock: of its far field, and of the mesh below a crack of n elements n^2.5 and n^2; each step takes as
 # long as with so many bodies of water.
 _ROCK, _ROCK_ACROSS, _ROCK_STEPS = (1.5, 9e7), (4e-3, 9.5e5), 4
@@ -119,22 +121,23 @@ def parts_of(case: Case) -> list[Part]:
 
 def wave_bodies(case: Case) -> int:
     """Return how many bodies with waves surround a dam: water with sound on either side, and rock for several."""
-    return _waters(case) + (0 if case.rock is None else _ROCK_STEPS)
+    return len(_waters(case)) + (0 if case.rock is None else _ROCK_STEPS)
 
 
 def surroundings_of(case: Case) -> Cost:
     """Return what the modes of the bodies with waves around a dam cost."""
-    cost, waters = Cost(0.0, 0.0), _waters(case)
-    if waters:
-        cost += Cost(waters * _WATER[0], _WATER[1])
+    cost = Cost(0.0, 0.0)
+    for water in _waters(case):
+        cost += Cost(_WATER[0], _WATER[1] + _WATER_BY_DEPTH * water.depth / water.wave_speed)
     if case.rock is not None:
         across = case.flexible.elements_across
         cost += Cost(_ROCK[0] + _ROCK_ACROSS[0] * across**2.5, _ROCK[1] + _ROCK_ACROSS[1] * across**2)
     return cost
 
 
-def _waters(case: Case) -> int:
-    return sum(body is not None and body.compressible and body.depth > 0.0 for body in (case.reservoir, case.tailwater))
+def _waters(case: Case) -> list[Water]:
+    sides = (case.reservoir, case.tailwater)
+    return [body for body in sides if body is not None and body.compressible and body.depth > 0.0]
 
 
 def building(parts: Sequence[Part], surroundings: Cost = Cost(0.0, 0.0)) -> Cost:
