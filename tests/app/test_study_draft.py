@@ -185,6 +185,12 @@ def test_every_choice_is_a_field_of_a_study(session):
     assert EVIL in [record["name"] for group in result["records"] for record in group["records"]]
 
 
+def test_no_record_at_all_is_said_in_words(session):
+    with pytest.raises(InputError) as refused:
+        study_asked({**FORM, "method": "suite", "source": "records", "records": []}, session)
+    assert (refused.value.code, refused.value.field) == ("study-motions", "motions")
+
+
 def test_errors_come_back_from_other_processes():
     error = InputError("study-many", "samples", 3, most=2)
     error.field = "study"

@@ -32,7 +32,7 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
     "study-correlations": ("the {value} correlations contradict each other", "weaken some, or leave some out"),
     "study-power": ("{value} is not a power of two, which Sobol's points need", "give {below} or {above}"),
     "study-motion-varies": ("motions do not vary here", "give them under [motions], their strengths as motions.scale"),
-    "study-motions": ("folder, files and events are all missing", "give one of these, or leave [motions] out"),
+    "study-motions": ("no record is named", "choose records, give a folder, files or events, or leave [motions] out"),
     "study-folder": ("{value} is not a directory", "give the directory of the records, relative to the study file"),
     "study-folder-empty": ("{value} has no records", "give a directory with records"),
     "study-pair": ("{value} has {count} horizontal components, not 2", "add the other one, or leave pairs out"),

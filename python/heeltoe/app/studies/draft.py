@@ -216,6 +216,8 @@ def _motions(form: Mapping[str, Any], session: Session, *, suite: bool) -> dict[
         # Each order is an earthquake of its own, whatever its name ends with.
         ordered = [name.strip() for name in _text(form, "ordered").split(";") if name.strip()]
         events += [*({"horizontal": [name]} for name in ordered), *_scenario(form)]
+        if not events:
+            raise InputError("study-motions", "motions")
         chosen += ordered
     known = {name for name, _ in available()} | session.sent.keys()
     for name in chosen:

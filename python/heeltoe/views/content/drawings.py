@@ -17,8 +17,10 @@ CAPTIONS = {
     "summary": "The dam, its crack and its water; what shakes it, and how far the part above the crack slips.",
     "section": "Section of the dam with its crack, water levels and the pressure in the crack.",
     "law": "The friction law of the crack: its strength over its normal stress.",
-    "comparison": "Both models side by side, shaken by the same ground motion.",
-    "response": "Acceleration of the ground, slip, positive downstream, and what the part above the crack does.",
+    "comparison": "Both models side by side, shaken by the same ground motion; slip positive downstream, rotation "
+    "about the heel.",
+    "response": "Acceleration of the ground, slip, positive downstream, and what the part above the crack does; "
+    "rotation positive about the heel.",
     "slip-by-mode": "Slip gathered in each mode of motion.",
     "friction": "Friction in the crack, what its law could bear at the moment, slip, and the way slipped to and fro.",
     "asperities": "How far the rough crack dilates as it slips, and the angle that wear leaves its flanks.",
@@ -27,8 +29,8 @@ CAPTIONS = {
     "bearing": "Normal stress at heel and toe, straight over the crack as in static checks; where it is negative, "
     "the crack does not bear over all its width.",
     "anchors": "What the anchors bear, tension and resistance to slip together, and what they are good for.",
-    "crest": "How the crest moves: its displacement relative to the ground, and its acceleration with that of the "
-    "ground.",
+    "crest": "How the crest moves: its displacement relative to the ground, positive downstream, and its "
+    "acceleration with that of the ground.",
     "energy": "Where the energy put in by the earthquake goes.",
     "path": "Path of the part above the crack.",
     "motion": "The ground motion, as used: acceleration, velocity, displacement.",
@@ -69,7 +71,7 @@ _LOWER, _TALL = 0.8, 4.0
 _HEIGHTS = {
     "asperities": 3.2,
     "friction": 3.6,
-    "comparison": 5.0,
+    "comparison": 5.2,
     "response": 4.8,
     "accelerations": 3.7,
     "forces": 3.7,

@@ -114,9 +114,8 @@ def results(subject: Subject) -> Section:
         static.append((_STARTS[kind, way], n(f"{prefix}critical_acceleration_g.{kind}_{way}", "g")))
         if start.varied:
             static.append(("with the vertical motion", start.varied))
-    # Large figures first: the tables, which are smaller, fill what is left of the page.
+    # A heading keeps its table: a figure before that could float to the page before.
     blocks: list[Block] = [
-        *subject.figure("comparison", "response"),
         Table(
             ("", "value"),
             tuple(static),
@@ -124,6 +123,7 @@ def results(subject: Subject) -> Section:
             "to move.",
             "lr",
         ),
+        *subject.figure("comparison", "response"),
     ]
     if any(run.response.summary for run in subject.runs):
         rows: list[tuple[Inline, ...]] = []

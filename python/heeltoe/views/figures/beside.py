@@ -8,14 +8,14 @@ from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.panels import draw_limits, largest, panels, shown_rotation
 from heeltoe.views.figures.shaking import draw_shaking, shaking_heights
-from heeltoe.views.figures.style import COLOURS, heading, shaken_by, styled
+from heeltoe.views.figures.style import COLOURS, align_labels, heading, shaken_by, styled
 from heeltoe.views.figures.time_axis import time_axis
 
 _PANELS = (
     ("slip_m", "displacement", "slip [{}]\n(+ downstream)"),
     ("rotation_rad", "rotation", "rotation [{}]\n(+ about heel)"),
-    ("gap_heel_m", "displacement", "opening at\nthe heel [{}]"),
-    ("gap_toe_m", "displacement", "opening at\nthe toe [{}]"),
+    ("gap_heel_m", "displacement", "opening,\nheel [{}]"),
+    ("gap_toe_m", "displacement", "opening,\ntoe [{}]"),
 )
 # The limits that each panel shows.
 _LIMITS = {
@@ -59,5 +59,5 @@ def comparison_figure(dam: Response, block: Response, units: str = "si") -> Figu
         panel.set_ylabel(label.format(scale.unit))
     time_axis(rest[-1], dam, block)
     figure.legend(*rest[-1].get_legend_handles_labels(), loc="outside lower center", ncols=2)
-    figure.align_ylabels(axes)
+    align_labels(axes)
     return figure

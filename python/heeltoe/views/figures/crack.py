@@ -18,7 +18,7 @@ from heeltoe.models.flexible.result.history import LEAST_DAMAGE, CrackHistory
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.panels import panels
-from heeltoe.views.figures.style import COLOURS, describe, styled
+from heeltoe.views.figures.style import COLOURS, align_labels, describe, styled
 from heeltoe.views.figures.time_axis import strong_part, time_axis
 
 # From light to dark in black and white: nothing, open, stick, slip one way, slip the other way.
@@ -123,7 +123,7 @@ def joint_figure(response: FlexibleResponse, units: str = "si") -> Figure:
         Patch(facecolor=_JOINT_COLOURS[name], edgecolor="#888888", label=name, linewidth=0.5) for name in states_seen
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(states_seen)))
-    figure.align_ylabels([lengths, joint])
+    align_labels([lengths, joint])
     return figure
 
 

@@ -10,7 +10,7 @@ from heeltoe.result.response import Response
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.panels import beside, draw_limits, largest, panels
 from heeltoe.views.figures.shaking import draw_horizontal
-from heeltoe.views.figures.style import COLOURS, describe, styled
+from heeltoe.views.figures.style import COLOURS, align_labels, describe, styled
 from heeltoe.views.figures.time_axis import time_axis
 
 
@@ -38,5 +38,5 @@ def crest_figure(response: Response, units: str = "si") -> Figure:
     beside(shakes, f"largest {crest.acceleration_g:.3g} g")
     draw_limits(shakes, response, {"crest_acceleration": "crest acceleration"}, Scale(1.0, "g"))
     time_axis(shakes, response)
-    figure.align_ylabels([shaking, shift, shakes])
+    align_labels([shaking, shift, shakes])
     return figure

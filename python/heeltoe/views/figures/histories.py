@@ -28,6 +28,7 @@ from heeltoe.views.figures.style import (
     MODE_DASHES,
     MODE_HATCHES,
     WIDTH,
+    align_labels,
     describe,
     styled,
 )
@@ -62,7 +63,7 @@ def response_figure(response: Response, units: str = "si") -> Figure:
         draw_openings(rest[2], response, system)
     draw_ribbon(rest[-1], response)
     time_axis(rest[-1], response)
-    figure.align_ylabels(axes)
+    align_labels(axes)
     return figure
 
 
@@ -92,7 +93,7 @@ def acceleration_figure(response: Response, units: str = "si") -> Figure:
     forces.set_ylabel(f"force [{scale.unit}]\non part above")
     time_axis(forces, response)
     figure.legend(*forces.get_legend_handles_labels(), loc="outside lower center", ncols=3)
-    figure.align_ylabels([*shaking, base, forces])
+    align_labels([*shaking, base, forces])
     return figure
 
 
@@ -121,7 +122,7 @@ def force_figure(response: Response, units: str = "si") -> Figure:
     forces.set_ylabel(f"force [{scale.unit}]\non part above")
     time_axis(forces, response)
     figure.legend(loc="outside lower center", ncols=2)
-    figure.align_ylabels([*shaking, velocity, touching, forces])
+    align_labels([*shaking, velocity, touching, forces])
     return figure
 
 

@@ -11,7 +11,7 @@ from heeltoe.result.response import Response
 from heeltoe.units.sentences import written
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.panels import largest, panels
-from heeltoe.views.figures.style import COLOURS, describe, heading, styled
+from heeltoe.views.figures.style import COLOURS, align_labels, describe, heading, styled
 from heeltoe.views.figures.time_axis import time_axis
 
 
@@ -58,7 +58,7 @@ def friction_figure(response: Response, units: str = "si") -> Figure:
     path.set_ylabel(f"slip and its way\n[{scale.unit}]")
     path.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=8, borderaxespad=0.0)
     time_axis(path, response)
-    figure.align_ylabels([forces, path])
+    align_labels([forces, path])
     return figure
 
 
@@ -80,5 +80,5 @@ def asperities_figure(response: Response, units: str = "si") -> Figure:
     flanks.set_ylim(min(0.9 * float(angle[0]), float(angle.min())), 1.02 * float(angle[0]))
     flanks.set_ylabel("angle of the flanks\n[degrees]")
     time_axis(flanks, response)
-    figure.align_ylabels([dilation, flanks])
+    align_labels([dilation, flanks])
     return figure

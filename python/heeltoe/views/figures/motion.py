@@ -18,7 +18,7 @@ from heeltoe.motion.targets import Target
 from heeltoe.units.systems import Units, unit_system
 from heeltoe.units.write import number
 from heeltoe.views.figures.panels import beside
-from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
+from heeltoe.views.figures.style import COLOURS, WIDTH, align_labels, heading, styled
 from heeltoe.views.figures.write import save
 
 _BEFORE = "#AAAAAA"
@@ -59,7 +59,7 @@ def history_figure(motion: GroundMotion, vertical: GroundMotion | None, gravity:
     for axes, motion, way in zip(columns, motions, ("horizontal, + downstream", "vertical, + up"), strict=False):
         draw_history(list(axes), motion, gravity, unit_system(units))
         axes[0].set_title(way, loc="left", fontsize=9)
-        figure.align_ylabels(axes)
+        align_labels(axes)
     return figure
 
 

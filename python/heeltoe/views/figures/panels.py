@@ -91,12 +91,13 @@ def draw_limits(axes: Axes, response: Response, names: Mapping[str, str], scale:
             axes.axhline(side, color=COLOURS["crack"], linewidth=0.9, linestyle=(0, (6, 2)))
             axes.annotate(
                 f"{names[check.name]} allowed",
-                (1.0, side),
+                # At the beginning, where nothing has moved yet, and within the panel.
+                (0.0, side),
                 xycoords=("axes fraction", "data"),
-                xytext=(-3, 2),
+                xytext=(3, -2 if side > 0.0 else 2),
                 textcoords="offset points",
-                ha="right",
-                va="bottom",
+                ha="left",
+                va="top" if side > 0.0 else "bottom",
                 fontsize=7,
                 color=COLOURS["crack"],
             )

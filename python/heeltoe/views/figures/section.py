@@ -66,7 +66,7 @@ def section_figure(case: Case, units: str = "si") -> Figure:
         canvas.axes.set_ylabel(f"z, up [{length.unit}]", labelpad=2)
         canvas.axes.grid(visible=False)
     # Before all labels, which keep off them.
-    anchored = _draw_anchors(canvases[-1], case)
+    anchored = draw_anchors(canvases[-1], case)
     depth = draw_uplift(canvases[-1], case, system)
     draw_dimensions(canvases[0], case, system, depth if one else 0.0)
     draw_crack(canvases[-1], case, small=False)
@@ -178,7 +178,18 @@ def crack_name(case: Case, alone: Case, length: Scale) -> str:
     return f"{name} at {length(alone.crack.elevation):.4g} {length.unit}"
 
 
-def _draw_anchors(canvas: Canvas, case: Case) -> Floats | None:
+def draw_drains(canvas: Canvas, case: Case) -> None:
+    """Draw where drains lower the pressure in the crack."""
+    share, section = case.uplift.drain_position, case.above
+    if case.uplift.pattern != "drained" or share is None:
+        return
+    place = (1.0 - share) * np.array(section.heel) + share * np.array(section.toe)
+    ends = place + np.array([[0.0, -0.05], [0.0, 0.05]]) * canvas.size
+    canvas.line(ends, keep_off=True, color="#0072B2", linewidth=2.0, zorder=4.8)
+    canvas.label("drains", ends[1], "#0072B2")
+
+
+def draw_anchors(canvas: Canvas, case: Case) -> Floats | None:
     """Draw the anchors across the crack, up to where they leave the section; return the upper end of the first [m]."""
     ends = []
     for anchor in case.anchors:

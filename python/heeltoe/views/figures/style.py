@@ -6,14 +6,17 @@ mean is also told by line style, hatch, place or lightness.
 
 from __future__ import annotations
 
+import re
 import textwrap
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
 import matplotlib as mpl
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.transforms import ScaledTranslation
 
 from heeltoe.errors.sanitize import plain
 from heeltoe.result.response import Response
@@ -47,6 +50,9 @@ WIDTH = 6.69
 """Of every figure [in]: the text of a page of A4, so that letters are printed as large as they are drawn."""
 # Width of a letter in sizes of it, of the handle of a legend with the gaps around it [pt], and the least size [pt].
 _LETTER, _HANDLE, _SMALL = 0.56, 34.0, 7.0
+# Room for the numbers of a vertical axis, "−0.0025" with its tick [pt].
+_NUMBERS = 42.0
+_WAY = re.compile(r"\s*\(\+ [^)]*\)")
 # A line of a heading, in sizes of its letters: 10 points.
 _LINE = 45.5
 
@@ -111,11 +117,31 @@ def without_heading(figure: Figure) -> Figure:
     return figure
 
 
-def fit_words(figure: Figure) -> None:
-    """Let what stands below a figure fit into its width: legends in as many columns as have room, longer lines broken.
+def align_labels(axes: Sequence[Axes]) -> None:
+    """Put the labels of the vertical axes of panels above each other at one distance, beyond the longest number.
 
-    A report makes figures narrower than those that are files of their own.
+    ``Figure.align_ylabels`` does that with the numbers of all panels for each of them, at every drawing.
     """
+    for panel in axes:
+        beyond = ScaledTranslation(-_NUMBERS / 72.0, 0.0, panel.figure.dpi_scale_trans)
+        panel.yaxis.set_label_coords(0.0, 0.5, transform=panel.transAxes + beyond)
+
+
+def fit_words(figure: Figure) -> None:
+    """Let the words of a figure fit: legends below it in as many columns as have room, longer lines broken, and what
+    stands beside a panel shorter than the panel is high.
+
+    A report makes figures narrower and lower than those that are files of their own; its captions say which way is
+    positive.
+    """
+    for axes in figure.axes:
+        high = 72.0 * float(figure.get_figheight()) * axes.get_position().height
+        label = axes.yaxis.label
+        for shorter in (lambda text: text, _without_way, lambda text: _without_way(text).replace(" [", "\n[")):
+            words = shorter(label.get_text())
+            if max(map(len, words.split("\n"))) * _LETTER * float(label.get_fontsize()) <= high:
+                break
+        label.set_text(words)
     room = 72.0 * float(figure.get_figwidth())
     for legend in list(figure.legends):
         texts, handles = legend.get_texts(), [handle for handle in legend.legend_handles if handle is not None]
@@ -130,6 +156,11 @@ def fit_words(figure: Figure) -> None:
             textwrap.fill(line, int(room / (_LETTER * _SMALL))) for line in figure.get_supxlabel().split("\n")
         )
         figure.supxlabel(words, fontsize=_SMALL)
+
+
+def _without_way(text: str) -> str:
+    """Take off a label which way is positive."""
+    return _WAY.sub("", text)
 
 
 @contextmanager

@@ -10,7 +10,15 @@ from heeltoe.result.response import Response
 from heeltoe.units.systems import Units, unit_system
 from heeltoe.views.figures.canvas import Canvas
 from heeltoe.views.figures.panels import beside, draw_rotation, largest, slip_in_the_end
-from heeltoe.views.figures.section import corners, draw_bodies, draw_crack, draw_dimensions, draw_further
+from heeltoe.views.figures.section import (
+    corners,
+    draw_anchors,
+    draw_bodies,
+    draw_crack,
+    draw_dimensions,
+    draw_drains,
+    draw_further,
+)
 from heeltoe.views.figures.shaking import draw_horizontal
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
 from heeltoe.views.figures.time_axis import time_axis
@@ -63,9 +71,13 @@ def _draw_section(axes: Axes, case: Case, units: Units) -> None:
     canvas = Canvas(axes, units.scale("length"), max(right - left, crest - base))
     canvas.look_at(*corners(case, canvas.size, below=0.18))
     draw_bodies(canvas, case)
+    anchored = draw_anchors(canvas, case)
     draw_dimensions(canvas, case, units, 0.0, small=True)
     draw_crack(canvas, case, small=True)
     draw_further(canvas, case)
+    draw_drains(canvas, case)
+    if anchored is not None:
+        canvas.label("anchors" if len(case.anchors) > 1 else "anchor", anchored, COLOURS["crack"])
     axes.set_axis_off()
 
 

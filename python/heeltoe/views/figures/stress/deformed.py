@@ -85,6 +85,9 @@ def deformed_figure(response: FlexibleResponse, time: float | None = None, units
         _outlines(axes, history, places, length)
         bar = figure.colorbar(image, ax=axes, location="bottom", aspect=30, pad=0.02)
         bar.set_label(f"{name} [{stress.unit}]\nlargest {scaled(max(float(value.max()) for value in values), stress)}")
+        # Beside each other in a report, with room for a few numbers.
+        levels = list(image.levels)
+        bar.set_ticks(levels[:: 1 + (len(levels) - 1) // 5])
         bar.ax.xaxis.set_major_formatter("{x:g}")
         bar.ax.tick_params(labelsize=7)
         dam_axes(axes, length)

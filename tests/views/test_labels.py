@@ -1,0 +1,48 @@
+"""Labels of figures: beside a panel they are no longer than it is high, and page 1 names what strengthens the dam."""
+
+from __future__ import annotations
+
+import matplotlib as mpl
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from heeltoe.views.figures.style import STYLE, align_labels, fit_words
+from heeltoe.views.figures.summary import summary_figure
+from shared.dams import example
+
+
+@pytest.mark.parametrize(
+    ("high", "label"),
+    [(9.0, "slip [mm]\n(+ downstream)"), (5.0, "slip [mm]"), (3.0, "slip\n[mm]")],
+)
+def test_a_label_is_as_long_as_its_panel_is_high(high, label):
+    figure = Figure(figsize=(6.0, high))
+    panels = figure.subplots(4, 1)
+    for axes in panels:
+        axes.set_ylabel("slip [mm]\n(+ downstream)", fontsize=8)
+    fit_words(figure)
+    assert panels[0].get_ylabel() == label
+
+
+@mpl.rc_context(STYLE)
+def test_labels_of_panels_stand_at_one_distance_beyond_their_numbers():
+    figure = Figure(figsize=(6.0, 4.0))
+    panels = figure.subplots(3, 1)
+    for axes, top in zip(panels, (1.0, 2000.0, 0.02), strict=True):
+        axes.plot([0.0, 1.0], [-top, top])
+        axes.set_ylabel("slip [mm]")
+    align_labels(panels)
+    figure.draw_without_rendering()
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    labels = [axes.yaxis.label.get_window_extent(renderer) for axes in panels]
+    assert labels[0].x1 == pytest.approx(labels[1].x1) == pytest.approx(labels[2].x1)
+    for axes, box in zip(panels, labels, strict=True):
+        assert all(box.x1 <= number.get_window_extent(renderer).x0 for number in axes.get_yticklabels())
+
+
+def test_page_one_names_anchors_and_drains():
+    texts = [text.get_text() for text in summary_figure(example("anchored"), ()).axes[0].texts]
+    assert "anchors" in texts
+    assert "drains" in texts
+    assert "drains" not in [text.get_text() for text in summary_figure(example("typical-base"), ()).axes[0].texts]
