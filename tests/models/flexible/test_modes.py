@@ -189,8 +189,7 @@ def test_static_flexibility_against_a_direct_solution(cracked):
 
 
 def test_residual_error(cracked):
-    circular = error_frequency(cracked)
-    assert circular == pytest.approx(15.0 * 2.0 * np.pi / intact_periods(cracked, 1)[0])
+    circular = error_frequency(2.0 * np.pi / intact_periods(cracked, 1)[0])
     for body in parts(cracked):
         assert residual_error(body, reduce(body), circular) == 0.0
         modes, whole = reduce(body, 12), reduce(body)
@@ -223,9 +222,10 @@ def test_all_modes_where_as_many_are_asked_for(cracked):
 
 def test_meshes_keep_as_many_of_the_lowest_modes_as_the_crack_needs():
     dam = built(TYPICAL, reservoir=deep(95.0), flexible={"elements_across": 12})[2]
-    modes, error = enough_modes(dam.upper, dam)
+    circular = error_frequency(2.0 * np.pi / intact_periods(dam, 1)[0])
+    modes, error = enough_modes(dam.upper, circular)
     assert (modes.kept, modes.truncated) == (53, True)
-    assert 0.0 < error == residual_error(dam.upper, modes, error_frequency(dam)) < ENOUGH
+    assert 0.0 < error == residual_error(dam.upper, modes, circular) < ENOUGH
     check_basis(dam.upper, modes)
 
 

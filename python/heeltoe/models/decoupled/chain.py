@@ -18,12 +18,12 @@ from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import Block, build_block
-from heeltoe.models.flexible.body.bonded import fingerprints
+from heeltoe.models.flexible.body.bonded import elastic_dam, fingerprints
 from heeltoe.models.flexible.body.cost import Part, building, check_cost, parts_of
-from heeltoe.models.flexible.body.elastic import Sparse, dam, dofs, side_by_side
+from heeltoe.models.flexible.body.elastic import Sparse, dofs, side_by_side
 from heeltoe.models.flexible.body.loads import edge_shapes
 from heeltoe.models.flexible.body.modes import lowest
-from heeltoe.models.flexible.mesh.dam import BodyMesh, dam_mesh
+from heeltoe.models.flexible.mesh.dam import BodyMesh
 
 #: Modes that are kept: the lowest, up to so many, and none with a shorter period [s]. Nothing in an accelerogram is as
 #: fast; faster modes move with the ground, as all that is left out does.
@@ -121,7 +121,7 @@ def _chain(case: Case) -> Chain:
     section = block.section
     if section.crack_elevation == section.base_elevation:
         raise InputError("crack-at-base", "crack.elevation", f"{case.crack.elevation:g} m")
-    body = dam(case, dam_mesh(case)).lower
+    body = elastic_dam(case).lower
     assert body is not None
     plane = plane_fit(body.mesh)
     mass = body.mass + _attached(case, block, body.mesh, plane)
@@ -131,7 +131,7 @@ def _chain(case: Case) -> Chain:
 
 
 def _bonded(case: Case) -> Chain:
-    whole = dam(case, dam_mesh(case))
+    whole = elastic_dam(case)
     if whole.lower is None:
         raise InputError("crack-at-base", "crack.elevation", f"{case.crack.elevation:g} m")
     above = sparse.csr_array((3, whole.upper.load.size))

@@ -13,8 +13,8 @@ from heeltoe.base.blas import one_blas_thread
 from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
 from heeltoe.models.flexible.body.cost import building, check_cost, part_of
-from heeltoe.models.flexible.body.elastic import Dam, bonded_state, dam
-from heeltoe.models.flexible.body.modes import Modes, enough_modes, error_frequency, reduce, residual_error
+from heeltoe.models.flexible.body.elastic import Dam, bonded_state, dam, factor, tied
+from heeltoe.models.flexible.body.modes import TOLD, Basis, Intact, Modes, enough_modes, error_frequency, intact_modes
 from heeltoe.models.flexible.body.stress_places import StressPlaces, stress_places
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.models.flexible.mesh.kinks import kinked
@@ -51,6 +51,8 @@ class BondedDam(Dam):
         (2 n,) displacements of each body under the static loads [m].
     bonded_forces
         (2 k,) forces on the nodes of each crack's upper face then, x and z in turn [N].
+    intact
+        Its lowest modes.
     modes
         Of each body.
     basis_error
@@ -62,12 +64,31 @@ class BondedDam(Dam):
 
     bent: tuple[Floats, ...]
     bonded_forces: tuple[Floats, ...]
+    intact: Intact
     modes: tuple[Modes, ...]
     basis_error: float
     stress_places: tuple[StressPlaces, ...]
 
 
 _KEPT: Kept[BondedDam] = Kept(4)
+_ELASTIC: Kept[Dam] = Kept(4)
+
+
+def elastic_dam(case: Case) -> Dam:
+    """Mesh and assemble the parts of a case; the last few are kept.
+
+    Raises
+    ------
+    InputError
+        As :func:`bonded_dam`.
+    """
+
+    def build() -> Dam:
+        mesh = kinked(dam_mesh(case), case)
+        check_cost(case, building([part_of(case, part.crack.size, part.nodes.size) for part in mesh.parts]))
+        return dam(case, mesh)
+
+    return _ELASTIC.get(told(case, NOT_OF_MODES), build)
 
 
 @one_blas_thread()
@@ -98,27 +119,30 @@ def fingerprints(case: Case) -> list[str]:
 
 
 def _build(case: Case) -> BondedDam:
-    mesh = kinked(dam_mesh(case), case)
-    check_cost(case, building([part_of(case, part.crack.size, part.nodes.size) for part in mesh.parts]))
-    bonded = dam(case, mesh)
-    bent, forces = bonded_state(bonded)
-    modes, errors = _modes(case, bonded)
+    bonded = elastic_dam(case)
+    stiffness = tied(bonded, "stiffness")
+    solve = factor(stiffness)
+    bent, forces = bonded_state(bonded, solve)
+    intact = intact_modes(bonded, TOLD, stiffness, solve)
+    modes, errors = _modes(case, bonded, error_frequency(float(intact.omega[0])))
     return BondedDam(
         bodies=bonded.bodies,
         tie=bonded.tie,
         bent=bent,
         bonded_forces=forces,
+        intact=intact,
         modes=modes,
         basis_error=max(errors),
         stress_places=tuple(map(stress_places, bonded.bodies, modes)),
     )
 
 
-def _modes(case: Case, bonded: Dam) -> tuple[tuple[Modes, ...], list[float]]:
+def _modes(case: Case, bonded: Dam, circular: float) -> tuple[tuple[Modes, ...], list[float]]:
     """Return the modes of each body and the error that those left out make."""
     if case.flexible.modes is None:
-        result = [enough_modes(body, bonded) for body in bonded.bodies]
-        return tuple(modes for modes, _ in result), [error for _, error in result]
-    modes = tuple(reduce(body, case.flexible.modes) for body in bonded.bodies)
-    circular = error_frequency(bonded)
-    return modes, [residual_error(body, basis, circular) for body, basis in zip(bonded.bodies, modes, strict=True)]
+        result = [enough_modes(body, circular) for body in bonded.bodies]
+    else:
+        bases = [Basis(body) for body in bonded.bodies]
+        modes = [basis.modes(case.flexible.modes) for basis in bases]
+        result = [(own, basis.error(own, circular)) for own, basis in zip(modes, bases, strict=True)]
+    return tuple(modes for modes, _ in result), [error for _, error in result]

@@ -13,16 +13,15 @@ from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.models.flexible.body.elastic import Body, Dam, dofs, side_by_side
-from heeltoe.models.flexible.body.modes import Modes, lowest, part_periods, rayleigh
+from heeltoe.models.flexible.body.bonded import BondedDam
+from heeltoe.models.flexible.body.elastic import Body, Dam, dofs, factor, tied
+from heeltoe.models.flexible.body.modes import TOLD, Modes, intact_modes, part_periods, rayleigh
 
 #: So many of the lowest modes of the bonded dam get exactly one ratio under `modal`; what is above gets more, in
 #: proportion to its frequency.
 _MODAL = 20
 #: Motions of water with less mass than this of the largest are rounding.
 _NO_WATER = 1e-12
-#: Of so many modes the ratios are told.
-TOLD = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +91,7 @@ class Damping:
         return replace(self, sticking=sticking, free=free, dashpots=dashpots, between=between - np.diag(own))
 
 
-def damping_of(case: Case, dam: Dam, modes: tuple[Modes, ...]) -> Damping:
+def damping_of(case: Case, dam: BondedDam) -> Damping:
     """Return the damping that a case asks for.
 
     Parameters
@@ -100,12 +99,11 @@ def damping_of(case: Case, dam: Dam, modes: tuple[Modes, ...]) -> Damping:
     case
         With ``flexible.damping`` and ``concrete.damping``.
     dam
-        The elastic bodies.
-    modes
-        Of each part.
+        The elastic bodies in their modes.
     """
+    modes = dam.modes
     choice, ratio = case.flexible.damping, case.concrete.damping
-    omega, bonded = _bonded(dam, modes, _MODAL + 1 if choice == "modal" else TOLD)
+    omega, bonded = _bonded(dam, _MODAL + 1 if choice == "modal" else TOLD)
     periods = 2.0 * math.pi / omega[:TOLD]
     coefficients: tuple[float, float] | None = rayleigh(periods[0], periods[min(2, len(periods) - 1)], ratio)
     if choice == "stiffness":
@@ -148,18 +146,16 @@ def _own(modes: Modes, ratio: float) -> Floats:
     return mass + stiffness * modes.omega_squared
 
 
-def _bonded(dam: Dam, modes: tuple[Modes, ...], count: int) -> tuple[Floats, tuple[Floats, ...]]:
+def _bonded(dam: BondedDam, count: int) -> tuple[Floats, tuple[Floats, ...]]:
     """Return the lowest circular frequencies [1/s] of the dam with its crack bonded, and these modes (j, m) in the
     modes of each part."""
-    tie = dam.tie
-    mass = side_by_side(dam, "mass")
-    squares, shapes = lowest(
-        tie.T @ side_by_side(dam, "stiffness") @ tie, tie.T @ mass @ tie, min(count, tie.shape[1]), 0.0
-    )
-    moved = mass @ (tie @ shapes)
+    intact = dam.intact
+    if count > TOLD:
+        stiffness = tied(dam, "stiffness")
+        intact = intact_modes(dam, count, stiffness, factor(stiffness))
     places = np.cumsum([body.load.size for body in dam.bodies])[:-1]
-    pieces = np.split(moved, places)
-    return np.sqrt(squares), tuple((basis.shapes.T @ piece).T for basis, piece in zip(modes, pieces, strict=True))
+    pieces = np.split(intact.momenta, places)
+    return intact.omega, tuple((basis.shapes.T @ piece).T for basis, piece in zip(dam.modes, pieces, strict=True))
 
 
 def _crack_motions(dam: Dam, modes: tuple[Modes, ...]) -> list[list[Floats]]:

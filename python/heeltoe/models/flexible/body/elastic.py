@@ -6,6 +6,7 @@ i downstream, 2 i + 1 that upwards."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -31,6 +32,8 @@ from heeltoe.models.flexible.mesh.dam import BodyMesh, DamMesh
 
 Sparse = Any
 """A matrix of scipy.sparse, which has no types of its own."""
+Solve = Callable[[Floats], Floats]
+"""Takes forces (n,) or (n, k) to displacements."""
 
 # Young's modulus [Pa]: below the first not even a soil, above the second nothing that could not be called rigid.
 _SOFTEST, _STIFFEST = 1e6, 1e16
@@ -126,8 +129,9 @@ def dam(case: Case, mesh: DamMesh) -> Dam:
     return Dam(tuple(_body(case, part, place) for place, part in enumerate(mesh.parts)), _tie(mesh))
 
 
-def bonded_state(dam: Dam) -> tuple[tuple[Floats, ...], tuple[Floats, ...]]:
-    """Return the static equilibrium under all static loads with the cracks bonded.
+def bonded_state(dam: Dam, solve: Solve | None = None) -> tuple[tuple[Floats, ...], tuple[Floats, ...]]:
+    """Return the static equilibrium under all static loads with the cracks bonded; `solve` has the factors of their
+    stiffness, where they are known.
 
     Returns
     -------
@@ -137,11 +141,9 @@ def bonded_state(dam: Dam) -> tuple[tuple[Floats, ...], tuple[Floats, ...]]:
         For each crack forces of what is below it on the nodes of its upper face [N per m], x downstream and z up in
         turn.
     """
-    from scipy.sparse.linalg import splu
-
     load = np.concatenate([body.load for body in dam.bodies])
-    stiffness = (dam.tie.T @ side_by_side(dam, "stiffness") @ dam.tie).tocsc()
-    return crack_forces(dam, dam.tie @ splu(stiffness).solve(dam.tie.T @ load))
+    solve = solve or factor(tied(dam, "stiffness"))
+    return crack_forces(dam, dam.tie @ solve(dam.tie.T @ load))
 
 
 def crack_forces(dam: Dam, displacements: Floats) -> tuple[tuple[Floats, ...], tuple[Floats, ...]]:
@@ -171,6 +173,19 @@ def side_by_side(dam: Dam, name: str) -> Sparse:
     return sparse.block_diag([getattr(body, name) for body in dam.bodies], format="csc")
 
 
+def tied(dam: Dam, name: str) -> Sparse:
+    """Return the same of what is free while the cracks are bonded."""
+    return (dam.tie.T @ side_by_side(dam, name) @ dam.tie).tocsc()
+
+
+def factor(operator: Sparse) -> Solve:
+    """Return the function that solves a symmetric positive definite system."""
+    from scipy.sparse.linalg import splu
+
+    solve: Solve = splu(operator.tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve
+    return solve
+
+
 def dofs(nodes: Integers) -> Integers:
     """Return the degrees of freedom of nodes, x and z in turn, shape (2 k,)."""
     return np.stack([2 * nodes, 2 * nodes + 1], axis=1).reshape(-1)
@@ -194,22 +209,35 @@ def stresses(body: Body, displacements: Floats) -> Floats:
     ndarray, shape (n, 3) or (n, 3, steps)
         Normal stresses in x and z, shear stress [Pa]; tension positive.
     """
-    nodes, elements = body.mesh.nodes, body.mesh.elements
-    moved = displacements.reshape(len(nodes), 2, -1)[elements]
-    points = CORNERS / np.sqrt(3.0)
-    inverse = np.linalg.inv(jacobians(nodes, elements, points))
-    # Displacement gradients du_i/dx_j at the Gauss points.
+    nodes = len(body.mesh.nodes)
+    result: Floats = stress_rows(body, np.arange(nodes)) @ displacements
+    return result.reshape(nodes, 3, *displacements.shape[1:])
+
+
+def stress_rows(body: Body, nodes: Integers) -> Sparse:
+    """Return the matrix (3 k, 2 n) that takes displacements to what :func:`stresses` tells at some nodes (k,)."""
+    mesh, points = body.mesh, CORNERS / np.sqrt(3.0)
+    inverse = np.linalg.inv(jacobians(mesh.nodes, mesh.elements, points))
     gradients = np.einsum("pnk,epkj->epnj", shape_gradients(points), inverse)
-    slope = np.einsum("epnj,enis->epijs", gradients, moved, optimize=True)
-    strain = np.stack([slope[:, :, 0, 0], slope[:, :, 1, 1], slope[:, :, 0, 1] + slope[:, :, 1, 0]], axis=2)
+    # Strains (xx, zz, 2 xz) at the Gauss points by the displacements of the nodes.
+    strain = np.zeros((*gradients.shape[:3], 3, 2))
+    strain[..., 0, 0] = strain[..., 2, 1] = gradients[..., 0]
+    strain[..., 1, 1] = strain[..., 2, 0] = gradients[..., 1]
     # The bilinear function with given values at the Gauss points, at the nodes.
     places = np.sqrt(3.0) * np.vstack([CORNERS, MIDDLES])
     spread = np.prod(1.0 + CORNERS[None] * places[:, None], axis=2) / 4.0
-    at_nodes = np.einsum("np,ij,epjs->enis", spread, body.elasticity, strain, optimize=True)
-    total = np.zeros((len(nodes), 3, at_nodes.shape[-1]))
-    np.add.at(total, elements, at_nodes)
-    average = total / np.bincount(elements.reshape(-1), minlength=len(nodes))[:, None, None]
-    return average.reshape(len(nodes), 3, *displacements.shape[1:])
+    counts = np.bincount(mesh.elements.reshape(-1), minlength=len(mesh.nodes))
+    row = np.full(len(mesh.nodes), -1)
+    row[nodes] = np.arange(len(nodes))
+    element, place = np.nonzero(row[mesh.elements] >= 0)
+    at = mesh.elements[element, place]
+    values = np.einsum("kp,ij,kpnjd->kind", spread[place], body.elasticity, strain[element], optimize=True)
+    values /= counts[at][:, None, None, None]
+    rows = np.broadcast_to((3 * row[at][:, None] + np.arange(3))[:, :, None, None], values.shape)
+    moved = 2 * mesh.elements[element][:, None, :, None] + np.arange(2)
+    columns = np.broadcast_to(moved, values.shape)
+    entries = values.reshape(-1), (rows.reshape(-1), columns.reshape(-1))
+    return sparse.csr_array(entries, (3 * len(nodes), mesh.nodes.size))
 
 
 def principal(

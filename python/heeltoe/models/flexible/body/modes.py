@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
 
 import numpy as np
 
 from heeltoe.base.arrays import Floats
-from heeltoe.models.flexible.body.elastic import Body, Dam, Sparse, dofs, side_by_side
+from heeltoe.models.flexible.body.elastic import Body, Dam, Solve, Sparse, dofs, factor, side_by_side, tied
 
 #: Modes kept at first; they are doubled until so much of the crack's compliance at most is lost.
 FIRST_KEPT = 50
@@ -22,6 +22,8 @@ ENOUGH = 0.03
 _RANGE = 15.0
 # Combinations of static shapes with less than this part of the energy of others hold nothing new.
 _NOTHING = 1e-12
+#: Of so many modes of the intact dam the damping ratios are told.
+TOLD = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,8 +54,8 @@ class Modes:
     truncated: bool
 
 
-def reduce(body: Body, keep: int | None = None) -> Modes:
-    """Return the modes of a body.
+class Basis:
+    """The modes of a body and its static shapes, its factors made once however many modes are kept.
 
     Where modes are left out, the static shapes of unit forces on the crack nodes, of the static loads and, on a body
     that is held, of unit accelerations are added and made one set with the kept modes by Rayleigh and Ritz: residual
@@ -64,52 +66,124 @@ def reduce(body: Body, keep: int | None = None) -> Modes:
     ----------
     body
         Free, or held at its base.
-    keep
-        Number of vibration modes; all where it is not given.
-
-    Returns
-    -------
-    Modes
-        All of them where `keep` and the static shapes together would be as many.
     """
-    size = body.mesh.nodes.size
-    free = np.setdiff1d(np.arange(size), dofs(body.mesh.fixed))
-    rigid = _rigid_shapes(body) if free.size == size else np.empty((size, 0))
-    if keep is None:
-        keep = free.size
-    stiffness, mass = body.stiffness[free][:, free], body.mass[free][:, free]
-    following = [body.load_per_vertical] if body.load_per_vertical.any() else []
-    forces = np.column_stack([_unit_forces(body), body.load, *following])[free]
-    if not rigid.size:
-        forces = np.column_stack([forces, (body.mass @ np.tile(np.eye(2), (size // 2, 1)))[free]])
-    truncated = keep + rigid.shape[1] + forces.shape[1] < free.size
-    if truncated:
-        squares, vectors = _truncated(stiffness, mass, forces, rigid[free], keep)
-    else:
-        squares, vectors = _all(stiffness, mass, rigid[free])
-    shapes = np.zeros((size, squares.size))
-    shapes[free] = vectors
-    kept = rigid.shape[1] + keep if truncated else free.size
-    return Modes(squares, shapes, rigid.shape[1], kept, free.size, truncated)
+
+    def __init__(self, body: Body) -> None:
+        size = body.mesh.nodes.size
+        self._size, self._free = size, np.setdiff1d(np.arange(size), dofs(body.mesh.fixed))
+        self._stiffness, self._mass = (
+            matrix[self._free][:, self._free] if body.mesh.fixed.size else matrix
+            for matrix in (body.stiffness, body.mass)
+        )
+        self._rigid = np.empty((self._free.size, 0)) if body.mesh.fixed.size else _rigid_shapes(body)
+        following = [body.load_per_vertical] if body.load_per_vertical.any() else []
+        moved = [body.mass @ np.tile(np.eye(2), (size // 2, 1))] if body.mesh.fixed.size else []
+        unit = _unit_forces(body)
+        self._unit = unit[self._free]
+        self._forces = np.column_stack([unit, body.load, *following, *moved])[self._free]
+
+    def modes(self, keep: int | None = None) -> Modes:
+        """Return as many vibration modes, all where no number is given or the static shapes make it as many."""
+        rigid = self._rigid.shape[1]
+        truncated = keep is not None and keep + rigid + self._forces.shape[1] < self._free.size
+        if keep is None or not truncated:
+            kept = self._free.size
+            squares, vectors = self._all()
+        else:
+            kept = rigid + keep
+            squares, vectors = self._truncated(keep)
+        shapes = vectors
+        if self._free.size < self._size:
+            shapes = np.zeros((self._size, squares.size))
+            shapes[self._free] = vectors
+        return Modes(squares, shapes, rigid, kept, self._free.size, truncated)
+
+    def error(self, modes: Modes, circular: float) -> float:
+        """Return what :func:`residual_error` does."""
+        import scipy.linalg
+
+        if not modes.truncated:
+            return 0.0
+        square = circular**2
+        crack = self._unit.T @ modes.shapes[self._free]
+        reduced = crack @ (crack / (modes.omega_squared + square)).T
+        direct = self._unit.T @ factor(self._stiffness + square * self._mass)(self._unit)
+        # A smaller space is never more compliant.
+        return float(scipy.linalg.eigvalsh(direct - reduced, direct)[-1])
+
+    @cached_property
+    def _shift(self) -> float:
+        """A millionth of a Rayleigh quotient, which bounds the lowest squared frequency of a free body."""
+        if not self._rigid.size:
+            return 0.0
+        shape = self._rigid[:, 2] ** 2
+        shape -= _projected(shape, self._rigid, self._mass)
+        return 1e-6 * float(shape @ (self._stiffness @ shape) / (shape @ (self._mass @ shape)))
+
+    @cached_property
+    def _solve(self) -> Solve:
+        return factor(self._stiffness + self._shift * self._mass)
+
+    @cached_property
+    def _static(self) -> Floats:
+        """Static shapes of all forces (n, f), the rigid motion taken out."""
+        static = self._solve(self._forces)
+        return static - _projected(static, self._rigid, self._mass)
+
+    def _all(self) -> tuple[Floats, Floats]:
+        import scipy.linalg
+
+        return self._with_rigid(
+            *scipy.linalg.eigh(self._stiffness.toarray(), self._mass.toarray(), overwrite_a=True, overwrite_b=True)
+        )
+
+    def _with_rigid(self, squares: Floats, shapes: Floats) -> tuple[Floats, Floats]:
+        """Put exact rigid-body modes in the place of those that rounding has made."""
+        count = self._rigid.shape[1]
+        squares, shapes = squares[count:], shapes[:, count:]
+        shapes = shapes - _projected(shapes, self._rigid, self._mass)
+        return np.concatenate([np.zeros(count), squares]), np.column_stack([self._rigid, shapes])
+
+    def _truncated(self, keep: int) -> tuple[Floats, Floats]:
+        import scipy.linalg
+
+        found = lowest(self._stiffness, self._mass, keep + self._rigid.shape[1], self._shift, self._solve)
+        squares, shapes = self._with_rigid(*found)
+        static = self._static
+        for _ in range(2):  # the second time takes away what rounding has left
+            static = static - _projected(static, shapes, self._mass)
+            products = static.T @ (self._stiffness @ static)
+            size = np.sqrt(products.diagonal())
+            energy, mixed = scipy.linalg.eigh(products / size / size[:, None])
+            new = energy > _NOTHING * energy[-1]
+            static = static @ (mixed[:, new] / np.sqrt(energy[new]) / size[:, None])
+        # Orthonormal in the stiffness now; in these the mass has the inverse squared frequencies.
+        inverse, mixed = scipy.linalg.eigh(static.T @ (self._mass @ static))
+        pseudo = static @ (mixed / np.sqrt(inverse))
+        return np.concatenate([squares, 1.0 / inverse[::-1]]), np.column_stack([shapes, pseudo[:, ::-1]])
 
 
-def enough_modes(body: Body, dam: Dam) -> tuple[Modes, float]:
+def reduce(body: Body, keep: int | None = None) -> Modes:
+    """Return the modes of a body, see :class:`Basis`: all of them where nothing is said."""
+    return Basis(body).modes(keep)
+
+
+def enough_modes(body: Body, circular: float) -> tuple[Modes, float]:
     """Return as many of the lowest modes of a body, with its static shapes, as its crack needs, and their error."""
-    circular = error_frequency(dam)
-    keep = FIRST_KEPT
+    basis, keep = Basis(body), FIRST_KEPT
     while True:
-        modes = reduce(body, keep)
-        error = residual_error(body, modes, circular)
+        modes = basis.modes(keep)
+        error = basis.error(modes, circular)
         if error <= ENOUGH or not modes.truncated:
             return modes, error
         keep *= 2
 
 
-def error_frequency(dam: Dam) -> float:
-    """Return the circular frequency [1/s] up to which the crack's compliance matters: 15 times the first of the intact
-    dam. The slip of the typical dam changes by 0.5 % with 12 modes, which leave an error of 16 % there, and by 0.02 %
-    with 50, which leave 1 to 2 %."""
-    return _RANGE * 2.0 * math.pi / float(intact_periods(dam, 1)[0])
+def error_frequency(first: float) -> float:
+    """Return the circular frequency [1/s] up to which the crack's compliance matters: 15 times the `first` of the
+    intact dam. The slip of the typical dam changes by 0.5 % with 12 modes, which leave an error of 16 % there, and by
+    0.02 % with 50, which leave 1 to 2 %."""
+    return _RANGE * first
 
 
 def residual_error(body: Body, modes: Modes, circular: float) -> float:
@@ -131,19 +205,7 @@ def residual_error(body: Body, modes: Modes, circular: float) -> float:
     float
         For the pattern of forces with the largest error, from 0 (none but rounding) to 1 (nothing of it is left).
     """
-    import scipy.linalg
-
-    free = np.setdiff1d(np.arange(body.mesh.nodes.size), dofs(body.mesh.fixed))
-    if not modes.truncated:
-        return 0.0
-    square = circular**2
-    unit = _unit_forces(body)
-    crack = unit.T @ modes.shapes
-    reduced = crack @ (crack / (modes.omega_squared + square)).T
-    operator = body.stiffness[free][:, free] + square * body.mass[free][:, free]
-    direct = unit[free].T @ _factor(operator)(unit[free])
-    # A smaller space is never more compliant.
-    return float(scipy.linalg.eigvalsh(direct - reduced, direct)[-1])
+    return Basis(body).error(modes, circular)
 
 
 def part_periods(modes: Modes, count: int = 5) -> Floats:
@@ -164,11 +226,32 @@ def intact_periods(dam: Dam, count: int = 5, *, water: bool = True) -> Floats:
     water
         Whether the virtual water vibrates with the dam.
     """
-    tie = dam.tie
-    stiffness = tie.T @ side_by_side(dam, "stiffness") @ tie
-    mass = tie.T @ side_by_side(dam, "mass" if water else "mass_concrete") @ tie
-    squares, _ = lowest(stiffness, mass, min(count, tie.shape[1]), 0.0)
+    mass = tied(dam, "mass" if water else "mass_concrete")
+    squares, _ = lowest(tied(dam, "stiffness"), mass, min(count, dam.tie.shape[1]), 0.0)
     return 2.0 * math.pi / np.sqrt(squares)
+
+
+@dataclass(frozen=True, eq=False)
+class Intact:
+    """The lowest modes of a dam with its cracks bonded.
+
+    Attributes
+    ----------
+    omega
+        (j,) circular frequencies [1/s].
+    momenta
+        (2 n, j) of each mode at unit speed, one part after the other [kg^(1/2)].
+    """
+
+    omega: Floats
+    momenta: Floats
+
+
+def intact_modes(dam: Dam, count: int, stiffness: Sparse, solve: Solve) -> Intact:
+    """Return so many modes, or all where there are fewer, by the factors of the tied `stiffness`."""
+    mass = tied(dam, "mass")
+    squares, shapes = lowest(stiffness, mass, min(count, dam.tie.shape[1]), 0.0, solve)
+    return Intact(np.sqrt(squares), side_by_side(dam, "mass") @ (dam.tie @ shapes))
 
 
 def rayleigh(period_a: float, period_b: float, ratio: float) -> tuple[float, float]:
@@ -211,62 +294,16 @@ def _unit_forces(body: Body) -> Floats:
     return forces
 
 
-def _all(stiffness: Sparse, mass: Sparse, rigid: Floats) -> tuple[Floats, Floats]:
-    import scipy.linalg
-
-    squares, shapes = scipy.linalg.eigh(stiffness.toarray(), mass.toarray(), overwrite_a=True, overwrite_b=True)
-    return _with_rigid(squares, shapes, mass, rigid)
-
-
-def _truncated(stiffness: Sparse, mass: Sparse, forces: Floats, rigid: Floats, keep: int) -> tuple[Floats, Floats]:
-    import scipy.linalg
-
-    count = rigid.shape[1]
-    shift = _small_shift(stiffness, mass, rigid) if count else 0.0
-    squares, shapes = _with_rigid(*lowest(stiffness, mass, keep + count, shift), mass, rigid)
-    static = _factor(stiffness + shift * mass)(forces)
-    for _ in range(2):  # the second time takes away what rounding has left
-        static -= _projected(static, shapes, mass)
-        static /= np.sqrt(np.sum(static * (stiffness @ static), axis=0))
-        energy, mixed = scipy.linalg.eigh(static.T @ (stiffness @ static))
-        new = energy > _NOTHING * energy[-1]
-        static = static @ (mixed[:, new] / np.sqrt(energy[new]))
-    # Orthonormal in the stiffness now; in these the mass has the inverse squared frequencies.
-    inverse, mixed = scipy.linalg.eigh(static.T @ (mass @ static))
-    pseudo = static @ (mixed / np.sqrt(inverse))
-    return np.concatenate([squares, 1.0 / inverse[::-1]]), np.column_stack([shapes, pseudo[:, ::-1]])
-
-
-def _with_rigid(squares: Floats, shapes: Floats, mass: Sparse, rigid: Floats) -> tuple[Floats, Floats]:
-    """Put exact rigid-body modes in the place of those that rounding has made."""
-    count = rigid.shape[1]
-    squares, shapes = squares[count:], shapes[:, count:]
-    shapes = shapes - _projected(shapes, rigid, mass)
-    return np.concatenate([np.zeros(count), squares]), np.column_stack([rigid, shapes])
-
-
 def _projected(shapes: Floats, onto: Floats, mass: Sparse) -> Floats:
     part: Floats = onto @ (onto.T @ (mass @ shapes))
     return part
 
 
-def _small_shift(stiffness: Sparse, mass: Sparse, rigid: Floats) -> float:
-    """Return a millionth of a Rayleigh quotient, which bounds the lowest squared frequency of a free body."""
-    shape = rigid[:, 2] ** 2
-    shape -= _projected(shape, rigid, mass)
-    return 1e-6 * float(shape @ (stiffness @ shape) / (shape @ (mass @ shape)))
-
-
-def _factor(operator: Sparse) -> Any:
-    """Return the function that solves a symmetric positive definite system."""
-    from scipy.sparse.linalg import splu
-
-    return splu(operator.tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve
-
-
-def lowest(stiffness: Sparse, mass: Sparse, count: int, shift: float) -> tuple[Floats, Floats]:
+def lowest(
+    stiffness: Sparse, mass: Sparse, count: int, shift: float, solve: Solve | None = None
+) -> tuple[Floats, Floats]:
     """Return the lowest squared frequencies, ascending, and their shapes, orthonormal in the mass;
-    ``stiffness + shift mass`` must be regular."""
+    ``stiffness + shift mass``, whose factors `solve` has where they are known, must be regular."""
     import scipy.linalg
     from scipy.sparse.linalg import LinearOperator, eigsh
 
@@ -274,9 +311,9 @@ def lowest(stiffness: Sparse, mass: Sparse, count: int, shift: float) -> tuple[F
     if 3 * count >= size:
         squares, shapes = scipy.linalg.eigh(stiffness.toarray(), mass.toarray(), subset_by_index=(0, count - 1))
         return squares, shapes
-    solve = LinearOperator((size, size), _factor(stiffness + shift * mass))
+    inverse = LinearOperator((size, size), solve or factor(stiffness + shift * mass))
     # A start of our own makes the result the same every time.
     start = np.random.default_rng(0).standard_normal(size)
-    squares, shapes = eigsh(stiffness, count, mass, sigma=-shift, OPinv=solve, v0=start)
+    squares, shapes = eigsh(stiffness, count, mass, sigma=-shift, OPinv=inverse, v0=start)
     order = np.argsort(squares)
     return squares[order], shapes[:, order]

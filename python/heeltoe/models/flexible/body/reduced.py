@@ -176,7 +176,7 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
     bonded = bonded_dam(case)
     bodies, modes = bonded.bodies, bonded.modes
     sections = tuple(single_crack_case.cut for single_crack_case in case.single_crack_cases)
-    damping = damping_of(case, bonded, modes)
+    damping = damping_of(case, bonded)
     reservoir = water_body(case, bodies, longer=larger)
     whole = founded(case, bonded, larger=larger)
     if whole is not None:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
-from heeltoe.models.flexible.body.elastic import Body, stresses
+from heeltoe.models.flexible.body.elastic import Body, stress_rows
 from heeltoe.models.flexible.body.modes import Modes
 from heeltoe.models.flexible.mesh.dam import BodyMesh
 
@@ -73,7 +73,7 @@ def stress_places(body: Body, modes: Modes) -> StressPlaces:
     """Return where the stresses of a body are read."""
     mesh = body.mesh
     nodes = np.unique(mesh.elements[:, :4])
-    result = stresses(body, modes.shapes)[nodes]
+    result = (stress_rows(body, nodes) @ modes.shapes).reshape(nodes.size, 3, -1)
     # Rounding of the shapes, times a slip of metres, is no stress.
     result[..., : modes.rigid] = 0.0
     rows = np.ascontiguousarray(result.swapaxes(1, 2))

@@ -74,7 +74,7 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
     first
         A run at the first step with such frames, where it has been made before.
     """
-    case, options = shaken.case, shaken.case.flexible
+    options = shaken.case.flexible
     trials = Trials(shaken, shaken.first_step(), frame_step, first)
     level = Level(0, 0)
     if asked == "none":
@@ -86,15 +86,24 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
         finer = _finer(_worst(evidence), level, options)
         if finer is None:
             break
-        wanted = _Stand(trials, finer, full=full).wanted(means=any(item.mean for item in evidence))
-        work = trials.work + trials.cost(wanted)
-        if work > BUDGET or not trials.expected(finer, work).within(case):
+        if not _affordable(trials, finer, full=full, means=any(item.mean for item in evidence)):
             evidence = stand.evidences(spent=True)
             break
         level = finer
     mesh = stand.mesh
     beside = None if mesh is None else (trials.dam_of(mesh.mesh), trials.whole(mesh))
     return Answer(trials.dam_of(level.mesh), trials.whole(level), evidence[trials.asked], beside, evidence)
+
+
+def _affordable(trials: Trials, level: Level, *, full: bool, means: bool) -> bool:
+    """Return whether the runs that evidence at a level needs are within what a result may cost."""
+    # The run that is told and one at twice or half its step are the least; they may be too much before a dam is built.
+    steps = (Level(level.mesh, level.halvings + change) for change in (-1, 1))
+    least = min(trials.cost([(level, _AS_IT_IS), (step, _AS_IT_IS)]) for step in steps)
+    if trials.work + least > BUDGET:
+        return False
+    work = trials.work + trials.cost(_Stand(trials, level, full=full).wanted(means=means))
+    return work <= BUDGET and trials.expected(level, work).within(trials.dam_of(0).case)
 
 
 def _worst(evidences: Sequence[Evidence]) -> Evidence:
