@@ -36,4 +36,5 @@ Count = Annotated[int, Field(strict=True, ge=1, le=10**12)]
 class Fields(Named, BaseModel):
     """A block of fields: no unknown ones, no changes later; the texts below them go into the JSON schema."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
+    # The validator of a block by itself is made when it is asked for; that of a case has all of its blocks.
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True, defer_build=True)

@@ -16,7 +16,6 @@ from heeltoe.base.arrays import Floats
 from heeltoe.case.combinations import warned
 from heeltoe.case.model import Case
 from heeltoe.mechanics.drains import close_by_slip, drainage_left
-from heeltoe.models.flexible.run.expected import frame_step_of
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import Part
 from heeltoe.result.numbers import ElasticDam
@@ -97,6 +96,9 @@ def run_drained(
     dict
         (n,) arrays by name, as :meth:`ShakenDam.run_scaled` returns them.
     """
+
+    # Here, as blocks run without what an elastic dam needs.
+    from heeltoe.models.flexible.run.expected import frame_step_of
 
     def under(drainage: Drainage) -> ShakenDam:
         return replace(shaken, shaking=replace(shaken.shaking, drainage=drainage))

@@ -7,9 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated, Any, ClassVar, Generic, Protocol, Self, TypeVar, overload
-
-import pyarrow as pa
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Generic, Protocol, Self, TypeVar, overload
 
 from heeltoe.base.arrays import Floats
 from heeltoe.base.atomic_files import written
@@ -40,6 +38,9 @@ from heeltoe.result.verdict import verdict
 from heeltoe.result.write import build_info, motion_json, static_json, write_table
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 T = TypeVar("T")
 R = TypeVar("R", bound="Response")
@@ -439,6 +440,8 @@ class Response(Numbered, Shown):
 
     def to_table(self) -> pa.Table:
         """Return the histories with the mode as a table."""
+        import pyarrow as pa
+
         return pa.table({**self.histories, "mode": list(self.mode)})
 
     def to_pandas(self) -> Any:
@@ -447,6 +450,8 @@ class Response(Numbered, Shown):
 
     def events_table(self) -> pa.Table:
         """Return the events as a table."""
+        import pyarrow as pa
+
         return pa.table(dict(self.event_log))
 
     def write_histories(self, path: Path) -> None:

@@ -6,19 +6,18 @@ import json
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.compute
-import pyarrow.csv
-import pyarrow.parquet
 
 from heeltoe.base.blocks import Block, Number
 from heeltoe.kernel.build import PROFILE, VERSION
 from heeltoe.mechanics.block import StaticState
 from heeltoe.motion.ground_motion import GroundMotion, Part
 from heeltoe.motion.measures import measures
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 # How a formula of a spreadsheet begins; a sign before a number does not make one.
 _FORMULA = r"^(?:[=@\t\r]|[+-][^\d.\s])"
@@ -63,18 +62,24 @@ class MotionNumbers(Block):
 
 def write_table(table: pa.Table, path: Path) -> None:
     """Write a table to `path`: CSV if it ends so, else Parquet."""
+    import pyarrow.csv
+    import pyarrow.parquet
+
     # Opened here: Arrow would take a directory with a colon in its name for an address.
     with path.open("wb") as file:
         if path.suffix == ".csv":
-            pa.csv.write_csv(_without_formulas(table), file)
+            pyarrow.csv.write_csv(_without_formulas(table), file)
         else:
-            pa.parquet.write_table(table, file)
+            pyarrow.parquet.write_table(table, file)
 
 
 def _without_formulas(table: pa.Table) -> pa.Table:
     """Return a table whose texts no spreadsheet takes for a formula: an apostrophe precedes those that begin so."""
+    import pyarrow as pa
+    import pyarrow.compute as compute
+
     columns = [
-        pa.compute.replace_substring_regex(column, _FORMULA, r"'\0")
+        compute.replace_substring_regex(column, _FORMULA, r"'\0")
         if pa.types.is_string(column.type) or pa.types.is_large_string(column.type)
         else column
         for column in table.columns

@@ -72,6 +72,23 @@ DIMENSIONS = {
 }
 
 
+# What most cases write: pint takes longer to load than a run of a block.
+_USUAL = {
+    "m": {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "km": 1e3},
+    "kg/m^3": {"kg/m^3": 1.0, "kg/m3": 1.0},
+    "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
+    "s": {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0},
+    "m/s^2": {"m/s^2": 1.0, "m/s2": 1.0, "cm/s^2": 1e-2, "Gal": 1e-2},
+    "m/s": {"m/s": 1.0, "cm/s": 1e-2, "mm/s": 1e-3, "km/s": 1e3},
+    "Hz": {"Hz": 1.0},
+    "rad": {"rad": 1.0, "deg": math.radians(1.0)},
+    "N/m": {"N/m": 1.0, "kN/m": 1e3, "MN/m": 1e6},
+    "N/m^2": {"MN/m/m": 1e6, "kN/m/m": 1e3},
+    "m^2/J": {"m^2/J": 1.0},
+    "B": {"B": 1.0, "MB": 1e6, "GB": 1e9},
+}
+
+
 @dataclass(frozen=True)
 class Acceleration:
     """An acceleration that remembers whether it was given in g, since one g may differ from case to case.
@@ -140,7 +157,7 @@ def acceleration_unit(unit: str, field: str) -> Acceleration:
 @functools.cache
 def _registry() -> pint.UnitRegistry[Any]:
     # Importing pint and building its registry takes longer than all the rest of a rigid run, so they wait for
-    # the first unit.
+    # the first unit that is not usual.
     import pint
 
     return pint.UnitRegistry(cache_folder=None)
@@ -168,7 +185,13 @@ def _split(value: object, dimension: str, field: str) -> tuple[float, str]:
 
 @functools.lru_cache(maxsize=256)
 def _conversion(unit: str, target: str) -> float | None:
-    """Return how many `wanted` one `unit` is; None where they are of different kinds."""
+    """Return how many `target` one `unit` is; None where they are of different kinds."""
+    usual = _USUAL.get(target, {}).get(unit)
+    return _converted(unit, target) if usual is None else usual
+
+
+def _converted(unit: str, target: str) -> float | None:
+    """Return the same by way of pint."""
     registry = _registry()
     # "m/s2" is how many people write a square.
     one = registry.Quantity(1.0, registry.parse_units(re.sub(r"(?<=[A-Za-z])([23])\b", r"^\1", unit)))
