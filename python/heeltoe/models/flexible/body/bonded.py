@@ -88,7 +88,7 @@ def elastic_dam(case: Case) -> Dam:
         check_cost(case, building([part_of(case, part.crack.size, part.nodes.size) for part in mesh.parts]))
         return dam(case, mesh)
 
-    return _ELASTIC.get(told(case, NOT_OF_MODES), build)
+    return _ELASTIC.get(case_key(case, NOT_OF_MODES), build)
 
 
 @one_blas_thread()

@@ -159,11 +159,8 @@ def crack_forces(dam: Dam, displacements: Floats) -> tuple[tuple[Floats, ...], t
 def base_shapes(dam: Dam, held: Integers) -> Floats:
     """Return the static shapes of the dam with its cracks bonded for a unit displacement of each of k degrees of
     freedom of its base, (2 n, k) of one part after the other."""
-    from scipy.sparse.linalg import splu
-
-    stiffness = side_by_side(dam, "stiffness")
-    moved = stiffness[:, held].toarray()
-    shapes: Floats = -(dam.tie @ splu((dam.tie.T @ stiffness @ dam.tie).tocsc()).solve(dam.tie.T @ moved))
+    moved = side_by_side(dam, "stiffness")[:, held].toarray()
+    shapes: Floats = -(dam.tie @ factor(tied(dam, "stiffness"))(dam.tie.T @ moved))
     shapes[held, np.arange(held.size)] += 1.0
     return shapes
 

@@ -262,7 +262,7 @@ def _shapes(stiffness: Sparse, mass: Sparse, tie: Sparse, standing: Sparse, pres
     stiffness, then the static shapes of the nodes of the base; columns over all displacements."""
     inner = sparse.csc_matrix(tie.T @ stiffness @ tie)
     solve = splu(inner).solve
-    _, modes = lowest(inner, tie.T @ mass @ tie, min(_MODES, tie.shape[1]), 0.0)
+    _, modes = lowest(inner, tie.T @ mass @ tie, min(_MODES, tie.shape[1]), 0.0, solve)
     # Without these the face gives too little under water: 3 % of the crest's motion next to a resonance of the water.
     pushed = solve(tie.T[:, pressed].toarray())
     moving = np.column_stack([modes, pushed / np.sqrt(np.abs(np.sum(pushed * (inner @ pushed), axis=0)) + 1e-300)])
