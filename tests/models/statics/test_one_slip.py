@@ -4,10 +4,11 @@ import pytest
 
 from heeltoe import read_case, run
 from heeltoe.models.statics.after import joints_after
-from heeltoe.study.small.statics import After, judge
+from heeltoe.study.small.run_table import parse_axes
+from heeltoe.study.small.statics import After, judge, statics_table
 from heeltoe.views.report.html import html
 from heeltoe.views.report.write import build_report
-from shared.dams import ROOT
+from shared.dams import BLOCK, ROOT
 from shared.report_reader import Reader
 
 ANCHOR = {"head_x": "3 m", "head_elevation": "100 m", "foot_x": "4 m", "foot_elevation": "-10 m", "prestress": "1 MN/m"}
@@ -59,3 +60,13 @@ def test_the_report_checks_every_section(dam):
     text = " ".join(Reader(html(build_report(case, response))).text.split())
     assert "at 2 sections; the section at" in text
     assert "heeltoe.statics_of_sections" not in text
+
+
+def test_a_table_of_choices_of_the_checks_runs_the_earthquake_once():
+    words = []
+    axes = parse_axes(["statics.residual_friction=0.2,0.3,0.4"])
+    table = statics_table(BLOCK, [], axes, After(model="rigid"), words.append)
+    assert len(table.dams) == 3
+    assert words.count("running the earthquake") == 1
+    slip = read_case(BLOCK).with_({"statics.residual_friction": 0.2})
+    assert {dam.joints[0].statics.slip_m for dam in table.dams} == {judge(slip).joints[0].statics.slip_m}

@@ -18,6 +18,8 @@ from heeltoe.study.small.response_spectrum import with_response_spectrum
 from heeltoe.study.small.run_table import Table, cases_of, check_together
 
 Say = Callable[[str], None]
+#: Runs that have been made, the better model first, by the model that was asked for and all that a run depends on.
+Made = dict[tuple[str, str], tuple[Response, ...]]
 
 
 @dataclass(frozen=True)
@@ -45,7 +47,14 @@ class After:
         return self.model is not None or (case.motion is not None and case.statics.residual_slip is None)
 
 
-def judge(case: Case, after: After = After(), say: Say = lambda text: None, *, spectrum: str | None = None) -> Joints:
+def judge(
+    case: Case,
+    after: After = After(),
+    say: Say = lambda text: None,
+    *,
+    spectrum: str | None = None,
+    made: Made | None = None,
+) -> Joints:
     """Judge the stability of a dam at each of its sections, after the earthquake, too.
 
     Parameters
@@ -59,20 +68,22 @@ def judge(case: Case, after: After = After(), say: Say = lambda text: None, *, s
     spectrum
         Of the response spectrum analysis beside them, see
         :func:`heeltoe.study.small.response_spectrum.with_response_spectrum`; None for none.
+    made
+        Runs of dams that differ in their static checks at most; those that are still to be made are put there.
 
     Raises
     ------
     InputError
         Where something of the case cannot be used; without a motion where a model is to say the slip.
     """
-    judged = _judge(case, after, say)
+    judged = _judge(case, after, say, {} if made is None else made)
     if spectrum is None:
         return judged
     say("looking for the first mode")
     return with_response_spectrum(judged, spectrum, field="--spectrum")
 
 
-def _judge(case: Case, after: After, say: Say) -> Joints:
+def _judge(case: Case, after: After, say: Say, made: Made) -> Joints:
     slip_m = after.slip_m
     if slip_m is not None:
         return statics_of_sections(case, lambda alone, place: statics(alone, slip_m, slip_source=after.source))
@@ -81,19 +92,19 @@ def _judge(case: Case, after: After, say: Say) -> Joints:
     if case.statics.residual_slip is not None:
         # What was asked for goes before what the case says.
         case = case.model_copy(update={"statics": case.statics.model_copy(update={"residual_slip": None})})
-    whole: list[Response] = []
 
-    def runs() -> Sequence[Response]:
-        if not whole:
-            say("running the earthquake")
-            whole.extend(reversed(run(case, after.model or AUTO).responses))
-        return whole
+    def run_once(dam: Case, what: str) -> Sequence[Response]:
+        model = after.model or AUTO
+        key = model, dam.model_dump_json(exclude={"statics": True})
+        if key not in made:
+            say(f"running the earthquake{what}")
+            made[key] = tuple(reversed(run(dam, model).responses))
+        return made[key]
 
     def run_alone(alone: Case) -> Sequence[Response]:
-        say(f"running the earthquake, crack at {alone.crack.elevation:g} m alone")
-        return tuple(reversed(run(alone, after.model or AUTO).responses))
+        return run_once(alone, f", crack at {alone.crack.elevation:g} m alone")
 
-    return joints_after(case, runs, run_alone)
+    return joints_after(case, lambda: run_once(case, ""), run_alone)
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,7 +195,8 @@ def statics_table(
     cells, cases = cases_of(source, changes, axes)
     check_together(cases, lambda case: cost_of(case, after.model or AUTO) if after.runs(case) else None)
     table = []
+    made: Made = {}
     for done, case in enumerate(cases):
         say(f"judging, {done} of {len(cases)} dams done")
-        table.append(judge(case, after, say, spectrum=spectrum))
+        table.append(judge(case, after, say, spectrum=spectrum, made=made))
     return StaticsTable(tuple(axes), cells, tuple(table))
