@@ -52,6 +52,16 @@ def test_crack_positions_are_those_of_the_parts_for_long(name, modes):
         assert face[-1] - start == pytest.approx(moved, rel=0.0, abs=1e-9)
 
 
+def test_the_last_frame_is_the_end_of_the_run():
+    # Two seconds are no whole number of frames 0.03 s apart.
+    response = shaken("base", "flexible.evidence=none", output_step=0.03)
+    time = response.crack.time
+    assert time[-1] == response.end_time_s == response.histories["time_s"][-1]
+    assert 0.0 < time[-1] - time[-2] < time[1]
+    assert response.histories["slip_m"][-1] == response.residual_slip_m
+    assert response.crack.forces().shape[0] == time.size
+
+
 def test_the_first_frame_is_the_static_state(response):
     history = response.crack
     assert history.time[0] == 0.0

@@ -23,6 +23,8 @@ pub struct ReducedBody {
     pub(super) dampers: usize,
     /// Number of rows of the water on its wet faces, see [`super::reservoir`].
     pub(super) wet: usize,
+    /// Whether any of these rows has to do with it; without water they are few, and there always.
+    pub(super) tied: bool,
     /// What its boundary takes, a symmetric matrix over all modes and those that fill up the last group, row by row; none
     /// of a body without such a boundary.
     pub(super) boundary: Option<Vec<Group>>,
@@ -103,7 +105,9 @@ impl ReducedBody {
         let count = modes.omega_squared.len();
         let groups = group_count(count);
         let (dampers, wet) = (modes.dampers.len() / count, modes.wet.len() / count);
-        let width = columns + dampers + wet;
+        let moves = |rows: &[f64]| rows.iter().any(|x| *x != 0.0);
+        let tied = wet == 0 || moves(modes.dampers) || moves(modes.wet);
+        let width = columns + if tied { dampers + wet } else { 0 };
         let mut shapes = vec![[0.0; LANES]; groups * width];
         for (mode, row) in modes.shapes.chunks_exact(columns).enumerate() {
             for (c, value) in row.iter().enumerate() {
@@ -114,7 +118,7 @@ impl ReducedBody {
             .dampers
             .chunks_exact(count)
             .chain(modes.wet.chunks_exact(count));
-        for (c, row) in links.enumerate() {
+        for (c, row) in links.enumerate().filter(|_| tied) {
             for (mode, value) in row.iter().enumerate() {
                 shapes[place(width, mode / LANES, columns + c)][mode % LANES] = *value;
             }
@@ -124,6 +128,7 @@ impl ReducedBody {
             nodes: columns / 2,
             dampers,
             wet,
+            tied,
             boundary: (!modes.boundary.is_empty()).then(|| {
                 let mut matrix = vec![[0.0; LANES]; groups * LANES * groups];
                 let rows = modes.boundary.chunks_exact(count);
@@ -163,9 +168,18 @@ impl ReducedBody {
         self.boundary.is_some()
     }
 
-    /// Number of rows by which something ties its modes: dashpots first, then water.
-    pub(super) fn links(&self) -> usize {
+    /// Number of rows by which something ties the modes of both bodies: dashpots first, then water.
+    pub(super) fn rows(&self) -> usize {
         self.dampers + self.wet
+    }
+
+    /// Number of those that are there for this body.
+    pub(super) fn links(&self) -> usize {
+        if self.tied {
+            self.rows()
+        } else {
+            0
+        }
     }
 
     /// Number of groups of modes.

@@ -33,6 +33,8 @@ use super::status::Status;
 const FOLLOWED: f64 = 0.1;
 /// What the bond of the last pass may miss, as a share of the largest impulse.
 const MISSED: f64 = 1e-11;
+/// Velocity of a node that sticks, as a share of the fastest: rounding.
+const ROUNDED: f64 = 1e-11;
 /// Passes after which half of each change must do, and after which what is found must do. Its miss is in the residual.
 const HALVED: u32 = 20;
 const MOST: u32 = 60;
@@ -83,6 +85,7 @@ struct After {
 
 impl Bond {
     /// Tension (N) at a gap, and the shear beside friction that goes with it; `widest` is the largest gap so far.
+    #[inline(always)]
     fn bears(&self, damage: f64, gap: f64, widest: f64) -> [f64; 2] {
         let [tension, cohesion] = self.strength;
         let left = tension * (1.0 - damage);
@@ -104,6 +107,7 @@ impl Bond {
     }
 
     /// Follow the motion of a step: `ways` along and across, and the shear of contact and bond.
+    #[inline(always)]
     fn follow(&mut self, status: Status, ways: [f64; 2], shear: f64) {
         let mut next = After {
             damage: self.damage,
@@ -185,8 +189,14 @@ pub(super) struct Bonds {
     /// Those of each crack, from heel to toe.
     cracks: Vec<Vec<Bond>>,
     pub cracked: Vec<Cracked>,
-    /// Impulses of the bonds on each component.
+    /// Impulses of the bonds on each component; those that the last solution was found with, and what they do to the
+    /// velocities: intact bonds bear the same from step to step.
     shift: Vec<f64>,
+    pushed: Vec<f64>,
+    push: Vec<f64>,
+    /// Room for velocities and impulses.
+    own: Vec<f64>,
+    sum: Vec<f64>,
     /// What they have taken in the step from each component of each contact.
     pub taken: Vec<f64>,
     /// Damage of each contact, 1 where it has no bond.
@@ -246,6 +256,10 @@ impl Bonds {
             damage,
             tied: !shaken,
             shift: vec![0.0; 2 * first],
+            pushed: vec![0.0; 2 * first],
+            push: vec![0.0; 2 * first],
+            own: Vec::new(),
+            sum: vec![0.0; 2 * first],
             taken: vec![0.0; 2 * first],
             cracks,
             passes: 0,
@@ -303,6 +317,7 @@ impl Bonds {
     }
 
     /// Write what the bonds bear into the problem, and return the largest change of an impulse.
+    #[inline(always)]
     fn draw(&mut self, problem: &mut Problem, dt: f64, far: f64) -> f64 {
         let m = problem.h.len();
         let mut change = 0.0_f64;
@@ -324,6 +339,7 @@ impl Bonds {
     }
 
     /// Look at a solution; whether it meets the law of the bonds.
+    #[inline(always)]
     fn met(
         &mut self,
         problem: &mut Problem,
@@ -335,6 +351,7 @@ impl Bonds {
         self.passes += 1;
         let m = solver.status.len();
         let way = |u: f64, before: f64| step.dt * (step.theta * u + (1.0 - step.theta) * before);
+        let fastest = problem.b.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
         let largest = solver
             .p
             .iter()
@@ -342,7 +359,11 @@ impl Bonds {
             .fold(0.0_f64, |a, p| a.max(p.abs()));
         for bond in self.iter_mut() {
             let k = bond.contact;
-            let ways = [k, m + k].map(|i| way(solver.u[i], before[i]));
+            let mut ways = [k, m + k].map(|i| way(solver.u[i], before[i]));
+            // What goes on to stick does not move: its bond bears the same to the last bit.
+            if solver.status[k] == Status::Stick && ways[0].abs() <= ROUNDED * fastest * step.dt {
+                ways[0] = 0.0;
+            }
             bond.follow(solver.status[k], ways, solver.p[k] / step.dt);
         }
         let far = if self.passes > HALVED { 0.5 } else { 1.0 };
@@ -356,7 +377,8 @@ impl Bonds {
         false
     }
 
-    /// Solve the contact problem of a step with the bonds.
+    /// Solve the contact problem of a step with the bonds; `moved` says that the crack may answer otherwise than before.
+    #[inline(always)]
     pub(super) fn solve<W: Lanes>(
         &mut self,
         problem: &mut Problem,
@@ -364,32 +386,40 @@ impl Bonds {
         crack: &mut impl ContactOperator,
         before: &[f64],
         step: TimeStep,
+        moved: &mut bool,
     ) -> Report {
         let mut report = Report::default();
-        let own = problem.b.clone();
+        self.own.clone_from(&problem.b);
+        // The last solution is that of contact alone again.
+        let left = solver.p.iter_mut().zip(&self.pushed);
+        left.for_each(|(p, pushed)| *p -= pushed);
         loop {
-            let shift = self.shift.clone();
-            crack.velocities::<W>(problem, &shift, &mut solver.u);
-            problem.b.copy_from_slice(&solver.u);
+            if *moved || self.pushed != self.shift {
+                self.pushed.clone_from(&self.shift);
+                crack.velocities::<W>(problem, &self.pushed, &mut self.push);
+                self.push.iter_mut().zip(&self.own).for_each(|(u, b)| *u -= b);
+                *moved = false;
+            }
+            for (b, (own, push)) in problem.b.iter_mut().zip(self.own.iter().zip(&self.push)) {
+                *b = own + push;
+            }
             let mut shifted = Shifted {
                 crack: &mut *crack,
-                sum: shift.clone(),
-                shift: &shift,
+                sum: std::mem::take(&mut self.sum),
+                shift: &self.pushed,
             };
             report.go_on(solver.solve::<W>(problem, &mut shifted));
+            self.sum = shifted.sum;
             let met = self.met(problem, solver, before, step, &mut report);
-            problem.b.copy_from_slice(&own);
+            problem.b.copy_from_slice(&self.own);
             if met {
                 // What the solution was found with, not what the next pass would have had.
-                self.shift = shift;
+                self.shift.clone_from(&self.pushed);
                 break;
             }
         }
-        solver
-            .p
-            .iter_mut()
-            .zip(&self.shift)
-            .for_each(|(p, own)| *p += own);
+        let whole = solver.p.iter_mut().zip(&self.pushed);
+        whole.for_each(|(p, pushed)| *p += pushed);
         report
     }
 
@@ -493,14 +523,17 @@ struct Shifted<'s, C> {
 }
 
 impl<C: ContactOperator> ContactOperator for Shifted<'_, C> {
+    #[inline(always)]
     fn fill(&mut self, problem: &mut Problem, wanted: impl Fn(usize) -> bool) {
         self.crack.fill(problem, wanted);
     }
 
+    #[inline(always)]
     fn fill_row(&mut self, problem: &mut Problem, contact: usize, wanted: impl Fn(usize) -> bool) {
         self.crack.fill_row(problem, contact, wanted);
     }
 
+    #[inline(always)]
     fn velocities<W: Lanes>(&mut self, problem: &Problem, p: &[f64], u: &mut [f64]) {
         for (sum, (p, own)) in self.sum.iter_mut().zip(p.iter().zip(self.shift)) {
             *sum = p + own;

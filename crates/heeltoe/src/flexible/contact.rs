@@ -18,10 +18,6 @@ use super::faces::{Face, Faces, Meeting};
 use super::kinks::{Corners, Turn};
 use super::place::Place;
 
-/// That of the contacts of a bonded joint: a bond at the end of a face lasts for more slip than it bears, so a node that
-/// has slipped past the end by less still meets that end.
-const SLACK: f64 = 1e-3;
-
 /// Weights of the nodes of both bodies in the motion of the upper face of a crack against the lower one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pair {
@@ -46,8 +42,7 @@ pub(super) struct Contactor {
     pub closed: bool,
     /// Whether it is a corner that the other face turns around.
     corner: bool,
-    /// How far beyond the end of the other face it still is at it, as a share of that face: rounding must not take the
-    /// bond of an end.
+    /// How far beyond the end of the other face it still is at it (m).
     slack: f64,
     segment: usize,
 }
@@ -78,11 +73,11 @@ impl Contacts {
             let corners = lines.get(k).map_or_else(Corners::default, Corners::of);
             contactors.extend(chosen(kind, place.upper.count, place.lower.count));
             contactors.extend(turned_around(kind, &corners));
-            if lines.get(k).is_some_and(Line::bonded) {
-                contactors[first..]
-                    .iter_mut()
-                    .for_each(|contactor: &mut Contactor| contactor.slack = SLACK);
-            }
+            // A node that has slipped past the end by less than breaks its bond still meets that end.
+            let slack = lines.get(k).map_or(0.0, Line::lasting_slip);
+            contactors[first..]
+                .iter_mut()
+                .for_each(|contactor: &mut Contactor| contactor.slack = slack);
             cracks.push((*place, first..contactors.len(), corners));
         }
         Contacts {
@@ -259,11 +254,10 @@ impl Contactor {
         }
         let t = own[self.node];
         let (first, last) = (along[0], along[along.len() - 1]);
-        let slack = self.slack * (last - first);
         let inside = if self.closed {
-            first - slack <= t && t <= last + slack
+            first - self.slack <= t && t <= last + self.slack
         } else {
-            first + slack < t && t < last - slack
+            first + self.slack < t && t < last - self.slack
         };
         if !inside {
             return None;

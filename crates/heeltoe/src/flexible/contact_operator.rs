@@ -53,15 +53,7 @@ impl ContactOperator for FacesOperator<'_, '_> {
     fn velocities<W: Lanes>(&mut self, _: &Problem, p: &[f64], u: &mut [f64]) {
         let (upper, lower) = self.bodies.both_mut(|body| &mut body.impulse);
         self.contacts.spread(p, upper, lower);
-        for body in self.bodies.iter_mut() {
-            body.find_answer::<W>(self.damping);
-        }
-        if !self.dampers.is_empty() {
-            self.dampers.follow::<W>(self.bodies, self.damping);
-        }
-        for body in self.bodies.iter_mut() {
-            body.finish_answer();
-        }
+        self.dampers.answer::<W>(self.bodies, self.damping);
         let faces = self.bodies.faces(|body| body.at_crack(&body.answer));
         self.contacts.relative(faces, u);
         if self.softness > 0.0 {

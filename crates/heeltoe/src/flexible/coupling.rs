@@ -43,6 +43,8 @@ pub(super) struct Crack {
     friction: Vec<[f64; 2]>,
     /// State of damping that the answers belong to.
     damping: Option<usize>,
+    /// Whether they may be others than those that the bonds know.
+    pub moved: bool,
 }
 
 impl Crack {
@@ -85,6 +87,7 @@ impl Crack {
             bonds,
             contacts,
             damping: None,
+            moved: true,
             friction,
         }
     }
@@ -105,6 +108,7 @@ impl Crack {
             self.damping = Some(damping);
         }
         if self.contacts.moved.contains(&true) {
+            self.moved = true;
             self.blocks.note(&self.contacts.moved);
             self.solver.forget(&self.contacts.moved);
             self.blocks
@@ -161,12 +165,10 @@ impl Crack {
     /// Take the forces of a dam at rest for the solution of a step.
     pub(super) fn hold(&mut self, forces: &[f64], dt: f64) -> Report {
         let m = self.contacts.len();
-        for (k, (p, force)) in self.solver.p.iter_mut().zip(forces).enumerate() {
-            // Rounding may have put a node at an end beyond it.
-            let meets = self.contacts.pairs[k % m].is_some();
-            *p = if meets { dt * force } else { 0.0 };
-        }
-        self.solver.u.fill(0.0);
+        // Rounding may have put a node at an end beyond it.
+        let meets = |k: usize| self.contacts.pairs[k % m].is_some();
+        let impulse = |(k, force): (usize, &f64)| if meets(k) { dt * force } else { 0.0 };
+        self.solver.hold(forces.iter().enumerate().map(impulse));
         Report {
             iterations: 1,
             ..Report::default()
@@ -359,13 +361,13 @@ impl Blocks {
 /// How a contact answers to another, but for dashpots that hold it back by their gain.
 #[inline(always)]
 fn block(one: &Pair, other: &Pair, answers: &Sides<Compliance>, gain: Holding) -> [[f64; 2]; 2] {
+    if let Holding::Nodes(nodes) = gain {
+        return one.turn.of_block(other.turn, nodes.block(one, other));
+    }
     let mut block = [[0.0; 2]; 2];
     answers.upper.couple(&mut block, &one.upper, &other.upper);
     if let Some(lower) = &answers.lower {
         lower.couple(&mut block, &one.lower, &other.lower);
-    }
-    if let Holding::Nodes(held) = gain {
-        held.take_off(&mut block, one, other);
     }
     one.turn.of_block(other.turn, block)
 }

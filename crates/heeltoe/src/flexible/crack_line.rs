@@ -49,6 +49,20 @@ impl Line {
             .is_some_and(|law| law.tensile > 0.0 || law.cohesion > 0.0)
     }
 
+    /// The slip that breaks its bond, `2 G_II / c` (m), or the opening that does where it has no cohesion; none without a
+    /// bond.
+    pub(super) fn lasting_slip(&self) -> f64 {
+        let Some(law) = self.bond.filter(|_| self.bonded()) else {
+            return 0.0;
+        };
+        let way = |strength: f64, energy: f64| 2.0 * energy / strength;
+        if law.cohesion > 0.0 {
+            way(law.cohesion, law.energy[1])
+        } else {
+            way(law.tensile, law.energy[0])
+        }
+    }
+
     /// The only crack of a dam, between faces of so many nodes.
     pub fn only(nodes: [usize; 2], friction: [f64; 2], give: RockingThresholds) -> Self {
         Line {

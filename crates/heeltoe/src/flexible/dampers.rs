@@ -1,12 +1,12 @@
 //! Damping that couples the modes of both parts: a few dashpots between them.
 //!
 //! Each dashpot is a row `d` over the modes with the force `-d (d v*)` on them, `v* = theta v' + (1 - theta) v`. Only a
-//! few are needed, so the step stays diagonal but for a small system: with `e = d v` and the impulses `z` of the
+//! few are needed, so the step stays diagonal but for a small system: with `e* = d v*` and the impulses `z` of the
 //! dashpots
 //!
 //! ```text
-//! e' = e_f + W_dd z + W_dc p,      z = -dt S (theta e' + (1 - theta) e)
-//! z  = -N (e_f + (1 - theta) / theta e + W_dc p),      N = dt theta (S + dt theta W_dd)^-1
+//! e* = e*_f + theta (W_dd z + W_dc p),      z = -dt S e*
+//! z  = -N (e*_f / theta + W_dc p),          N = dt theta (S + dt theta W_dd)^-1
 //! ```
 //!
 //! (Woodbury's identity), where `W` are the answers without dashpots and `S` their signs: -1 where one gives back what
@@ -14,9 +14,10 @@
 //! `W_cc - W_cd N W_dc`.
 //!
 //! The water of a reservoir is tied to the bodies by rows of the same kind, which follow those of the dashpots: its
-//! matrix stands where `S` does, and it adds what it remembers to `e_f`, see [`super::reservoir`].
+//! matrix stands where `S` does, and it adds what it remembers to `e*_f / theta`, see [`super::reservoir`].
 //!
-//! The answers of the parts have these rows behind the crack nodes, and so have their velocities.
+//! The answers of the parts have these rows behind the crack nodes; behind their velocities without contact stands
+//! `e*_f / theta`.
 
 use super::bodies::Sides;
 use super::contact::Pair;
@@ -25,25 +26,27 @@ use super::ledger::Ledger;
 use super::modal_stepper::{Drive, ModalStepper};
 use super::reservoir::{Reservoir, Water};
 use super::scheme::TimeStep;
-use super::simd::{Group, Lanes, LANES};
+use super::simd::{combine, in_groups, Group, Lanes, LANES};
 
 /// The dashpots of a run, and the water that is tied to the bodies as they are.
 pub(super) struct Dampers<'a> {
     /// Number of dashpots, and of all rows.
     dashpots: usize,
     count: usize,
-    theta: f64,
+    dt: f64,
+    /// 1 for a dashpot that takes energy, -1 for one that gives back.
+    signs: &'a [f64],
     water: Option<Water<'a>>,
     /// `N` for both states of damping, row by row.
     gain: [Vec<f64>; 2],
-    /// With water, whose rows are many: `N` in groups, and what the rows hold back of the crack.
+    /// With water, whose rows are many: what they are to the bodies.
     wide: Option<[Wide; 2]>,
-    /// Rates before the step; impulses, and those of them that answer to contact.
-    rate: Vec<f64>,
+    /// Impulses, and those of them that answer to contact.
     pull: Vec<f64>,
     further: Vec<f64>,
+    /// Room for what the rows feel, and for sums over them and over the crack nodes.
     room: Vec<f64>,
-    wide_room: Vec<Group>,
+    rows_room: Vec<Group>,
     nodes_room: Vec<Group>,
     /// Energy the dashpots have taken.
     taken: f64,
@@ -53,107 +56,133 @@ pub(super) struct Dampers<'a> {
 struct Wide {
     /// `N`, row by row, each filled up with zeros to whole groups.
     gain: Vec<Group>,
-    held: Held,
+    /// `N W_dc`: a row for each crack node of both bodies.
+    felt: Vec<Group>,
+    nodes: HeldNodes,
 }
 
-/// `W_cd N W_dc`: what the rows hold back of the answers of the crack nodes of both bodies, those of the upper one first,
-/// row by row.
-pub(super) struct Held {
+/// `W_cc - W_cd N W_dc`: how the crack nodes of both bodies, those of the upper one first, answer under what the rows hold
+/// back, row by row.
+pub(super) struct HeldNodes {
     matrix: Vec<Group>,
     columns: [usize; 2],
 }
 
-impl Held {
+impl Wide {
     fn new(bodies: &Sides<ModalStepper>, gain: &[f64], state: usize) -> Self {
         let columns = [
             bodies.upper.body.columns(),
             bodies.lower.as_ref().map_or(0, |body| body.body.columns()),
         ];
-        let count = gain.len().isqrt();
-        // Rows: what each link feels of each node.
-        let mut felt = vec![Vec::new(); count];
+        let (count, size) = (gain.len().isqrt(), columns[0] + columns[1]);
+        // What each link feels of each node, and the answers without links.
+        let mut felt = vec![vec![0.0; size]; count];
+        let mut matrix = vec![0.0; size * size];
+        let mut first = 0;
         for body in bodies.iter() {
-            let rows = body.damper_rows(state).chunks_exact(body.body.stride());
-            for (felt, row) in felt.iter_mut().zip(rows) {
-                felt.extend_from_slice(&row.as_flattened()[..body.body.columns()]);
+            let own = body.body.columns();
+            let rows = body.answers(state).w.chunks_exact(body.body.stride());
+            for (r, row) in rows.enumerate() {
+                let to = if r < own {
+                    &mut matrix[(first + r) * size..][..size]
+                } else {
+                    &mut felt[r - own][..]
+                };
+                to[first..][..own].copy_from_slice(&row.as_flattened()[..own]);
             }
+            first += own;
         }
-        let size = columns[0] + columns[1];
-        let stride = size.div_ceil(LANES);
-        let mut matrix = vec![[0.0; LANES]; size * stride];
-        for (gains, one) in gain.chunks_exact(count).zip(&felt) {
+        let mut gained = vec![0.0; size * count];
+        for (k, gains) in gain.chunks_exact(count).enumerate() {
             let mut held = vec![0.0; size];
-            for (gain, other) in gains.iter().zip(&felt) {
-                held.iter_mut().zip(other).for_each(|(sum, x)| *sum += gain * x);
+            for (gain, row) in gains.iter().zip(&felt) {
+                held.iter_mut().zip(row).for_each(|(sum, x)| *sum += gain * x);
             }
-            for (row, x) in matrix.chunks_exact_mut(stride).zip(one) {
-                let row = row.as_flattened_mut().iter_mut();
-                row.zip(&held).for_each(|(sum, held)| *sum += x * held);
+            for (c, x) in held.iter().enumerate() {
+                gained[c * count + k] = *x;
+            }
+            for (row, x) in matrix.chunks_exact_mut(size).zip(&felt[k]) {
+                row.iter_mut().zip(&held).for_each(|(sum, held)| *sum -= x * held);
             }
         }
-        Held { matrix, columns }
+        Wide {
+            gain: in_groups(gain, count),
+            felt: in_groups(&gained, count),
+            nodes: HeldNodes {
+                matrix: in_groups(&matrix, size),
+                columns,
+            },
+        }
+    }
+}
+
+impl HeldNodes {
+    /// Groups in a row.
+    fn stride(&self) -> usize {
+        (self.columns[0] + self.columns[1]).div_ceil(LANES)
     }
 
-    /// Take what is held back off the answers of the bodies to their impulses.
+    /// Find the velocities of the crack nodes with the impulses of contact.
     #[inline(always)]
-    fn answer(&self, bodies: &mut Sides<ModalStepper>, room: &mut [Group]) {
-        let stride = (self.columns[0] + self.columns[1]).div_ceil(LANES);
+    fn answer<W: Lanes>(&self, bodies: &mut Sides<ModalStepper>, room: &mut [Group]) {
         room.fill([0.0; LANES]);
-        let mut rows = self.matrix.chunks_exact(stride);
+        let mut rows = &self.matrix[..];
         for body in bodies.iter() {
-            // In this order, as the rows go on with the next body.
-            for (impulse, row) in body.impulse.iter().zip(rows.by_ref()) {
-                axpy(*impulse, row, room);
-            }
+            let (own, rest) = rows.split_at(body.impulse.len() * self.stride());
+            combine::<W>(own, &body.impulse, room);
+            rows = rest;
         }
-        let mut held: &[f64] = room.as_flattened();
+        let mut answers: &[f64] = room.as_flattened();
         for body in bodies.iter_mut() {
-            let (own, rest) = held.split_at(body.impulse.len());
-            let answer = body.answer.as_flattened_mut().iter_mut();
-            answer.zip(own).for_each(|(x, held)| *x -= held);
-            held = rest;
+            let (own, rest) = answers.split_at(body.impulse.len());
+            let velocities = body.answer.as_flattened_mut().iter_mut();
+            for ((x, free), answer) in velocities.zip(body.free.as_flattened()).zip(own) {
+                *x = free + answer;
+            }
+            answers = rest;
         }
     }
 
-    /// Take what is held back of the answer of two contacts off it.
+    /// How a contact answers to another.
     // In line it would be compiled a dozen times over.
     #[inline(never)]
-    pub(super) fn take_off(&self, block: &mut [[f64; 2]; 2], one: &Pair, other: &Pair) {
-        let stride = (self.columns[0] + self.columns[1]).div_ceil(LANES);
-        let places = |pair: &Pair, direction: usize| {
-            let [upper, lower] = [0, 1].map(|side| {
-                let first = side * self.columns[0] + direction * self.columns[side] / 2;
-                let nodes = if side == 0 { &pair.upper } else { &pair.lower };
-                nodes.map(|(node, weight)| (first + node, weight))
-            });
-            [upper[0], upper[1], lower[0], lower[1]]
-        };
-        for (r, row) in block.iter_mut().enumerate() {
-            for (c, value) in row.iter_mut().enumerate() {
-                for (i, a) in places(one, r) {
-                    // Of a rigid plane there are no nodes.
-                    if a == 0.0 {
-                        continue;
-                    }
-                    let held = self.matrix[i * stride..][..stride].as_flattened();
-                    for (j, b) in places(other, c) {
-                        if b != 0.0 {
-                            *value -= a * b * held[j];
+    pub(super) fn block(&self, one: &Pair, other: &Pair) -> [[f64; 2]; 2] {
+        let mut block = [[0.0; 2]; 2];
+        let (stride, half) = (self.stride(), self.columns.map(|columns| columns / 2));
+        let first = [0, self.columns[0]];
+        for (side, nodes) in [&one.upper, &one.lower].into_iter().enumerate() {
+            for &(node, a) in nodes {
+                // Of a rigid plane there are no nodes.
+                if a == 0.0 {
+                    continue;
+                }
+                for (r, answers) in block.iter_mut().enumerate() {
+                    let row = &self.matrix[(first[side] + r * half[side] + node) * stride..][..stride];
+                    let row = row.as_flattened();
+                    for (side, nodes) in [&other.upper, &other.lower].into_iter().enumerate() {
+                        for &(node, b) in nodes {
+                            if b == 0.0 {
+                                continue;
+                            }
+                            let place = first[side] + node;
+                            answers[0] += a * b * row[place];
+                            answers[1] += a * b * row[place + half[side]];
                         }
                     }
                 }
             }
         }
+        block
     }
 }
 
 impl<'a> Dampers<'a> {
     pub(super) fn new(
-        bodies: &Sides<ModalStepper>,
+        bodies: &Sides<ModalStepper<'a>>,
         reservoir: Option<&'a Reservoir>,
         step: TimeStep,
     ) -> Self {
-        let (dashpots, count) = (bodies.upper.body.dampers, bodies.upper.body.links());
+        let (dashpots, count) = (bodies.upper.body.dampers, bodies.upper.body.rows());
         let weight = step.dt * step.theta;
         let water = reservoir.map(|reservoir| Water::new(reservoir, step));
         let mut own_matrix = vec![0.0; count * count];
@@ -176,30 +205,21 @@ impl<'a> Dampers<'a> {
             }
             inverse_gain(&own, &own_matrix, weight)
         });
-        let wide = water.is_some().then(|| {
-            [0, 1].map(|state| Wide {
-                gain: in_groups(&gain[state], count),
-                held: Held::new(bodies, &gain[state], state),
-            })
-        });
+        let wide = water
+            .is_some()
+            .then(|| [0, 1].map(|state: usize| Wide::new(bodies, &gain[state], state)));
+        let nodes = wide.as_ref().map_or(0, |wide| wide[0].nodes.stride());
         let zeros = vec![0.0; count];
         Dampers {
             wide,
-            wide_room: vec![[0.0; LANES]; count.div_ceil(LANES)],
-            nodes_room: vec![
-                [0.0; LANES];
-                bodies
-                    .iter()
-                    .map(|body| body.body.columns())
-                    .sum::<usize>()
-                    .div_ceil(LANES)
-            ],
+            rows_room: vec![[0.0; LANES]; count.div_ceil(LANES)],
+            nodes_room: vec![[0.0; LANES]; nodes],
             dashpots,
             count,
             water,
-            theta: step.theta,
+            dt: step.dt,
             gain,
-            rate: zeros.clone(),
+            signs: &bodies.upper.body.damper_signs,
             pull: zeros.clone(),
             further: zeros.clone(),
             room: zeros,
@@ -227,98 +247,80 @@ impl<'a> Dampers<'a> {
     #[inline(always)]
     pub(super) fn begin<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, drive: Drive) {
         let damping = drive.damping;
-        let late = (1.0 - self.theta) / self.theta;
-        for (room, rate) in self.room.iter_mut().zip(&self.rate) {
-            *room = late * rate;
-        }
+        self.room.fill(0.0);
         for body in bodies.iter() {
             add(&mut self.room, body.rates(&body.free));
         }
         if let Some(water) = &mut self.water {
             water.begin(drive.ground, &mut self.room[self.dashpots..]);
         }
-        self.respond(damping);
-        self.pull.copy_from_slice(&self.further);
+        if let Some(wide) = &self.wide {
+            self.rows_room.fill([0.0; LANES]);
+            combine::<W>(&wide[damping].gain, &self.room, &mut self.rows_room);
+            negate(self.rows_room.as_flattened(), &mut self.pull);
+        } else {
+            respond(&self.gain[damping], &self.room, &mut self.pull);
+        }
         self.further.fill(0.0);
         for body in bodies.iter_mut() {
             body.pull_free::<W>(damping, &self.pull);
         }
     }
 
-    /// Change the answers to impulses of contact, which the parts have, by what the dashpots do about them.
+    /// Find the velocities of the crack nodes with the impulses of contact, which the parts have.
     #[inline(always)]
-    pub(super) fn follow<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, damping: usize) {
+    pub(super) fn answer<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, damping: usize) {
         if let Some(wide) = &self.wide {
-            return wide[damping].held.answer(bodies, &mut self.nodes_room);
+            return wide[damping].nodes.answer::<W>(bodies, &mut self.nodes_room);
         }
-        self.respond_to_contact::<W>(bodies, damping);
-    }
-
-    #[inline(always)]
-    fn respond_to_contact<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, damping: usize) {
-        self.room.fill(0.0);
-        for body in bodies.iter() {
-            add(&mut self.room, body.rates(&body.answer));
-        }
-        self.respond(damping);
         for body in bodies.iter_mut() {
-            body.pull_answer::<W>(damping, &self.further);
+            body.find_answer::<W>(damping);
         }
+        if self.count > 0 {
+            self.room.fill(0.0);
+            for body in bodies.iter() {
+                add(&mut self.room, body.rates(&body.answer));
+            }
+            respond(&self.gain[damping], &self.room, &mut self.further);
+            for body in bodies.iter_mut() {
+                body.pull_answer::<W>(damping, &self.further);
+            }
+        }
+        bodies.iter_mut().for_each(ModalStepper::finish_answer);
     }
 
     /// Hand the impulses of dashpots and water to the parts, whose velocities are final, and book what they take.
     #[inline(always)]
     pub(super) fn finish<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, drive: Drive) {
-        if self.wide.is_some() {
-            for body in bodies.iter_mut() {
-                body.find_answer::<W>(drive.damping);
+        if let Some(wide) = &self.wide {
+            self.rows_room.fill([0.0; LANES]);
+            let mut rows = &wide[drive.damping].felt[..];
+            for body in bodies.iter() {
+                let (own, rest) = rows.split_at(body.impulse.len() * self.rows_room.len());
+                combine::<W>(own, &body.impulse, &mut self.rows_room);
+                rows = rest;
             }
-            self.respond_to_contact::<W>(bodies, drive.damping);
-            bodies.iter_mut().for_each(ModalStepper::finish_answer);
+            negate(self.rows_room.as_flattened(), &mut self.further);
         }
         add(&mut self.pull, &self.further);
-        self.room.fill(0.0);
         for body in bodies.iter_mut() {
-            add(&mut self.room, body.rates(&body.answer));
-            body.pull.copy_from_slice(&self.pull);
+            let links = body.pull.len();
+            body.pull.copy_from_slice(&self.pull[..links]);
         }
-        let rates = self.pull.iter().zip(&mut self.rate).zip(&self.room);
-        for (k, ((pull, rate), new)) in rates.enumerate() {
-            if k < self.dashpots {
-                self.taken -= pull * (self.theta * new + (1.0 - self.theta) * *rate);
-            }
-            *rate = *new;
+        for (pull, sign) in self.pull.iter().zip(self.signs) {
+            self.taken += sign * pull * pull / self.dt;
         }
         if let Some(water) = &mut self.water {
-            water.finish(drive.ground, &self.pull[self.dashpots..]);
+            water.finish::<W>(drive.ground, &self.pull[self.dashpots..]);
         }
     }
 
-    /// Find the impulses of all rows at the rates in `room`.
-    #[inline(always)]
-    fn respond(&mut self, damping: usize) {
-        let Some(wide) = &self.wide else {
-            respond(&self.gain[damping], &self.room, &mut self.further);
-            return;
-        };
-        self.wide_room.fill([0.0; LANES]);
-        let rows = wide[damping].gain.chunks_exact(self.wide_room.len());
-        for (row, rate) in rows.zip(&self.room) {
-            axpy(*rate, row, &mut self.wide_room);
-        }
-        let found = self.wide_room.as_flattened();
-        self.further
-            .iter_mut()
-            .zip(found)
-            .for_each(|(pull, x)| *pull = -x);
-    }
-
-    /// By what the rows hold back a contact: their gain, or what they hold back of all crack nodes.
+    /// By what the rows hold back a contact: their gain, or how all crack nodes answer under them.
     #[inline(always)]
     pub(super) fn holding(&self, damping: usize) -> Holding<'_> {
         match &self.wide {
             None => Holding::Gain(&self.gain[damping]),
-            Some(wide) => Holding::Nodes(&wide[damping].held),
+            Some(wide) => Holding::Nodes(&wide[damping].nodes),
         }
     }
 
@@ -346,28 +348,8 @@ impl<'a> Dampers<'a> {
 pub(super) enum Holding<'s> {
     /// By their gain `N`.
     Gain(&'s [f64]),
-    /// By what they hold back of all crack nodes.
-    Nodes(&'s Held),
-}
-
-/// Add a multiple of a row to a sum.
-#[inline(always)]
-fn axpy(x: f64, row: &[Group], sum: &mut [Group]) {
-    for (sum, row) in sum.iter_mut().zip(row) {
-        for l in 0..LANES {
-            sum[l] += x * row[l];
-        }
-    }
-}
-
-/// A square matrix in groups, each row filled up with zeros.
-fn in_groups(matrix: &[f64], count: usize) -> Vec<Group> {
-    let stride = count.div_ceil(LANES);
-    let mut groups = vec![[0.0; LANES]; count * stride];
-    for (full, row) in groups.chunks_exact_mut(stride).zip(matrix.chunks_exact(count)) {
-        full.as_flattened_mut()[..count].copy_from_slice(row);
-    }
-    groups
+    /// By what they leave of the answers of all crack nodes.
+    Nodes(&'s HeldNodes),
 }
 
 /// The impulses of dashpots with this gain at these rates.
@@ -376,6 +358,12 @@ fn respond(gain: &[f64], rate: &[f64], pull: &mut [f64]) {
     for (pull, row) in pull.iter_mut().zip(gain.chunks_exact(rate.len())) {
         *pull = -row.iter().zip(rate).map(|(a, b)| a * b).sum::<f64>();
     }
+}
+
+/// Impulses against these sums.
+#[inline(always)]
+fn negate(sums: &[f64], pull: &mut [f64]) {
+    pull.iter_mut().zip(sums).for_each(|(pull, x)| *pull = -x);
 }
 
 #[inline(always)]

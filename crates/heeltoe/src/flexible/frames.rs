@@ -1,4 +1,4 @@
-//! Frames: what is kept of a run at equal distances in time. Forces are means since the frame before,
+//! Frames: what is kept of a run at equal distances in time, and at its end. Forces are means since the frame before,
 //! `sum of impulses / time`.
 
 use super::bodies::Sides;
@@ -12,7 +12,7 @@ use super::status::Status;
 use super::summary::Summary;
 use crate::table::columns;
 
-/// States of the run at equal distances in time, beginning with the start.
+/// States of the run at equal distances in time, beginning with the start, and at its end.
 #[derive(Clone, Debug, Default)]
 pub struct Frames {
     /// One row of [`Frames::FIELDS`] for each crack of each, from the crest down.
@@ -120,6 +120,11 @@ impl Since {
             *total = [0, 1, 2].map(|k| total[k] + sum[k]);
         }
         self.time += dt;
+    }
+
+    /// Whether there is anything since.
+    pub(super) fn pending(&self) -> bool {
+        self.time > 0.0
     }
 
     /// Mean force along and across a crack, and mean of what it could bear by its law.

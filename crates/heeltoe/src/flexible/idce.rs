@@ -80,6 +80,9 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, penalty: &Penalty, wanted: 
         }
     }
     newmark.balance();
+    if newmark.walk.pending() {
+        newmark.keep();
+    }
     newmark.end()
 }
 

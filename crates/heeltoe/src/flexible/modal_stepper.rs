@@ -21,7 +21,7 @@ use std::borrow::Cow;
 use super::body::{ReducedBody, BUNDLE};
 use super::compliance::Compliance;
 use super::ledger::Sums;
-use super::simd::{combine, fma, Group, Lanes, Plain, LANES};
+use super::simd::{combine, combine_first, fma, Group, Lanes, Plain, LANES};
 use super::still::Still;
 
 /// What a body needs for a given step, for both states of damping.
@@ -126,14 +126,13 @@ pub(super) struct ModalStepper<'a> {
     pub v: Vec<Group>,
     /// What the step would end with without contact; with a boundary that takes energy, the momentum it begins with.
     v_free: Vec<Group>,
-    /// With such a boundary: `v*`, and the velocities of crack and links before the step.
+    /// With such a boundary: `v*`.
     mean: Vec<Group>,
-    before: Vec<Group>,
     /// Of the crack nodes: position, velocity, impulse.
     pub position: Vec<f64>,
     pub velocity: Vec<f64>,
     pub impulse: Vec<f64>,
-    /// Velocities of the crack nodes, then rates of the dashpots: without contact, and with it.
+    /// Velocities of the crack nodes without contact, then the mean rates of the links over `theta`, and with contact.
     pub free: Vec<Group>,
     pub answer: Vec<Group>,
     /// Impulse of what acts in the crack beside contact; stays zero where there is nothing.
@@ -145,6 +144,18 @@ pub(super) struct ModalStepper<'a> {
     /// Room for the sums of `free`, lane by lane, and for those that fill up its last group.
     lanes: Vec<Group>,
     pub sums: Sums,
+}
+
+/// Add the products of the shapes of each component in a bundle with these groups to its lanes.
+#[inline(always)]
+fn add_products<W: Lanes>(shapes: &[[Group; BUNDLE]], values: [W; BUNDLE], lanes: &mut [Group]) {
+    for (sum, shapes) in lanes.iter_mut().zip(shapes) {
+        let mut new = W::load(sum);
+        for k in 0..BUNDLE {
+            new = values[k].fma(W::load(&shapes[k]), new);
+        }
+        new.store(sum);
+    }
 }
 
 /// One step's ground: changes of velocity and the state of damping.
@@ -202,7 +213,6 @@ impl<'a> ModalStepper<'a> {
             v: vec![[0.0; LANES]; body.groups()],
             v_free: vec![[0.0; LANES]; body.groups()],
             mean: vec![[0.0; LANES]; if body.boundary.is_some() { body.groups() } else { 0 }],
-            before: room.clone(),
             position: still.map_or_else(|| body.position.clone(), |still| still.position[face].clone()),
             velocity: zeros.clone(),
             impulse: zeros.clone(),
@@ -220,6 +230,7 @@ impl<'a> ModalStepper<'a> {
     #[inline(always)]
     pub(super) fn advance<W: Lanes>(&mut self, now: Option<Drive>, next: Drive, step: TimeStep) {
         let (columns, width) = (self.body.columns(), self.body.width());
+        let late = (1.0 - step.theta) / step.theta;
         self.pushes[..columns].copy_from_slice(&self.impulse);
         self.pushes[columns..].copy_from_slice(&self.pull);
         let touched = self.pushes.iter().any(|p| *p != 0.0);
@@ -239,17 +250,15 @@ impl<'a> ModalStepper<'a> {
                     self.finish::<W>(first + k, push, now, step, &mut sums);
                 }
             }
-            let mut v = [W::all(0.0); BUNDLE];
-            for (k, v) in v.iter_mut().enumerate() {
+            let (mut v, mut mean) = ([W::all(0.0); BUNDLE], [W::all(0.0); BUNDLE]);
+            for (k, (v, mean)) in v.iter_mut().zip(&mut mean).enumerate() {
                 *v = W::load(&self.begin::<W>(first + k, next, step));
+                *mean = W::all(late).fma(W::load(&self.v[first + k]), *v);
             }
-            for (sum, shapes) in self.lanes.iter_mut().zip(shapes.as_chunks::<BUNDLE>().0) {
-                let mut new = W::load(sum);
-                for k in 0..BUNDLE {
-                    new = v[k].fma(W::load(&shapes[k]), new);
-                }
-                new.store(sum);
-            }
+            let (nodes, links) = shapes.as_chunks::<BUNDLE>().0.split_at(columns);
+            let (at_nodes, at_links) = self.lanes.split_at_mut(columns);
+            add_products(nodes, v, at_nodes);
+            add_products(links, mean, at_links);
         }
         self.sums = sums;
         for (free, lanes) in self.free.iter_mut().zip(self.lanes.as_chunks::<LANES>().0) {
@@ -277,7 +286,10 @@ impl<'a> ModalStepper<'a> {
                 }
             }
             self.mean.fill([0.0; LANES]);
-            combine::<W>(&dense[now.damping].d, self.v_free.as_flattened(), &mut self.mean);
+            // Not the modes that fill up the last groups.
+            let (momentum, used) = (self.v_free.as_flattened(), body.modes.div_ceil(LANES));
+            let (d, mean) = (&dense[now.damping].d, &mut self.mean[..used]);
+            combine_first::<W>(d, body.groups(), &momentum[..body.modes], mean);
             let sums = &mut self.sums;
             for group in 0..body.groups() {
                 let (w, load, c) = (
@@ -321,22 +333,20 @@ impl<'a> ModalStepper<'a> {
         self.lanes.fill([0.0; LANES]);
         let bundles = dense[next.damping].shapes.chunks_exact(BUNDLE * width);
         for (shapes, g) in bundles.zip(self.v_free.as_chunks::<BUNDLE>().0) {
-            let g = g.each_ref().map(W::load);
-            for (sum, shapes) in self.lanes.iter_mut().zip(shapes.as_chunks::<BUNDLE>().0) {
-                let mut new = W::load(sum);
-                for k in 0..BUNDLE {
-                    new = g[k].fma(W::load(&shapes[k]), new);
-                }
-                new.store(sum);
+            let mut values = [W::all(0.0); BUNDLE];
+            for (value, g) in values.iter_mut().zip(g) {
+                *value = W::load(g);
             }
+            add_products(shapes.as_chunks::<BUNDLE>().0, values, &mut self.lanes);
         }
-        let lanes = self.lanes.as_chunks::<LANES>().0;
-        for ((free, before), lanes) in self.free.iter_mut().zip(&self.before).zip(lanes) {
-            let mean = W::sums(lanes);
-            for l in 0..LANES {
-                free[l] = (mean[l] - late * before[l]) / theta;
-            }
+        for (free, lanes) in self.free.iter_mut().zip(self.lanes.as_chunks::<LANES>().0) {
+            *free = W::sums(lanes);
         }
+        let free = self.free.as_flattened_mut();
+        for (free, before) in free.iter_mut().zip(&self.velocity) {
+            *free -= late * before;
+        }
+        free.iter_mut().for_each(|free| *free /= theta);
     }
 
     /// Move the modes of a group to the end of the step and book their energies; `push` is the impulse on each.
@@ -395,7 +405,7 @@ impl<'a> ModalStepper<'a> {
         &all.as_flattened()[..self.body.columns()]
     }
 
-    /// Those of the dashpots.
+    /// Those of the links.
     #[inline(always)]
     pub(super) fn rates<'s>(&self, all: &'s [Group]) -> &'s [f64] {
         &all.as_flattened()[self.body.columns()..self.body.width()]
@@ -454,11 +464,13 @@ impl<'a> ModalStepper<'a> {
         self.start.iter().zip(&self.q).map(sum).collect()
     }
 
-    /// Add to the velocities without contact what impulses of the dashpots change in them.
+    /// Add to the velocities of the crack nodes without contact what impulses of the links change in them.
     #[inline(always)]
     pub(super) fn pull_free<W: Lanes>(&mut self, damping: usize, pull: &[f64]) {
-        let first = self.body.columns() * self.body.stride();
-        combine::<W>(&self.operator.w[damping][first..], pull, &mut self.free);
+        let (columns, stride) = (self.body.columns(), self.body.stride());
+        let rows = &self.operator.w[damping][columns * stride..];
+        let groups = columns.div_ceil(LANES);
+        combine_first::<W>(rows, stride, &pull[..self.body.links()], &mut self.free[..groups]);
     }
 
     /// Find how crack and dashpots answer to `impulse`.
@@ -497,9 +509,6 @@ impl<'a> ModalStepper<'a> {
     #[inline(always)]
     pub(super) fn move_crack<W: Lanes>(&mut self, step: TimeStep) {
         let TimeStep { dt, theta } = step;
-        if self.operator.dense.is_some() {
-            self.before.copy_from_slice(&self.answer);
-        }
         let new = self.answer.as_flattened();
         for ((x, u), new) in self.position.iter_mut().zip(&mut self.velocity).zip(new) {
             *x += dt * fma::<W>(theta, *new, (1.0 - theta) * *u);

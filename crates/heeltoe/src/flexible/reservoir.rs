@@ -13,16 +13,17 @@
 //! A x* = r + theta dt e*,      A = 1 + theta dt C + theta^2 dt^2 Omega^2,      r = x' - theta dt (Omega^2 x - G v_g*)
 //! ```
 //!
-//! and the impulses `z = -dt x*` on the rows obey, with `e_f` and `W` the rates and the answers without them,
+//! and the impulses `z = -dt x*` on the rows obey, with `e*_f` and `W` the rates and the answers without them,
 //!
 //! ```text
-//! z = -N (e_f + (1 - theta) / theta e + r / (theta^2 dt)),      N = (W + A / (theta^2 dt^2))^-1
+//! z = -N (e*_f / theta + r / (theta^2 dt)),      N = (W + A / (theta^2 dt^2))^-1
 //! ```
 //!
 //! which is a dashpot (see [`super::dampers`]) with a memory.
 
 use super::ledger::Ledger;
 use super::scheme::TimeStep;
+use super::simd::{combine, dot, in_groups, Group, Lanes, LANES};
 
 /// A reservoir in its modes; `m` of them.
 pub struct Reservoir {
@@ -72,6 +73,9 @@ pub(super) struct Water<'a> {
     /// What the ground does to the modes in this step.
     drive: Vec<f64>,
     mean: Vec<f64>,
+    /// What leaves, in groups, and room for a sum over it.
+    leaving: [Vec<Group>; 2],
+    room: Vec<Group>,
     /// Energies: put in by the ground, left through the floor and the far end, taken by the scheme, all that went in.
     input: f64,
     left: [f64; 2],
@@ -90,6 +94,8 @@ impl<'a> Water<'a> {
             ground: [0.0; 2],
             drive: zeros.clone(),
             mean: zeros,
+            leaving: of.leaving.each_ref().map(|matrix| in_groups(matrix, of.modes())),
+            room: vec![[0.0; LANES]; of.modes().div_ceil(LANES)],
             input: 0.0,
             left: [0.0; 2],
             numerical: 0.0,
@@ -132,7 +138,7 @@ impl<'a> Water<'a> {
 
     /// Go on to the end of the step under these impulses on the rows.
     #[inline(always)]
-    pub(super) fn finish(&mut self, change: [f64; 2], impulses: &[f64]) {
+    pub(super) fn finish<W: Lanes>(&mut self, change: [f64; 2], impulses: &[f64]) {
         let TimeStep { dt, theta } = self.step;
         for (k, impulse) in impulses.iter().enumerate() {
             let mean = -impulse / dt;
@@ -146,12 +152,10 @@ impl<'a> Water<'a> {
             self.amplitude[k] += way;
             self.velocity[k] = new;
         }
-        for (left, matrix) in self.left.iter_mut().zip(&self.of.leaving) {
-            let power = self.mean.iter().zip(matrix.chunks_exact(self.mean.len()));
-            *left += dt
-                * power
-                    .map(|(x, row)| x * super::simd::dot(row, &self.mean))
-                    .sum::<f64>();
+        for (left, matrix) in self.left.iter_mut().zip(&self.leaving) {
+            self.room.fill([0.0; LANES]);
+            combine::<W>(matrix, &self.mean, &mut self.room);
+            *left += dt * dot(&self.mean, &self.room.as_flattened()[..self.mean.len()]);
         }
         for (ground, change) in self.ground.iter_mut().zip(change) {
             *ground += change;

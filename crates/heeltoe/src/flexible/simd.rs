@@ -263,6 +263,16 @@ fn columns<W: Lanes, const N: usize>(
     N
 }
 
+/// A matrix with rows of `count` numbers in groups, each row filled up with zeros.
+pub(super) fn in_groups(matrix: &[f64], count: usize) -> Vec<Group> {
+    let stride = count.div_ceil(LANES);
+    let mut groups = vec![[0.0; LANES]; matrix.len() / count * stride];
+    for (full, row) in groups.chunks_exact_mut(stride).zip(matrix.chunks_exact(count)) {
+        full.as_flattened_mut()[..count].copy_from_slice(row);
+    }
+    groups
+}
+
 /// `sum a b`, lane by lane: a plain sum waits for each addition.
 #[inline(always)]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {

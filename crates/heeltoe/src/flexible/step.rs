@@ -98,6 +98,9 @@ fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
         }
     }
     let ledger = moreau.balance();
+    if moreau.walk.pending() {
+        moreau.keep(&ledger);
+    }
     let anchors = moreau.acting.map_or_else(Vec::new, |acting| acting.peaks);
     moreau.walk.end(ledger, &anchors)
 }
@@ -289,7 +292,8 @@ impl<'a> Moreau<'a> {
                 let mut report = Report::default();
                 if let Some(bonds) = &mut crack.bonds {
                     let (problem, solver) = (&mut crack.problem, &mut crack.solver);
-                    report = bonds.solve::<W>(problem, solver, &mut faces, &crack.before, self.step);
+                    let moved = &mut crack.moved;
+                    report = bonds.solve::<W>(problem, solver, &mut faces, &crack.before, self.step, moved);
                 }
                 while crack.bonds.is_none() {
                     report.go_on(crack.solver.solve::<W>(&mut crack.problem, &mut faces));

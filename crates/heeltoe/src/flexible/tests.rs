@@ -7,7 +7,7 @@ use super::contact::Contacts;
 use super::coulomb::{Known, Problem, Report, Solver};
 use super::coupling::Crack;
 use super::crack_forces::Inside;
-use super::crack_line::{Line, RockingThresholds};
+use super::crack_line::{BondLaw, Line, RockingThresholds};
 use super::dam::Dam;
 use super::dampers::Holding;
 use super::faces::Faces;
@@ -355,5 +355,45 @@ fn what_has_not_moved_keeps_its_answer() {
         }
         assert!(kept.contacts.pairs.contains(&None));
         assert!(partly > 5);
+    }
+}
+
+/// A crack between faces of three nodes with such a bond.
+fn joint(bond: Option<BondLaw>) -> Line {
+    let mut line = Line::only([3, 3], [1.0; 2], RockingThresholds::default());
+    line.bond = bond;
+    line
+}
+
+#[test]
+fn a_bonded_node_meets_the_end_of_the_other_face_until_its_slip_has_broken_the_bond() {
+    let law = |tensile, cohesion| {
+        let energy = [100.0, 1000.0];
+        Some(BondLaw {
+            tensile,
+            cohesion,
+            energy,
+            dynamic: 1.0,
+        })
+    };
+    // 2 G_II / c, or 2 G_f / f_t where there is no cohesion.
+    for (bond, last) in [
+        (None, 0.0),
+        (law(0.0, 0.0), 0.0),
+        (law(1e6, 2e6), 1e-3),
+        (law(1e6, 0.0), 2e-4),
+    ] {
+        for (slip, meets) in [(last + 1e-9, false), (0.99 * last, true)] {
+            let lines = [joint(bond)];
+            let mut contacts = Contacts::new(1, &Place::all(&lines), &lines);
+            let upper = [slip, 1.0 + slip, 2.0 + slip, 0.0, 0.0, 0.0];
+            let lower = [0.0, 1.0, 2.0, 0.0, 0.0, 0.0];
+            let faces = Faces {
+                upper: &upper,
+                lower: &lower,
+            };
+            contacts.update(faces, |_| false);
+            assert_eq!(contacts.pairs[2].is_some(), meets, "{bond:?} {slip}");
+        }
     }
 }

@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use super::bodies::Sides;
+use super::body::ReducedBody;
 use super::bond::Cracked;
 use super::contact::Contactor;
 use super::coupling::Crack;
@@ -141,7 +142,8 @@ impl<'a> Walk<'a> {
     /// `start` is where the nodes of both bodies are.
     pub(super) fn new(dam: &'a Dam, dt: f64, wanted: Wanted<'a>, start: Faces) -> Self {
         let mut crack = Crack::new(dam, Dampers::felt(dam), true);
-        crack.solver.lasting = dam.cracks.len() > 1;
+        let on_rock = dam.bodies.lower.as_ref().is_some_and(ReducedBody::radiates);
+        crack.solver.lasting = dam.cracks.len() > 1 || on_rock;
         let contactors = &crack.contacts.contactors;
         let cracks = Place::all(&dam.cracks)
             .into_iter()
@@ -172,6 +174,11 @@ impl<'a> Walk<'a> {
     #[inline(always)]
     pub(super) fn due(&self, step: usize) -> bool {
         self.observed() && (step + 1).is_multiple_of(self.wanted.stride)
+    }
+
+    /// Whether there have been steps since the last frame: the last frame of a run is its end.
+    pub(super) fn pending(&self) -> bool {
+        self.since.pending()
     }
 
     /// Book a step that has brought the nodes here; what the contact problem has found is a force times this `time`.

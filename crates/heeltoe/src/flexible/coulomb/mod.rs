@@ -76,6 +76,8 @@ pub(super) struct Solver {
     pub lasting: bool,
     /// A set met before, to know a circle by.
     mark: Vec<Status>,
+    /// The `b` that `p` and `u` are a solution for, where the next one may begin with them; else empty.
+    solved: Vec<f64>,
 }
 
 impl Solver {
@@ -105,6 +107,13 @@ impl Solver {
         self.factors.forget(moved, self.lasting);
     }
 
+    /// Take these impulses, at which nothing moves, for the solution of a step.
+    pub(super) fn hold(&mut self, impulses: impl Iterator<Item = f64>) {
+        self.p.iter_mut().zip(impulses).for_each(|(p, held)| *p = held);
+        self.u.fill(0.0);
+        self.solved.clear();
+    }
+
     /// Solve, starting from the states of the last time; `Absent` ones must have been set by the caller.
     #[inline(always)]
     pub(super) fn solve<W: Lanes>(
@@ -118,6 +127,7 @@ impl Solver {
             found = found || self.search::<W>(problem, crack, worst_only, most, &mut report);
         }
         if !found {
+            self.solved.clear();
             let status = &self.status;
             crack.fill(problem, |contact| status[contact] != Status::Absent);
             self.sweep(problem);
@@ -165,6 +175,7 @@ impl Solver {
         if self.follow::<W>(problem, crack) {
             return true;
         }
+        self.solved.clear();
         let known = self.inverse.is_none() && self.factors.turn_to(&self.status);
         if known {
             self.factors.now().solve::<W>(problem, &mut self.p);
@@ -194,6 +205,8 @@ impl Solver {
             return false;
         };
         let mut anew = inverse.far_from(status);
+        // With the same set the last solution goes on: what is left to correct is little.
+        let mut goes_on = !anew && !self.solved.is_empty() && inverse.changed(status).next().is_none();
         loop {
             if anew {
                 crack.fill(problem, |contact| status[contact].closed());
@@ -205,10 +218,18 @@ impl Solver {
                 }
             }
             if inverse.turn_to::<W>(problem, status) {
-                inverse.amiss(&problem.b, &problem.h);
-                self.p.fill(0.0);
+                if goes_on {
+                    for (u, (new, old)) in self.u.iter_mut().zip(problem.b.iter().zip(&self.solved)) {
+                        *u += new - old;
+                    }
+                } else {
+                    self.u.copy_from_slice(&problem.b);
+                    self.p.fill(0.0);
+                }
+                inverse.amiss(&self.u, &problem.h);
                 inverse.add::<W>(problem, &mut self.p);
                 crack.velocities::<W>(problem, &self.p, &mut self.u);
+                self.solved.clone_from(&problem.b);
                 if settle::<W>(inverse, problem, crack, &mut self.p, &mut self.u, ROUNDED) {
                     return true;
                 }
@@ -216,7 +237,7 @@ impl Solver {
             if anew {
                 return false;
             }
-            anew = true;
+            (anew, goes_on) = (true, false);
         }
     }
 
