@@ -176,7 +176,7 @@ BOND = {"tensile_strength": "0.5 MPa", "cohesion": "1 MPa", "fracture_energy": "
 @pytest.mark.parametrize("changes", [WATER, ROCK, {"crack.bond": BOND}, WATER | {"crack.bond": BOND}])
 @pytest.mark.parametrize("across", [4, pytest.param(16, marks=pytest.mark.slow)])
 def test_water_with_sound_rock_and_bonds_are_counted(changes, across):
-    """A step takes up to thirty times as long with them; other work on the machine is in the factor."""
+    """A step takes up to five times as long with them; other work on the machine is in the factor."""
     bare = example("typical-base", f"flexible.elements_across={across}", "motion.duration=3s", "flexible.evidence=none")
     case = bare.with_(changes)
     bonded._KEPT.clear()
@@ -187,4 +187,4 @@ def test_water_with_sound_rock_and_bonds_are_counted(changes, across):
     estimated = building(parts_of(case), surroundings_of(case)) + running(case, 3.0, 0.01)
     print(f"{across} across, {changes.keys()}: {measured:.2f} s, estimated {estimated.seconds:.2f} s")
     assert factor(measured, estimated.seconds) < 6.0
-    assert estimated.seconds > 1.5 * (building(parts_of(bare)) + running(bare, 3.0, 0.01)).seconds
+    assert estimated.seconds > 1.1 * (building(parts_of(bare)) + running(bare, 3.0, 0.01)).seconds

@@ -20,9 +20,9 @@ _FRAME_STEP = 0.01
 _STEP, _ANSWERED, _FETCHED = 6e-7, 4.3e-10, 8.6e-13
 # Times as much where a friction law is found by passes, 1.7 to 4 of it.
 _BY_LAW = 2.5
-# Times as much where bonds soften: 6 to 10 of it; seconds of a step with a body with waves, measured with
-# water of 30 to 100 m on one side.
-_BY_BOND, _WATERED = 10.0, 1.1e-5
+# Times as much where bonds soften: 1.2 to 2 of it; seconds of a step with a body with waves, measured with
+# water of 100 m on one side.
+_BY_BOND, _WATERED = 2.0, 3e-6
 # Seconds of a step with several joints of which some soften, of the square and the cube of the forces on all of them:
 # each state of the contacts is solved anew. Measured with 2 to 6 joints of 4 and 8 elements, within a factor of two.
 _JOINTS, _JOINTS_SOLVED = 2.5e-8, 2.7e-10
