@@ -50,7 +50,7 @@ def crack_level_figure(response: DecoupledResponse) -> Figure:
     transfer.plot(periods, spectrum["transfer"], color=_CRACK, linewidth=1.4, linestyle="--", label="rigid part above")
     bonded = spectrum["bonded_transfer"]
     transfer.plot(periods, bonded, color=COLOURS["rotation"], linewidth=1.2, label="all elastic, no crack")
-    transfer.set_ylabel("crack over ground [-]")
+    transfer.set_ylabel("amplification [-]")
     for axes in (spectra, transfer):
         _period_axis(axes)
         mark_periods(axes, level["periods_s"][:_MARKED], "#555555")

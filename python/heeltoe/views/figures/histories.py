@@ -108,7 +108,7 @@ def force_figure(response: Response, units: str = "si") -> Figure:
     draw_shaking(shaking, response)
     scale = system.scale("velocity")
     velocity.plot(time, scale(h["slip_velocity_m_s"]), color=COLOURS["slip"], linewidth=0.7)
-    velocity.set_ylabel(f"slip velocity\n[{scale.unit}]")
+    velocity.set_ylabel(f"slip rate\n[{scale.unit}]")
     touching.fill_between(time, 100.0 * h["touching"], color=COLOURS["toe"], alpha=0.6, linewidth=0, step="mid")
     touching.set_ylabel("touching\n[%]")
     touching.set_ylim(0.0, 100.0)
@@ -119,7 +119,7 @@ def force_figure(response: Response, units: str = "si") -> Figure:
     forces.plot(
         time[1:], scale(friction), color="#000000", linewidth=0.7, linestyle="--", label="friction, + downstream"
     )
-    forces.set_ylabel(f"force [{scale.unit}]\non part above")
+    forces.set_ylabel(f"force on the\nupper part\n[{scale.unit}]")
     time_axis(forces, response)
     figure.legend(loc="outside lower center", ncols=2)
     align_labels([*shaking, velocity, touching, forces])

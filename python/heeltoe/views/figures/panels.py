@@ -91,17 +91,17 @@ def draw_limits(axes: Axes, response: Response, names: Mapping[str, str], scale:
             axes.axhline(side, color=COLOURS["crack"], linewidth=0.9, linestyle=(0, (6, 2)))
             axes.annotate(
                 f"{names[check.name]} allowed",
-                # At the beginning, where nothing has moved yet, and within the panel.
+                # At the beginning, where nothing has moved yet, beyond the line and within the panel.
                 (0.0, side),
                 xycoords=("axes fraction", "data"),
-                xytext=(3, -2 if side > 0.0 else 2),
+                xytext=(3, 2 if side > 0.0 else -2),
                 textcoords="offset points",
                 ha="left",
-                va="top" if side > 0.0 else "bottom",
+                va="bottom" if side > 0.0 else "top",
                 fontsize=7,
                 color=COLOURS["crack"],
             )
-            low, high = min(low, 1.15 * side), max(high, 1.15 * side)
+            low, high = min(low, 1.35 * side), max(high, 1.35 * side)
     axes.set_ylim(low, high)
 
 
