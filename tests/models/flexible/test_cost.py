@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from heeltoe import InputError
-from heeltoe.models.flexible.body import bonded
+from heeltoe.models.flexible.body import bonded, rock
 from heeltoe.models.flexible.body.cost import building, part_of, parts_of, surroundings_of
 from heeltoe.models.flexible.body.reduced import _build
 from heeltoe.models.flexible.body.reservoir import water_body
@@ -71,6 +71,20 @@ def test_time_of_all_modes():
     measured, estimated = time.process_time() - begun, building(parts_of(case)).seconds
     print(f"all modes: {measured:.2f} s, estimated {estimated:.2f} s")
     assert factor(measured, estimated) < 4.0
+
+
+@pytest.mark.parametrize(("modulus", "crack"), [("2 GPa", "0 m"), ("2 GPa", "25 m")])
+def test_soft_rock_has_more_elements_for_its_shorter_waves(modulus, crack):
+    """They are counted: rock of 2 GPa takes five times as long as rock of 40 GPa."""
+    case = example("typical-base", f"crack.elevation={crack}", f"rock={{modulus='{modulus}'}}")
+    case = case.with_("flexible.elements_across=3")
+    rock._KEPT.clear()
+    begun = time.process_time()
+    _build(case)
+    measured = time.process_time() - begun
+    estimated = building(parts_of(case), surroundings_of(case)).seconds
+    print(f"rock of {modulus}, crack at {crack}: {measured:.2f} s, estimated {estimated:.2f} s")
+    assert factor(measured, estimated) < 3.0
 
 
 PEAK = """

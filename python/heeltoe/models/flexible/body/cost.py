@@ -14,7 +14,7 @@ from itertools import pairwise
 
 import shapely
 
-from heeltoe.case.dam import Water
+from heeltoe.case.dam import Rock, Water
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.models.flexible.body.modes import FIRST_KEPT
@@ -25,9 +25,9 @@ _SET_UP, _SOLVED, _RESTED = 0.15, 8e-7, 2e-6
 # Seconds and bytes of the modes of water with sound on one side, and bytes for each second that sound takes through its
 # depth: the deeper, the more of its resonances are below the highest frequency, and each has samples of its own.
 _WATER, _WATER_BY_DEPTH = (0.45, 3.6e7), 6.4e8
-# The same of rock: of its far field, and of the mesh below a crack of n elements n^2.5 and n^2; each step takes as
-# long as with so many bodies of water.
-_ROCK, _ROCK_ACROSS, _ROCK_STEPS = (1.5, 9e7), (4e-3, 9.5e5), 4
+# The same of rock with n elements along its base, of n^2.5 and of n^2: measured with 8 to 24, for waves as for a fine
+# mesh. Each step takes as long as with so many bodies of water.
+_ROCK, _ROCK_ACROSS, _ROCK_STEPS = (0.7, 6.7e7), (3.1e-3, 7e5), 4
 # Seconds of each d^3 where all modes are wanted: 0.12 s of 710, 0.9 s of 1,570 degrees of freedom.
 _DENSE = 3e-10
 # Copies of the d m numbers of the modes of a part: while they are solved, and after that; the bytes of a number.
@@ -130,9 +130,21 @@ def surroundings_of(case: Case) -> Cost:
     for water in _waters(case):
         cost += Cost(_WATER[0], _WATER[1] + _WATER_BY_DEPTH * water.depth / water.wave_speed)
     if case.rock is not None:
-        across = case.flexible.elements_across
+        across = float(_rock_elements(case, case.rock))
         cost += Cost(_ROCK[0] + _ROCK_ACROSS[0] * across**2.5, _ROCK[1] + _ROCK_ACROSS[1] * across**2)
     return cost
+
+
+def _rock_elements(case: Case, rock: Rock) -> int:
+    """Return how many elements there are along the base of the rock."""
+    from heeltoe.models.flexible.surroundings.rock import BEYOND, HIGHEST, RockMaterial, base_elements
+
+    left, base, right, _ = case.outline.bounds
+    width = case.outline.intersection(shapely.LineString([(left, base), (right, base)])).length
+    at_base = min(crack.elevation for crack in (case.crack, *case.further_cracks)) == 0.0
+    across = (None if at_base else case.flexible.elements_across_below) or case.flexible.elements_across
+    edges = across + 2 * BEYOND if at_base else across
+    return base_elements(edges, width * edges / across, RockMaterial(rock.modulus, rock.poisson, rock.density), HIGHEST)
 
 
 def _waters(case: Case) -> list[Water]:
@@ -186,7 +198,9 @@ def _driver(case: Case) -> str:
     """Return the field that makes most of the cost."""
     options = case.flexible
     duration = case.motion.duration if case.motion else None
+    rock = 0.0 if case.rock is None else _rock_elements(case, case.rock) / max(24.0, options.elements_across + 2.0)
     far = {
+        "rock.modulus": rock,
         "flexible.elements_across": max(options.elements_across, options.elements_across_below or 0) / 8.0,
         "flexible.modes": (options.modes or FIRST_KEPT) / 100.0,
         "flexible.time_step": 1e-4 / (options.time_step or 1e-4),

@@ -17,12 +17,15 @@ from heeltoe.models.flexible.body.elastic import Body, Dam, base_shapes, dofs, h
 from heeltoe.models.flexible.body.modes import Modes
 from heeltoe.models.flexible.surroundings.reduction import congruent
 from heeltoe.models.flexible.surroundings.response import base_nodes
-from heeltoe.models.flexible.surroundings.rock import EXTENT, ReducedRock, RockMaterial, reduced_rock
+from heeltoe.models.flexible.surroundings.rock import (
+    BEYOND,
+    EXTENT,
+    HIGHEST,
+    ReducedRock,
+    RockMaterial,
+    reduced_rock,
+)
 
-# Frequency [Hz] up to which the rock answers well.
-_HIGHEST = 15.0
-# The level surface goes on beyond heel and toe by so many edges of the mesh, on which a dam that slides stands.
-_BEYOND = 1
 # A base that rises by no more than this part of its width is level.
 _LEVEL = 1e-6
 
@@ -50,7 +53,7 @@ class RockBody:
     damping: Floats
     shapes: Floats
     points: Floats
-    beyond: int = 2 * _BEYOND
+    beyond: int = 2 * BEYOND
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,8 +159,8 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
     if rise > _LEVEL * cut.crack_width:
         raise InputError("rock-level", "rock", f"{rise:.3g} m")
     first, last = base[2] - base[0], base[-1] - base[-3]
-    ahead = [base[0] - (_BEYOND - k / 2.0) * first for k in range(2 * _BEYOND)]
-    behind = [base[-1] + (k + 1) / 2.0 * last for k in range(2 * _BEYOND)]
+    ahead = [base[0] - (BEYOND - k / 2.0) * first for k in range(2 * BEYOND)]
+    behind = [base[-1] + (k + 1) / 2.0 * last for k in range(2 * BEYOND)]
     points = np.vstack([*ahead, base, *behind])
     reduced = _rock_below(points, case.rock, larger)
     count = reduced.omega_squared.size
@@ -169,7 +172,7 @@ def _rock_below(points: Floats, rock: Rock, larger: float) -> ReducedRock:
     material, extent = rock_material(rock), larger * EXTENT
     # The same rock lies below dams that differ in all else.
     key = (points.tobytes(), material, extent)
-    return _KEPT.get(key, lambda: reduced_rock(points, material, highest=_HIGHEST, extent=extent))
+    return _KEPT.get(key, lambda: reduced_rock(points, material, highest=HIGHEST, extent=extent))
 
 
 def rock_material(rock: Rock) -> RockMaterial:

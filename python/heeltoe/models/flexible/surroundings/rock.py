@@ -18,6 +18,7 @@ to the highest frequency."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -45,6 +46,10 @@ from heeltoe.models.flexible.surroundings.reduction import (
 
 #: Distance of the last ring in half widths of the base.
 EXTENT = 100.0
+#: Frequency [Hz] up to which the rock of a case answers well.
+HIGHEST = 15.0
+#: The level surface goes on beyond heel and toe by so many edges of the mesh, on which a dam that slides stands.
+BEYOND = 1
 # Elements across the base at least, and over the shortest shear wave.
 _ACROSS, _PER_WAVE = 8, 5.0
 # Next to heel and toe, where the stresses are steep, elements are halved down to such a part of the base.
@@ -172,7 +177,7 @@ class ReducedRock:
 
 
 def reduced_rock(
-    base: Floats, material: RockMaterial, *, highest: float = 15.0, extent: float = EXTENT, enough: float = ENOUGH
+    base: Floats, material: RockMaterial, *, highest: float = HIGHEST, extent: float = EXTENT, enough: float = ENOUGH
 ) -> ReducedRock:
     """Return the rock below a base in few unknowns.
 
@@ -192,13 +197,13 @@ def reduced_rock(
     return _reduced(full_rock(base, material, highest=highest, extent=extent), base, material, highest, enough)
 
 
-def full_rock(base: Floats, material: RockMaterial, *, highest: float = 15.0, extent: float = EXTENT) -> FullRock:
+def full_rock(base: Floats, material: RockMaterial, *, highest: float = HIGHEST, extent: float = EXTENT) -> FullRock:
     """Return the rock below a base in all its finite elements; parameters as in :func:`reduced_rock`."""
     import skfem
     from skfem.helpers import dot
 
-    wave = material.shear_speed / highest
-    refined, count = _refined(base[:, 0], int(np.ceil(_PER_WAVE * np.ptp(base[:, 0]) / wave)))
+    count = base_elements(len(base) // 2, float(np.ptp(base[:, 0])), material, highest)
+    refined = _refined(base[:, 0], count)
     middle, half = (base[0, 0] + base[-1, 0]) / 2.0, (base[-1, 0] - base[0, 0]) / 2.0
     points, elements = _rings(refined - middle, count, half, extent)
     mesh = skfem.MeshQuad(points.T.copy(), elements.T.copy())
@@ -267,16 +272,21 @@ def full_rock(base: Floats, material: RockMaterial, *, highest: float = 15.0, ex
     )
 
 
-def _refined(x: Floats, count: int) -> tuple[Floats, int]:
-    """Return corners of elements along the base, each edge cut into as many as it needs for so many in all, and how
-    many these are before the outer ones are halved."""
+def base_elements(edges: int, width: float, material: RockMaterial, highest: float) -> int:
+    """Return how many elements there are along a base of so many edges and such a width [m], before the outer ones are
+    halved: each edge is cut into as many as the shortest wave needs."""
+    return edges * math.ceil(max(_ACROSS, _PER_WAVE * width * highest / material.shear_speed) / edges)
+
+
+def _refined(x: Floats, count: int) -> Floats:
+    """Return corners of so many elements along the base, of which the outer ones are halved."""
     corners = x[::2]
-    pieces = int(np.ceil(max(count, _ACROSS) / (corners.size - 1)))
+    pieces = count // (corners.size - 1)
     parts = [np.linspace(low, high, pieces + 1)[1:] for low, high in pairwise(corners)]
     even = np.concatenate([corners[:1], *parts])
     near = _halved(even.size - 1)
     first, last = even[0] + near * (even[1] - even[0]), even[-1] - near[::-1] * (even[-1] - even[-2])
-    return np.concatenate([even[:1], first, even[1:-1], last, even[-1:]]), even.size - 1
+    return np.concatenate([even[:1], first, even[1:-1], last, even[-1:]])
 
 
 def _halved(count: int) -> Floats:
