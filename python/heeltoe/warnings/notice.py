@@ -236,6 +236,19 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "no waves leave the rock ({path} = {value}): vibrations of the dam hardly die out, and slips come out too "
         "large, for massless rock several times; set {path} = {other}",
     ),
+    "surroundings-left-out": (
+        "note",
+        "rock",
+        "of {cases:d} made dams like this one {share:.2g %} slide less far on elastic rock and with sound in the "
+        "water, half of all {times:.2g|to} times as far; here the rock is rigid and the water a mass, which the block "
+        "rock and reservoir.compressible = true change",
+    ),
+    "surroundings-unlike": (
+        "note",
+        "rock",
+        "the rock is rigid and the water a mass here, and the dams studied with elastic rock and sound are not like "
+        "this one ({why}): its slip may be off either way; the block rock and reservoir.compressible = true tell",
+    ),
     "outline-simplified": (
         "note",
         "section.polygon",

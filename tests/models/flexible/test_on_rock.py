@@ -21,6 +21,7 @@ from heeltoe.models.flexible.body.reduced import _KEPT, build_flexible_dam, damp
 from heeltoe.models.flexible.body.rock import founded, rock_material
 from heeltoe.models.flexible.result.history import crack_table
 from heeltoe.models.flexible.run.expected import analysing
+from heeltoe.models.flexible.surroundings.left_out import CLASSES
 from heeltoe.models.flexible.surroundings.response import base_nodes
 from heeltoe.models.flexible.surroundings.rock import full_rock
 from shared.dams import example
@@ -258,3 +259,36 @@ def test_the_example_runs():
     lower, upper = (table[table.side == side] for side in ("lower", "upper"))
     assert lower.x_m.min() < upper.x_m.min()
     assert lower.x_m.max() > upper.x_m.max()
+
+
+def test_a_result_says_what_rigid_rock_and_water_without_sound_leave_out():
+    # Above 0.6 g of the study.
+    strong = dam(crack={"elevation": "0 m", "friction": 0.8})
+    del strong["rock"]
+    usual = strong | {"motion": {"points": [[time, f"{0.5 * float(value.split()[0])} g"] for time, value in PULSES]}}
+
+    def about(fields):
+        return [notice for notice in flexible(read_case(fields)).warnings if notice.code.startswith("surroundings-")]
+
+    (like,) = about(usual)
+    assert dict(like.quantities)["cases"] == CLASSES[-1][2]
+    assert "slide less far on elastic rock" in str(like)
+    for fields, why in (
+        (strong, "peaks of 0.3 to 0.6 g"),
+        (strong | {"crack": HIGH | {"friction": 0.7}}, "at the base"),
+        (strong | {"reservoir": {"depth": "15 m"}}, "deep"),
+        (strong | {"crack": {"elevation": "0 m", "friction": 0.6}}, "friction"),
+    ):
+        (unlike,) = about(fields)
+        assert unlike.code == "surroundings-unlike"
+        assert why in str(unlike)
+    assert not about(dam())
+
+
+def test_what_results_say_of_rigid_rock_is_in_the_table_of_its_page():
+    page = (Path(__file__).parents[3] / "docs/rigid-rock.md").read_text()
+    for low, high, cases, share, (first, third) in CLASSES:
+        row = next(line for line in page.splitlines() if line.startswith(f"| depth / height {low:g} to {high:g} |"))
+        cells = [float(cell) for cell in row.split("|")[2:-1]]
+        assert (cases, round(100 * share)) == tuple(map(round, cells[:2]))
+        assert [first, third] == pytest.approx([cells[3], cells[5]], abs=0.005)

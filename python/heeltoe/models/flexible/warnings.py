@@ -18,6 +18,7 @@ from heeltoe.models.flexible.evidence.growth import Growth
 from heeltoe.models.flexible.result.history import CrackHistory
 from heeltoe.models.flexible.result.tables import anchors_of
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
+from heeltoe.models.flexible.surroundings.left_out import left_out
 from heeltoe.models.runner import about_the_anchors, largest_rotation, outcome_of
 from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
 from heeltoe.units.sentences import Sentence
@@ -87,6 +88,7 @@ def warnings_of(
     """Return what a reader of a flexible run must know; `safety` is that against sliding under the static loads,
     `outcome` that of :func:`judge_outcome`, and `leads` the place of the crack that leads."""
     case, dam = shaken.case, shaken.dam
+    peak = float(abs(shaken.shaking.horizontal).max())
     return [
         # What does not stand has no result that evidence could be of.
         *(_about_the_evidences(evidences, dam, leads) if outcome != "unstable" else ()),
@@ -94,6 +96,7 @@ def warnings_of(
         *_about_the_growth(growth, run.summaries[leads]),
         *_about_the_mesh(dam),
         *_about_the_rock(case),
+        *(left_out(case, max(abs(row.slip) for row in run.summaries), peak) if outcome == "ok" else ()),
         *_about_the_joints(case, dam),
         *_about_the_concrete(case, dam),
         *about_the_anchors(anchors_of(case, run)),
