@@ -191,6 +191,21 @@ def test_no_record_at_all_is_said_in_words(session):
     assert (refused.value.code, refused.value.field) == ("study-motions", "motions")
 
 
+def test_unit_and_time_step_are_asked_for_at_once(session):
+    np.savetxt(session.folder / "bare", np.sin(0.3 * np.arange(400)))
+    session.sent["bare.txt"] = "bare"
+    form = {**FORM, "method": "suite", "source": "records", "records": ["bare.txt"]}
+
+    def said(**more):
+        return look(study_asked({**form, **more}, session), session.folder / "study-6", 100)
+
+    both = said()["error"]
+    assert (both["field"], "neither its unit nor its time step" in both["problem"]) == ("motions.unit", True)
+    assert said(**{"motions.time_step": "0.01 s"})["error"]["field"] == "motions.unit"
+    assert said(**{"motions.unit": "m/s^2"})["error"]["field"] == "motions.time_step"
+    assert "1 run" in said(**{"motions.unit": "m/s^2", "motions.time_step": "0.01 s"})["outlook"]
+
+
 def test_errors_come_back_from_other_processes():
     error = InputError("study-many", "samples", 3, most=2)
     error.field = "study"

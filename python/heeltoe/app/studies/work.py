@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import copy
 import json
 import os
 import shutil
@@ -38,6 +39,8 @@ if TYPE_CHECKING:
 
 STUDY, OUT = "study.toml", "study"
 _CORES = os.cpu_count() or 1
+# Where a form asks for what a record does not state, by the code of the error.
+_UNSTATED = {"record-unit-missing": "motions.unit", "record-step-missing": "motions.time_step"}
 Fields = dict[str, Any]
 # The case, a study as its file has it, and the files that were sent, of which the last names some.
 Asked = tuple[Fields, Fields, Sent]
@@ -67,10 +70,30 @@ def lay_study(case: Fields, study: Fields, sent: Sent, folder: Path) -> Study:
 
 def look(request: Asked, folder: Path, limit: int) -> dict[str, Any]:
     """Return how many runs a study has and about how long they take, or what is wrong with it."""
+    case, study, sent = request
     try:
-        return {"outlook": _outlook(_laid(request, folder, limit))}
+        # What is laid out has other names of records.
+        return {"outlook": _outlook(_laid((case, copy.deepcopy(study), sent), folder, limit))}
     except InputError as error:
-        return refused(error)
+        return refused(error) if error.code not in _UNSTATED else _asked(request, folder, limit, error)
+
+
+def _asked(request: Asked, folder: Path, limit: int, error: InputError) -> dict[str, Any]:
+    """Return the question for what a record does not state, at its field; for unit and time step at once of one that
+    states neither."""
+    (case, study, sent), record = request, error.field
+    error.field = _UNSTATED[error.code]
+    if error.code == "record-step-missing":
+        stepped = {**study, "motions": {**study["motions"], "time_step": "0.01 s"}}
+        try:
+            _laid((case, stepped, sent), folder, limit)
+        except InputError as second:
+            if second.code == "record-unit-missing":
+                problem = f"{record} states neither its unit nor its time step"
+                remedy = "give both here, as they hold for all records that do not state them"
+                field, text = _UNSTATED[second.code], f"{problem}; {remedy}"
+                return {"error": {"field": field, "text": text, "problem": problem, "remedy": remedy}}
+    return refused(error)
 
 
 def lay(request: Asked, folder: Path, limit: int) -> None:
