@@ -19,7 +19,7 @@ help:
 	@echo "make demo       run the typical dam through El Centro 1940; report, figures and results in out/demo"
 	@echo "make test       all tests but the long ones"
 	@echo "make test-slow  the long ones"
-	@echo "make attack     tries to break it, for hours; writes docs/attack.md (CASES=2000 SEED=7 for fewer, and for others)"
+	@echo "make attack     tries to break it, for hours; writes docs/attack.md (CASES=2000 SEED=7 ADD=1 for fewer, others, added)"
 	@echo "make test-pythons  the tests under every Python of 3.11 to 3.13 that is installed"
 	@echo "make audit      known weaknesses of all that is installed or built from; needs a network"
 	@echo "make browser    install the browser that the tests of the app need; Debian's, needs a network"
@@ -71,13 +71,14 @@ test-slow: check $(VENV)/.built
 	$(BIN)/pytest -q -m slow -n 2 --dist worksteal
 	@$(ELAPSED)
 
-# Random cases of an attack, where they begin, and which attacks; the defects that it finds name their seeds.
+# Random cases of an attack, where they begin, and which attacks; the defects that it finds name their seeds. With ADD=1
+# their figures are added to those of the page.
 CASES ?= 20000
 SEED ?= 34
 ATTACKS ?= tests/attack
 
 attack: check $(VENV)/.built
-	HEELTOE_ATTACK_CASES=$(CASES) HEELTOE_ATTACK_SEED=$(SEED) HEELTOE_ATTACK_PAGE=docs/attack.md \
+	HEELTOE_ATTACK_CASES=$(CASES) HEELTOE_ATTACK_SEED=$(SEED) HEELTOE_ATTACK_PAGE=docs/attack.md HEELTOE_ATTACK_ADD=$(ADD) \
 	  $(BIN)/pytest -q $(ATTACKS) -n 2 --dist worksteal
 	@$(ELAPSED)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from importlib.metadata import version
@@ -13,8 +14,8 @@ ENDS = ("accepted", "refused", "no result", "defect")
 CASES, SEED = int(os.environ.get("HEELTOE_ATTACK_CASES", "100")), int(os.environ.get("HEELTOE_ATTACK_SEED", "34"))
 _TEXT = """# Attacks
 
-`make attack` tries to break heeltoe, with {cases:,} random cases from the seed {seed} (`CASES`, `SEED`), and writes
-this page; `make test` tries a short form. This was version {version}.
+`make attack` tries to break heeltoe, with random cases from a seed (`CASES`, `SEED`), and writes this page; with
+`ADD=1` it adds what other seeds come to. `make test` tries a short form. This was version {version}, seeds {seeds}.
 
 | what | tried | accepted | refused | no result | defects |
 | --- | ---: | ---: | ---: | ---: | ---: |
@@ -32,22 +33,35 @@ The cases are in {generator}; a defect names the seed that makes its case. Of tw
 """
 
 
-def write_page(path: Path, rows: Iterable[tuple[str, Mapping[str, int]]]) -> None:
-    """Write what came of all attacks; rows of one name are added up."""
-    sums: dict[str, Counter[str]] = {}
+def write_page(path: Path, rows: Iterable[tuple[str, Mapping[str, int]]], *, add: bool = False) -> None:
+    """Write what came of all attacks; rows of one name are added up, with `add` to those that stand there."""
+    sums, seeds = _read_page(path) if add else ({}, [])
     for what, counts in rows:
         sums.setdefault(str(what), Counter()).update(counts)
     total: Counter[str] = sum(sums.values(), Counter())
     lines = [_row(what, counts) for what, counts in [*sorted(sums.items()), ("all", total)]]
     text = _TEXT.format(
-        cases=CASES,
-        seed=SEED,
+        seeds=", ".join(map(str, sorted({*seeds, SEED}))),
         version=version("heeltoe"),
         rows="\n".join(lines),
         judge="`tests/shared/contradictions.py`",
         generator="`tests/shared/random_features.py`",
     )
     path.write_text(text, encoding="utf-8")
+
+
+def _read_page(path: Path) -> tuple[dict[str, Counter[str]], list[int]]:
+    """Return what a page says: the counts by name, and the seeds."""
+    text = path.read_text(encoding="utf-8")
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line[:1] == "|"][2:]
+    counts = {what: Counter(dict(zip(ENDS, map(_number, ends), strict=True))) for what, _, *ends in cells}
+    counts.pop("all", None)
+    seeds = re.search(r"seeds? (\d+(?:, \d+)*)\.", text)
+    return counts, [int(seed) for seed in seeds[1].split(", ")] if seeds else []
+
+
+def _number(cell: str) -> int:
+    return int(cell.replace(",", ""))
 
 
 def _row(what: str, ends: Mapping[str, int]) -> str:
