@@ -163,6 +163,26 @@ def with_kinks() -> dict[str, Case]:
     return {"straight, 16 across": case.with_({"crack.kinks": []}), "with a step, 16 across": case}
 
 
+def with_surroundings() -> dict[str, Case]:
+    """Return the typical dam before water with sound, on rock, and with a joint that cracks through."""
+    changes = ("motion.duration=12s", "analysis.silence=0s")
+    both = read_case(EXAMPLES / "on-rock.toml", changes)
+    bare = both.with_({"rock": None, "reservoir.compressible": False})
+    bond = {
+        "tensile_strength": "1 MPa",
+        "cohesion": "1.5 MPa",
+        "fracture_energy": "100 N/m",
+        "shear_energy": "1000 N/m",
+    }
+    return {
+        "neither": bare,
+        "a bond": bare.with_({"crack.bond": bond}),
+        "water with sound": both.with_({"rock": None}),
+        "rock": both.with_({"reservoir.compressible": False}),
+        "rock and water": both,
+    }
+
+
 def beside(cases: dict[str, Case], step: float) -> list[list[str]]:
     """Measure a step [s] of each dam, in turn, and over that of the first."""
     dams = [
@@ -204,6 +224,8 @@ def report() -> str:
             "turn, beside the first.",
             table(["law", "per step", "beside the first", "slip"], beside(with_laws(), BASE_STEP)),
             table(["crack", "per step", "beside the first", "slip"], beside(with_kinks(), BASE_STEP)),
+            "The same with the dam of `examples/on-rock.toml`: a bond that cracks through, water and rock.",
+            table(["with", "per step", "beside the first", "slip"], beside(with_surroundings(), BASE_STEP)),
         ]
     )
 
