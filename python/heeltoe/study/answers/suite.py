@@ -29,8 +29,6 @@ DEMANDS = {
     "rotation_rad": "rotation",
     "cracked_length_m": "cracked_length",
 }
-#: The mean of fewer records than this is no basis of EN 1998-1.
-ENOUGH_FOR_MEAN = 7
 _SHARES = {"median": 0.50, "84%": 0.84}
 _SIGNS = ("recorded", "reversed")
 

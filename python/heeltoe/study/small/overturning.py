@@ -11,7 +11,7 @@ import os
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -26,8 +26,6 @@ from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, CriticalAccelerations, build_block
 from heeltoe.models.rigid.walk import walk
 from heeltoe.result.write import build_info
-
-Pulse = Literal["sine", "half-sine", "cosine"]
 
 #: What a pulse does to a block, by the numbers of a map.
 ENDS = ("does not rock", "rocks and stands", "overturns after an impact", "overturns without impact", "no result")

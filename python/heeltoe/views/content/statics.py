@@ -44,7 +44,6 @@ _FORCES = (2.3, 1.6, 1.3, 1.7, 1.3, 2.1, 4.2)
 _STEPS = (2.6, 2.75, 5.35, 2.8, 1.35, 0.6)
 # Static checks that are not met and have room on page one.
 MOST_MISSED = 6
-_DEFAULTS = ("flexible", "decoupled", "analysis", "limits")
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from heeltoe.base.arrays import Floats
-from heeltoe.models.flexible.body.elastic import side_by_side
+from heeltoe.models.flexible.body.elastic import tied
+from heeltoe.models.flexible.body.modes import lowest
 from heeltoe.models.flexible.body.reduced import FlexibleDam
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import BodyMesh
@@ -113,22 +114,14 @@ def modes_figure(dam: FlexibleDam, units: str = "si") -> Figure:
 def intact_shapes(dam: FlexibleDam, count: int) -> tuple[Floats, list[tuple[Floats, ...]]]:
     """Return the longest periods [s] of the dam with its crack bonded, and for each the displacements (n, 2) of both
     parts; their largest component downstream is positive."""
-    from scipy.sparse.linalg import eigsh
-
-    tie = dam.tie
-    stiffness, mass = ((tie.T @ side_by_side(dam, name) @ tie).tocsc() for name in ("stiffness", "mass"))
-    # A start of our own makes the result the same every time.
-    start = np.random.default_rng(0).standard_normal(tie.shape[1])
-    count = min(count, tie.shape[1] - 2)
-    squares, vectors = eigsh(stiffness, count, mass, sigma=0.0, v0=start)
-    order = np.argsort(squares)
+    squares, vectors = lowest(tied(dam, "stiffness"), tied(dam, "mass"), min(count, dam.tie.shape[1]), 0.0)
     shapes = []
-    for vector in vectors[:, order].T:
-        moved = (tie @ vector).reshape(-1, 2)
+    for vector in vectors.T:
+        moved = (dam.tie @ vector).reshape(-1, 2)
         moved *= np.sign(moved[np.argmax(np.abs(moved[:, 0])), 0])
         ends = np.cumsum([len(body.mesh.nodes) for body in dam.bodies])[:-1]
         shapes.append(tuple(np.split(moved, ends)))
-    return 2.0 * math.pi / np.sqrt(squares[order]), shapes
+    return 2.0 * math.pi / np.sqrt(squares), shapes
 
 
 def edges(mesh: BodyMesh, places: Floats) -> Floats:
