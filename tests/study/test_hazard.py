@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ import heeltoe
 from heeltoe.errors.error import InputError
 from heeltoe.study.answers.fragility import Curve
 from heeltoe.study.answers.hazard import annual
+from heeltoe.study.answers.likelihood import Witnesses, offsets
 from shared.command import command
 from shared.studies import BLOCK, study_file
 
@@ -104,6 +106,51 @@ def test_the_fractiles_of_a_power_law_lie_as_those_of_its_median():
     assert annual(curve(2.0, 0.3), power_law(1e-3, k, (0.5, 8.0)))["annual_probability_fractiles"] is None
 
 
+def test_the_shares_of_events_go_by_the_powers_of_their_medians():
+    """Where runs are many each event has its own curve, whose rate under a power law is a closed form."""
+    medians, within, k = np.array([0.5, 1.0, 1.6, 3.0]), 0.25, 2.5
+    strength = np.geomspace(0.1, 12.0, 25)
+    runs = np.full(strength.size * medians.size, 1e6)
+    event = np.repeat(np.arange(medians.size), strength.size)
+    logarithm = np.tile(np.log(strength), medians.size)
+    chance = norm.cdf((logarithm - np.log(medians)[event]) / within)
+    known = Witnesses(logarithm, event, runs, runs * chance)
+    between = float(np.log(medians).std())
+    fragility = replace(curve(1.2, math.hypot(between, within)), record=between, other=within)
+    rates = annual(fragility, power_law(1e-3, k, (0.5, 8.0)), known, ["a", "b", "c", "d"])
+    rows = {row["event"]: row for row in rates["by_event"]}
+    assert list(rows) == ["a", "b", "c", "d"]
+    expected = medians**-k / np.sum(medians**-k)
+    assert [rows[name]["share"] for name in "abcd"] == pytest.approx(expected.tolist(), rel=1e-3)
+    assert [rows[name]["median"] for name in "abcd"] == pytest.approx(medians.tolist(), rel=1e-3)
+    assert sum(row["annual_rate"] for row in rows.values()) == pytest.approx(rates["annual_rate"], rel=1e-12)
+
+
+def test_events_of_which_nothing_is_known_share_alike():
+    """Without runs that tell them apart every event is as all are, and their mixture is the curve itself."""
+    event = np.arange(5)
+    known = Witnesses(np.zeros(5), event, np.full(5, 1e-12), np.zeros(5))
+    fragility = replace(curve(2.0, 0.5), record=0.4, other=0.3)
+    places, chance = offsets(known, 2.0, 0.4, 0.3)
+    mixed = [float(np.sum(chance[0] * norm.cdf((math.log(x / 2.0) - places[0]) / 0.3))) for x in (1.0, 2.0, 5.0)]
+    assert mixed == pytest.approx(fragility.probability(np.array([1.0, 2.0, 5.0])).tolist(), abs=1e-6)
+    rates = annual(fragility, power_law(1e-3, 2.0, (0.5, 8.0)), known, list("abcde"))
+    assert [row["share"] for row in rates["by_event"]] == pytest.approx([0.2] * 5, rel=1e-9)
+    assert annual(curve(2.0, 0.5), power_law(1e-3, 2.0, (0.5, 8.0)), known, list("abcde"))["by_event"] == []
+
+
+def test_an_event_whose_runs_all_exceed_or_none_has_a_share_all_the_same():
+    strength = np.array([0.5, 1.0, 2.0])
+    event = np.repeat(np.arange(3), 3)
+    exceeding = np.array([0, 4, 8, 8, 8, 8, 0, 0, 0], dtype=np.float64)
+    known = Witnesses(np.tile(np.log(strength), 3), event, np.full(9, 8.0), exceeding)
+    fragility = replace(curve(1.0, 0.7), record=0.6, other=math.sqrt(0.7**2 - 0.6**2))
+    rows = annual(fragility, power_law(1e-3, 2.0, (0.5, 8.0)), known, ["half", "all", "none"])["by_event"]
+    assert [row["event"] for row in rows] == ["all", "half", "none"]
+    assert 0.0 < rows[2]["share"] < 0.1
+    assert rows[0]["share"] < 1.0
+
+
 def test_a_strength_that_is_asked_of_has_its_probability_and_its_rate():
     hazard = power_law(1e-3, 2.0, (0.5, 2.0, 8.0)) | {"at": [1.0, 16.0]}
     points = {point["strength"]: point for point in annual(curve(1.0, 0.3), hazard)["at"]}
@@ -122,6 +169,8 @@ def test_a_study_with_a_hazard_says_how_often_a_year(tmp_path):
     assert weak["annual_rate"] > strong["annual_rate"] > 0.0
     by_hand = annual(study.curves[0][1], study.told["hazard"])
     assert weak["annual_rate"] == by_hand["annual_rate"]
+    assert {row["event"] for row in weak["by_event"]} == set(study.told["events"])
+    assert sum(row["share"] for row in weak["by_event"]) == pytest.approx(1.0, rel=1e-12)
     assert study.told["hazard"]["strength"][1] == pytest.approx(0.5 * study.told["hazard"]["strength"][2])
     assert json.loads(json.dumps(study.to_json(), allow_nan=False))
     # Another hazard is another question to the same runs.

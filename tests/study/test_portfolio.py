@@ -123,7 +123,14 @@ def test_the_command_prints_the_ranks_and_writes_them(tmp_path):
     assert process.stdout.index("Lower") < process.stdout.index("Side")
     for name in ("portfolio.csv", "report.pdf", "figures/ranks.png"):
         assert (tmp_path / "out" / name).is_file()
-    assert "The portfolio" in (tmp_path / "out/report.html").read_text()
+    page = (tmp_path / "out/report.html").read_text()
+    assert "The portfolio" in page
+    # A page for each dam, the worst first, with its own numbers beside those of the base case.
+    places = [page.index(f"</span> {name}</h3>") for name in ("Lower", "Upper", "Side")]
+    assert places == sorted(places)
+    assert page.count('class="page"') == 3
+    assert ">50 m<" in page[places[0] : places[1]]
+    assert ">50 m<" not in page[places[2] :].partition("What was varied")[0]
 
 
 def test_a_study_without_a_table_has_no_ranks(tmp_path):

@@ -14,6 +14,7 @@ import heeltoe
 from heeltoe import open_study, read_case, read_study, run_study
 from heeltoe.case.toml_writer import case_text
 from heeltoe.models.run import MODELS, earthquake
+from heeltoe.result.crest import CREST_PEAKS, crest_peaks
 from heeltoe.study.plan.plan import Pilot, _worth, plan_of
 from heeltoe.study.run.batches import NUMBERS, run_part
 from heeltoe.study.run.run import pilot_run
@@ -63,7 +64,8 @@ def number_of(response, name):
 
 def row_and_run(folder, case, model, more=""):
     """Return the only row of a study of a case, and the single run."""
-    case = case.with_({"motion.sign": "recorded"})
+    crest = {} if model == "decoupled" else {"limits.crest_displacement": "1 mm"}
+    case = case.with_({"motion.sign": "recorded"} | crest)
     text = case_text(case.model_dump(mode="json", exclude_unset=True))
     plan = plan_of(read_study(study_file(folder, f'case = "case.toml"\nmodel = "{model}"\n{more}', case=text)))
     (row,) = run_part(plan, 0, plan.count).to_pylist()
@@ -74,6 +76,8 @@ def assert_same(row, response):
     assert row["outcome"] == response.outcome
     if response.ok:
         assert {name: row[name] for name in NUMBERS} == {name: number_of(response, name) for name in NUMBERS}
+        crest = {name: row[name] for name in CREST_PEAKS if name in row}
+        assert crest == pytest.approx({name: crest_peaks(response.crest)[name] for name in crest}, rel=1e-9)
 
 
 @pytest.mark.parametrize("model", DAMS)

@@ -12,6 +12,8 @@ from heeltoe.case.toml_writer import case_text
 from heeltoe.errors.error import InputError
 from heeltoe.motion.targets import target_of
 from heeltoe.study.answers.suite import below, suite_spectra
+from heeltoe.views.content.study import study_answer, study_sections
+from heeltoe.views.figures.studies.suite import suite_figures
 from shared.command import command
 from shared.dams import example
 from shared.studies import earthquakes
@@ -292,3 +294,19 @@ def test_a_case_that_lists_motions_is_run_as_a_suite(dam, records, tmp_path):
     assert record["pga_g"] == pytest.approx(0.7)
     refused = command("run", "dam.toml", "--spread", "3", cwd=tmp_path)
     assert "--spread: goes with one motion" in refused.stderr
+
+
+def test_a_suite_of_one_record_states_no_number_over_several(dam, records):
+    untitled = dam.with_({"title": ""})
+    suite = heeltoe.run_suite(untitled, records / "quake-a-000.txt", model="rigid", pga="0.7 g")
+    assert suite.title == "suite of 1 record"
+    text = repr((study_answer(suite, "si"), study_sections(suite, "si")))
+    assert "The one record" in text
+    assert "that of the record is" in text
+    for words in ("The mean is", "median", "84 % stay below '", "the largest of the records"):
+        assert words not in text.partition("How the runs ended")[0]
+    (figure, *_) = suite_figures(suite).values()
+    assert not any(line.get_label().startswith("mean") for line in figure.axes[0].lines)
+    several = heeltoe.run_suite(untitled, records, model="rigid", pga="0.7 g")
+    assert several.title == "suite of 5 records"
+    assert "The mean is" in repr(study_answer(several, "si"))

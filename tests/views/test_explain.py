@@ -60,7 +60,7 @@ def keys(found, path=""):
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):
     place = tmp_path_factory.mktemp("study")
-    allowed = '[limits]\nresidual_slip = "50 mm"\n'
+    allowed = '[limits]\nresidual_slip = "50 mm"\ncrest_displacement = "1 m"\n'
     run_study(study_file(place, DRAWN, case=BLOCK + allowed), place / "out")
     return open_study(place / "out")
 
@@ -96,7 +96,9 @@ def results(tmp_path_factory, study):
         "study": study.to_json(),
         "solve": solve(read_case(HEIGHT, FAST), "crack.friction", "residual_slip = 1 mm", model="rigid").to_json(),
         "portfolio": run_study(_portfolio(tmp_path_factory.mktemp("dams")), tmp_path_factory.mktemp("out")).to_json(),
-        "suite": run_suite(anchored, earthquakes(tmp_path_factory.mktemp("suite")), model="rigid").to_json(),
+        "suite": run_suite(
+            anchored.with_("limits.crest_acceleration=1g"), earthquakes(tmp_path_factory.mktemp("suite")), model="rigid"
+        ).to_json(),
     }
 
 

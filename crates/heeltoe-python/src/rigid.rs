@@ -4,8 +4,10 @@ use heeltoe::asperity::{Asperities, AsperityNumbers};
 use heeltoe::friction::Worn as BeenThrough;
 use heeltoe::inside::{Anchor, Law};
 use heeltoe::rigid::varying::{self, Rotation, Surface, TurningBlock, TurningShaking, VaryingNumbers};
-use heeltoe::rigid::{exact, many, Block, BlockNumbers, Options, Outcome, Run, Shaking, Summary, Wanted};
-use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use heeltoe::rigid::{
+    exact, many, Block, BlockNumbers, Crest, Options, Outcome, Run, Shaking, Summary, Wanted,
+};
+use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -162,7 +164,7 @@ fn anchor(&[place, along, across, prestress, axial_stiffness, shear_stiffness]: 
 
 /// Run many blocks on all cores; see `_kernel.pyi`.
 #[pyfunction]
-#[pyo3(signature = (blocks, motions, motion_of, scales, settle, event_limit, jam, threads))]
+#[pyo3(signature = (blocks, motions, motion_of, scales, settle, event_limit, jam, threads, crest=None))]
 #[allow(clippy::too_many_arguments)]
 pub fn run_rigid_many<'py>(
     py: Python<'py>,
@@ -174,6 +176,7 @@ pub fn run_rigid_many<'py>(
     event_limit: u64,
     jam: bool,
     threads: usize,
+    crest: Option<(PyReadonlyArray2<'py, f64>, Vec<Numbers<'py>>)>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (blocks, scales) = (blocks.as_slice()?, scales.as_slice()?);
     let (blocks, scales) = (rows(blocks, "blocks")?, rows(scales, "scales")?);
@@ -196,16 +199,45 @@ pub fn run_rigid_many<'py>(
         event_limit,
         jam,
     };
+    let moves = crest.as_ref().map(|(moves, _)| moves.as_slice()).transpose()?;
+    let moves = moves.map(|moves| rows::<3>(moves, "crest")).transpose()?;
+    let times = crest.iter().flat_map(|(_, times)| times);
+    let times = times
+        .map(|times| times.as_slice())
+        .collect::<Result<Vec<_>, _>>()?;
+    if moves.is_some_and(|moves| moves.len() != count || times.len() != shakings.len()) {
+        return Err(wrong(
+            "a crest must be said of each block, its moments of each motion",
+        ));
+    }
     let case = |k: usize| {
-        let shaking = shakings[which[k] as usize].scaled(scales[k]);
-        (BlockNumbers::from_row(&blocks[k]), shaking)
+        let motion = which[k] as usize;
+        let crest = moves.map(|moves| Crest {
+            times: times[motion],
+            moves: moves[k],
+        });
+        (
+            BlockNumbers::from_row(&blocks[k]),
+            shakings[motion].scaled(scales[k]),
+            crest,
+        )
     };
     let pool = pool(threads)?;
-    let summaries = watched(
+    let runs = watched(
         py,
         None,
         |_| None,
         |stop| pool.install(|| many::run(count, options, stop, case)),
     )?;
-    by_column(py, Summary::FIELDS, summaries.iter().map(Summary::row))
+    let table = by_column(py, Summary::FIELDS, runs.iter().map(|(summary, _)| summary.row()))?;
+    if moves.is_some() {
+        for (k, name) in ["crest_displacement", "crest_acceleration"]
+            .into_iter()
+            .enumerate()
+        {
+            let peaks: Vec<f64> = runs.iter().map(|(_, peaks)| peaks[k]).collect();
+            table.set_item(name, peaks.into_pyarray(py))?;
+        }
+    }
+    Ok(table)
 }

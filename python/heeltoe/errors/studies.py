@@ -56,6 +56,10 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
     "study-no-answer": ("a study by {value} has no such answer", 'run one with method = "{method}"'),
     "study-measure": ("{value} is not a measure of its motions", "known are {known}"),
     "study-no-fragility": ("the study asks for no curves", "say the limits under [fragility]"),
+    "study-no-crest": (
+        "the {value} model does not say how the crest moves",
+        "leave out the model, or limits on the crest in the case and under [fragility]",
+    ),
     "study-package": (
         "needs the package {value}, which is not installed",
         "pip install dask distributed duckdb pandas xarray",

@@ -355,11 +355,13 @@ def run_rigid_many(
     event_limit: int,
     jam: bool,
     threads: int,
+    crest: tuple[Floats, Sequence[Floats]] | None = None,
 ) -> dict[str, Floats]:
     """Run (n, 21) blocks, each through the motion ``motion_of`` names with the accelerations times ``scales`` (n, 2).
 
     ``threads`` of 0 means all cores. Returns (n,) arrays by the names of ``SUMMARY_FIELDS``, the same bits for
-    any number of threads.
+    any number of threads. ``crest`` says how far slip and gaps of each block move its crest (n, 3), and at which
+    moments of each motion that is looked at; then ``crest_displacement`` and ``crest_acceleration`` are among them.
     """
 
 def spectrum(time: Floats, ground: Floats, periods: Floats, damping: float) -> Floats:

@@ -21,6 +21,8 @@ BLOCK = tuple(_kernel.BLOCK_FIELDS)
 VARYING = tuple(_kernel.VARYING_FIELDS)
 #: Names of the numbers of a rigid run.
 SUMMARY = tuple(_kernel.SUMMARY_FIELDS)
+#: Names of what many runs say of a crest: how far it moves [m], and its acceleration with the ground's [m/s2].
+CREST = ("crest_displacement", "crest_acceleration")
 #: Names that "mode", "kind" and "outcome" count.
 MODES = tuple(_kernel.MODES)
 EVENT_KINDS = tuple(_kernel.EVENT_KINDS)
@@ -167,11 +169,15 @@ def run_blocks(
     scales: Floats,
     limits: Limits = USUAL,
     threads: int = 0,
+    crest: tuple[Floats, Sequence[Floats]] | None = None,
 ) -> dict[str, Floats]:
     """Run (n, 21) blocks, each through the motion that `which` names, times `scales` (n, 2), horizontal and vertical.
 
-    `threads` of 0 means all cores; the numbers, (n,) by name, are the same bits for any number of them.
+    `threads` of 0 means all cores; the numbers, (n,) by name, are the same bits for any number of them. Where `crest`
+    says how far slip, heel gap and toe gap of each block move a crest (n, 3), and at which moments of each motion it is
+    looked at [s], they are those of :data:`SUMMARY` and of :data:`CREST`.
     """
     motions = [(shaking.time, shaking.horizontal, shaking.up) for shaking in shakings]
     settle, most, jam = limits.settle, limits.event_limit, limits.jam
-    return _kernel.run_rigid_many(blocks, motions, which, scales, settle, most, jam, threads)
+    looked_at = () if crest is None else (crest,)
+    return _kernel.run_rigid_many(blocks, motions, which, scales, settle, most, jam, threads, *looked_at)

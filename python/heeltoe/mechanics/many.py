@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -47,10 +50,20 @@ def sound_blocks(case: Case, columns: Columns) -> tuple[Floats, NDArray[np.bool_
     return _numbers(rows), rows.sound
 
 
+def sound_vectors(case: Case, columns: Columns, vector: Callable[[Case], Iterable[Any]]) -> Floats:
+    """Return a vector (3,) of each dam, (n, 3), that is (3, n) of a case of columns; NaN in the rows that are no
+    cases."""
+    return _table(by_columns(case, columns, every=True), vector, 3)
+
+
 def _numbers(rows: Rows) -> Floats:
-    table = np.full((rows.sound.size, len(BLOCK)), np.nan)
+    return _table(rows, lambda many: build_block(many).numbers(), len(BLOCK))
+
+
+def _table(rows: Rows, numbers: Callable[[Case], Iterable[Any]], count: int) -> Floats:
+    table = np.full((rows.sound.size, count), np.nan)
     for here, many in rows.parts:
-        for place, value in enumerate(build_block(many).numbers()):
+        for place, value in enumerate(numbers(many)):
             table[here, place] = value
     return table
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Annotated
 
@@ -10,6 +11,8 @@ import numpy as np
 from heeltoe.base.arrays import Floats
 from heeltoe.base.blocks import Block, Number
 
+#: Its largest numbers as columns of studies.
+CREST_PEAKS = ("crest_displacement_m", "crest_acceleration_g")
 #: Its columns of the histories.
 DISPLACEMENT, ACCELERATION = "crest_displacement_m", "crest_acceleration_m_s2"
 
@@ -65,6 +68,12 @@ def crest_histories(time: Floats, place: Floats, ground: Floats) -> dict[str, Fl
         velocity = np.diff(displacement) / np.diff(time)
         own[1:-1] = np.diff(velocity) / ((time[2:] - time[:-2]) / 2.0)
     return {DISPLACEMENT: displacement, ACCELERATION: own + ground}
+
+
+def crest_peaks(crest: CrestMotion | None) -> dict[str, float]:
+    """Return the numbers of :data:`CREST_PEAKS`; not a number where there are none."""
+    peaks = (math.nan, math.nan) if crest is None else (crest.displacement_m, crest.acceleration_g)
+    return dict(zip(CREST_PEAKS, peaks, strict=True))
 
 
 def crest_motion(histories: Mapping[str, Floats], gravity: float, ground: float) -> CrestMotion | None:

@@ -28,7 +28,8 @@ LABELS = {
 UNITS = {"rotation": "rad", "crest_acceleration": "g"}
 #: Those that are lengths.
 LENGTHS = tuple(name for name in LABELS if name not in UNITS)
-_CREST = {"crest_displacement": "displacement_m", "crest_acceleration": "acceleration_g"}
+#: Those on the crest, and what each limits of its motion.
+CREST = {"crest_displacement": "displacement_m", "crest_acceleration": "acceleration_g"}
 
 
 # How a run ends whose dam has failed.
@@ -98,10 +99,10 @@ def check_limits(limits: Limits, response: Response) -> tuple[LimitCheck, ...]:
         limit = allowed_of(limits, name, response.gravity)
         if limit is None:
             continue
-        if name in _CREST:
+        if name in CREST:
             if response.crest is not None:
                 checks.append(
-                    LimitCheck(name=name, value=getattr(response.crest, _CREST[name]), allowed=limit, failed=failed)
+                    LimitCheck(name=name, value=getattr(response.crest, CREST[name]), allowed=limit, failed=failed)
                 )
             continue
         # Of several cracks any may break a limit.

@@ -10,6 +10,7 @@
 mod block;
 mod choice;
 mod course;
+mod crest;
 mod event;
 pub mod exact;
 mod impact;
@@ -24,6 +25,7 @@ pub mod varying;
 mod walk;
 
 pub use block::{Block, BlockNumbers, Vector};
+pub use crest::Crest;
 pub use ledger::Ledger;
 pub use mode::{Corner, Mode, Slip};
 pub use result::{Event, EventKind, Moment, Outcome, Roughness, Run, Summary, Wear};

@@ -136,6 +136,22 @@ impl<'a> Shaking<'a> {
         self.time.iter().rposition(|t| *t < end).map_or(0, |k| k + 1)
     }
 
+    /// Horizontal accelerations at some moments, ascending; at a jump those behind it.
+    pub(super) fn horizontal_at<'t>(&'t self, times: &'t [f64]) -> impl Iterator<Item = f64> + use<'t> {
+        let last = self.time.len() - 1;
+        let mut k = 0;
+        times.iter().map(move |&t| {
+            while k < last && self.time[k + 1] <= t {
+                k += 1;
+            }
+            let here = self.at(k)[0];
+            if k == last || t <= self.time[k] {
+                return here;
+            }
+            here + (self.at(k + 1)[0] - here) * ((t - self.time[k]) / (self.time[k + 1] - self.time[k]))
+        })
+    }
+
     #[inline]
     pub(super) fn at(&self, k: usize) -> [f64; 2] {
         let up = self.vertical.map_or(0.0, |v| v[k] * self.scale[1]);

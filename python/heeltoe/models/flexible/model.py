@@ -28,7 +28,7 @@ from heeltoe.models.flexible.warnings import judge_outcome, stands, warnings_of
 from heeltoe.models.runner import STEP, severity, until_rest
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import CRACKED, leading_crack
-from heeltoe.result.crest import crest_motion
+from heeltoe.result.crest import CrestMotion, crest_motion
 from heeltoe.result.limits import allowed_of
 from heeltoe.result.numbers import SignNumbers
 from heeltoe.result.rest import LAST_S, last_change, still_since
@@ -149,6 +149,11 @@ class Rested(NamedTuple):
         """Which of its cracks slips most."""
         return leading_crack([summary.slip for summary in self.run.summaries])
 
+    def crest(self, case: Case) -> CrestMotion | None:
+        """Return how the crest moves."""
+        peak = float(abs(self.shaken.shaking.horizontal).max())
+        return crest_motion(crest_of(self.shaken, self.run), case.gravity, peak)
+
     def limits_not_met(self, case: Case) -> int:
         """Return how many of the limits of the case it does not meet."""
         worst = {
@@ -161,8 +166,7 @@ class Rested(NamedTuple):
             min(row.cracked_length, section.crack_width) if line.bond is not None else section.crack_width
             for row, line, section in lengths
         )
-        peak = float(abs(self.shaken.shaking.horizontal).max())
-        crest = crest_motion(crest_of(self.shaken, self.run), case.gravity, peak)
+        crest = self.crest(case)
         if crest is not None:
             worst |= {"crest_displacement": crest.displacement_m, "crest_acceleration": crest.acceleration_g}
         limits = {name: allowed_of(case.limits, name, case.gravity) for name in worst}

@@ -14,11 +14,12 @@ from rich.progress import Progress
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
-from heeltoe.kernel.block import MODES, OUTCOMES, SUMMARY, USUAL, Limits, run_blocks
-from heeltoe.kernel.shaking import Shaking
+from heeltoe.kernel.block import CREST, MODES, OUTCOMES, SUMMARY, USUAL, Limits, run_blocks
 from heeltoe.mechanics.block import Block
 from heeltoe.mechanics.drains import close_by_slip
+from heeltoe.models.rigid.model import moments_of
 from heeltoe.models.rigid.rows import Rows, check_limits, rows_of
+from heeltoe.models.rigid.tables import crest_of_run
 from heeltoe.models.rigid.varying import varies
 from heeltoe.models.rigid.walk import limits_of, walk
 from heeltoe.models.runner import largest_rotation, rows_until_rest
@@ -100,8 +101,9 @@ def run_rows(
     progress: Callable[[int], None] | None = None,
 ) -> dict[str, Floats]:
     """Run blocks that have been checked; what `rows.which` counts are `earthquakes`. `progress` is told how many more
-    are done. Otherwise as :func:`rigid_many`."""
-    table = {name: np.zeros(len(rows.numbers)) for name in SUMMARY}
+    are done. Otherwise as :func:`rigid_many`; where the rows ask for the crest with :data:`CREST`, as single runs have
+    it."""
+    table = {name: np.zeros(len(rows.numbers)) for name in _names(rows)}
     follow = any(earthquake.motion.parts for earthquake in earthquakes)
     for part, kind in _parts(rows, limits, _CHUNK if progress else len(rows.numbers), sequences=follow):
         run = _runner(rows, earthquakes, kind, threads)
@@ -111,6 +113,10 @@ def run_rows(
         if progress is not None:
             progress(part.size)
     return table
+
+
+def _names(rows: Rows) -> tuple[str, ...]:
+    return SUMMARY if rows.crest is None else (*SUMMARY, *CREST)
 
 
 def _parts(rows: Rows, limits: Limits | None, most: int, *, sequences: bool) -> Iterator[tuple[Integers, _Kind]]:
@@ -138,10 +144,12 @@ def _runner(
     def run(some: Integers, silence: float) -> dict[str, Floats]:
         used, place = np.unique(rows.which[some], return_inverse=True)
         which = place.astype(np.int64)
-        shakings = [earthquakes[motion].silent(silence).shaking for motion in used.tolist()]
-        if exact:
-            return run_blocks(rows.numbers[some], shakings, which, rows.scales[some], limits, threads)
-        return _integrated(rows, some, which, shakings, limits, threads)
+        through = [earthquakes[motion].silent(silence) for motion in used.tolist()]
+        if not exact:
+            return _integrated(rows, some, which, through, limits, threads)
+        crest = None if rows.crest is None else (rows.crest[some], [moments_of(shaken, None) for shaken in through])
+        shakings = [shaken.shaking for shaken in through]
+        return run_blocks(rows.numbers[some], shakings, which, rows.scales[some], limits, threads, crest)
 
     return run
 
@@ -158,17 +166,21 @@ def _reach(*, finite: bool) -> Callable[[dict[str, Floats]], Floats]:
 
 
 def _integrated(
-    rows: Rows, part: Integers, which: Integers, shakings: Sequence[Shaking], limits: Limits, threads: int
+    rows: Rows, part: Integers, which: Integers, earthquakes: Sequence[Earthquake], limits: Limits, threads: int
 ) -> dict[str, Floats]:
     """Run blocks of which something changes as they move, or between motions; the kernel leaves Python to others."""
 
+    wanted = [None if rows.crest is None else moments_of(earthquake, None) for earthquake in earthquakes]
+
     def run(place: int) -> list[float]:
-        row, shaking = part[place], shakings[which[place]]
+        row, shaking, moments = part[place], earthquakes[which[place]].shaking, wanted[which[place]]
         block, (across, up) = rows.blocks[row], rows.scales[row]
         vertical = None if shaking.up is None else up * shaking.up
         shaken = replace(shaking, horizontal=across * shaking.horizontal, up=vertical)
-        return list(walk(block.case, block, shaken, limits=limits).summary.by_name().values())
+        walked = walk(block.case, block, shaken, moments, limits)
+        crest = () if moments is None else crest_of_run(block, shaken, moments, walked)
+        return [*walked.summary.by_name().values(), *crest]
 
     with ThreadPoolExecutor(threads or None) as pool:
         summaries = np.array(list(pool.map(run, range(part.size))))
-    return dict(zip(SUMMARY, summaries.T, strict=True))
+    return dict(zip(_names(rows), summaries.T, strict=True))

@@ -35,12 +35,15 @@ class Rows:
         (n,) motion that each of them meets.
     scales
         (n, 2) factor on the horizontal and on the vertical one.
+    crest
+        (n, 3) how far slip, heel gap and toe gap move the crest downstream; None where nobody asks how it moves.
     """
 
     numbers: Floats
     blocks: Sequence[Block]
     which: Integers
     scales: Floats
+    crest: Floats | None = None
 
 
 def rows_of(

@@ -18,7 +18,7 @@ from heeltoe.mechanics.references import cited
 from heeltoe.models.rigid.bond import BondedBlock, bonded_block, held_histories
 from heeltoe.models.rigid.slip_history import law_found, law_histories, roughness_found, roughness_histories
 from heeltoe.result.contract import HEADLINES, headlines, slip_by_mode, time_by_mode
-from heeltoe.result.crest import crest_histories
+from heeltoe.result.crest import crest_histories, crest_motion
 from heeltoe.result.numbers import AnchorForce, BlockNumbers
 from heeltoe.result.response import CrackResponse, Energy
 
@@ -147,14 +147,37 @@ def _crest_of(crack: CrackResponse, block: Block) -> Floats:
     """Return how far one crack moves the upstream edge of the crest downstream [m]: a turn counter-clockwise, about the
     heel, moves it upstream."""
     h, section = crack.histories, block.section
-    corners = section.polygon[section.polygon[:, 1] >= section.crest_elevation]
-    ahead, above = (corners[np.argmin(corners[:, 0])] - np.array(section.heel)).tolist()
-    turn = h["rotation_rad"]
-    finite = block.case.analysis.rotation == "finite"
-    turned = (np.cos(turn) - 1.0) * ahead - np.sin(turn) * above if finite else -turn * above
-    return np.asarray(
-        h["slip_m"] * np.cos(section.inclination) - h["gap_heel_m"] * np.sin(section.inclination) + turned
-    )
+    place = crest_moves(block.case) @ np.array([h["slip_m"], h["gap_heel_m"], h["gap_toe_m"]])
+    if block.case.analysis.rotation == "finite":
+        ahead, above = _to_crest(block.case)
+        turn, small = h["rotation_rad"], (h["gap_toe_m"] - h["gap_heel_m"]) / section.crack_width
+        place += (np.cos(turn) - 1.0) * ahead - (np.sin(turn) - small) * above
+    return np.asarray(place)
+
+
+def _to_crest(case: Case) -> tuple[float, float]:
+    """Return how far the upstream edge of the crest is downstream of the heel, and above it [m]; (n,) of columns."""
+    corners, (x, z) = np.array(case.outline.exterior.coords), case.cut.heel
+    top = corners[:, 1].max()
+    return corners[corners[:, 1] == top, 0].min() - x, top - z
+
+
+def crest_moves(case: Case) -> Floats:
+    """Return how far slip, heel gap and toe gap move the upstream edge of the crest downstream while rotations are
+    small, (3,), or (3, n) of a case of columns."""
+    section = case.cut
+    turn = _to_crest(case)[1] / section.crack_width
+    moves = (np.cos(section.inclination), turn - np.sin(section.inclination), -turn)
+    return np.array(np.broadcast_arrays(*moves), dtype=np.float64)
+
+
+def crest_of_run(block: Block, shaking: Shaking, moments: Floats, run: BlockRun) -> tuple[float, float]:
+    """Return how far the crest moves [m], and its largest acceleration [m/s2], in a run seen at some moments."""
+    crack = crack_response(block.case, block, shaking, moments[: run.mode.size], run)
+    (seen,) = with_crest([crack], [block])
+    crest = crest_motion(seen.histories, 1.0, 0.0)
+    assert crest is not None
+    return crest.displacement_m, crest.acceleration_g
 
 
 def energy_of(run: BlockRun) -> Energy:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.result.contract import HEADLINES, JOINT_METER_M
+from heeltoe.result.crest import CREST_PEAKS
 from heeltoe.study.answers.fragility import not_met
 from heeltoe.study.plan.crack_columns import column_of, columns_of_cracks
 from heeltoe.study.plan.rank_correlation import quantiles
@@ -33,7 +34,8 @@ PEAKS = ("peak_slip_downstream_m", "peak_slip_upstream_m")
 def summary(walk: Walk) -> list[dict[str, Any]]:
     """Return for each model how its runs ended, how many slide at all, and how the headline numbers are distributed;
     of several cracks those of each under `cracks`, from the crest down."""
-    keys, models = [*(headline.key for headline in HEADLINES), *columns_of_cracks(walk.cracks)], walk.models
+    own = [*(headline.key for headline in HEADLINES), *(CREST_PEAKS if walk.crest else ())]
+    keys, models = [*own, *columns_of_cracks(walk.cracks)], walk.models
     places = len(models)
     total = np.zeros((places, len(keys)))
     known = np.zeros((places, len(keys)), dtype=np.int64)
@@ -78,7 +80,7 @@ def summary(walk: Walk) -> list[dict[str, Any]]:
             "dominant_mode": dict(zip(MODES, (by_mode[place] / slid[place]).tolist(), strict=True))
             if slid[place]
             else {},
-            **_by_crack(dict(distributions(place)), walk.cracks),
+            **_by_crack(dict(distributions(place)), own, walk.cracks),
         }
         for place, name in enumerate(models)
         if outcomes[place]
@@ -89,10 +91,10 @@ def _shares(by_mode: Integers, slid: int) -> dict[str, float]:
     return dict(zip(MODES, (by_mode / slid).tolist(), strict=True)) if slid else {}
 
 
-def _by_crack(quantile_rows: Mapping[str, Any], cracks: int) -> dict[str, Any]:
-    """Return distributions by name, with those of each of several cracks in a list."""
+def _by_crack(quantile_rows: Mapping[str, Any], of_dam: Sequence[str], cracks: int) -> dict[str, Any]:
+    """Return distributions by name, those `of_dam` with those of each of several cracks in a list."""
     names = [headline.key for headline in HEADLINES]
-    own = {name: quantile_rows[name] for name in names}
+    own = {name: quantile_rows[name] for name in of_dam}
     if cracks == 1:
         return own
     return own | {

@@ -35,6 +35,8 @@ LIMITED = {
     "opening_downstream": ("opening_downstream_m",),
     "rotation": ("rocking_downstream_rad", "rocking_upstream_rad"),
     "cracked_length": (CRACKED,),
+    "crest_displacement": ("crest_displacement_m",),
+    "crest_acceleration": ("crest_acceleration_g",),
 }
 
 
@@ -119,7 +121,7 @@ def exceeding(table: Mapping[str, Floats], outcome: NDArray[Any], limit: str, va
 def not_met(walk: Walk) -> dict[str, dict[str, int]]:
     """Return for each model how many runs do not keep within the limits of the case, by the name of the limit: where
     any crack exceeds it, or the dam fails. A run without a result is not counted."""
-    limits = {limit: limit_number(value) for limit, value in walk.limits.items()}
+    limits = walk.limits
     names = sorted({name for limit in limits for name in LIMITED[limit]})
     counts = {model: dict.fromkeys(limits, 0) for model in walk.models}
     for runs in walk("model", "outcome", *names, *(column for name in names for column in walk.of_cracks(name))):
@@ -177,7 +179,7 @@ def curve(limit: str, value: float, measure: str, seen: Tally, *, confidence: fl
 
 def counted(walk: Walk, request: Mapping[str, Any]) -> dict[tuple[str, str, float], Tally]:
     """Count which runs exceed the limits that a study asks about, by model, limit and value."""
-    limits = [(limit, limit_number(value)) for limit, values in request["limits"].items() for value in values]
+    limits = walk.asked
     tallies = {(model, *limit): Tally() for model in walk.models for limit in limits}
     measure = walk.measure(request["measure"], request["period"])
     names = sorted({name for limit, _ in limits for name in LIMITED[limit]})
@@ -211,11 +213,6 @@ def observed(seen: Tally) -> tuple[list[float], list[float]]:
     ran = runs > 0.0
     middle, hits = (np.bincount(place, counts)[ran] for counts in (known.logarithm * known.runs, known.exceeding))
     return np.exp(middle / runs[ran]).tolist(), (hits / runs[ran]).tolist()
-
-
-def limit_number(value: object) -> float:
-    """Return a limit as the study keeps it: SI, with its unit where it has one."""
-    return float(value) if isinstance(value, int | float) else float(str(value).split()[0])
 
 
 def _left_out(seen: Witnesses) -> Floats | None:

@@ -7,12 +7,16 @@ The annual rate is the integral of the fragility P over the hazard H [1/year],
 P = Phi(ln(x / median) / dispersion), H straight on double logarithmic axes. Of each stretch H = a x^-k it is known in
 closed form (with u = ln x, by parts); of a power law altogether it is H(median) exp(k^2 dispersion^2 / 2) (Cornell et
 al. 2002, J. Struct. Eng. 128, 526-533).
+
+Which events make it: were all motions like those of one event, the rate would be that of a fragility of its own median,
+with the part of the dispersion that is not from event to event. The share of the event is that rate over the sum of
+those of all events.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -21,16 +25,22 @@ from scipy.special import ndtr
 
 from heeltoe.base.arrays import Floats
 from heeltoe.study.answers.fragility import Curve
+from heeltoe.study.answers.likelihood import Witnesses, offsets
 
 #: Groups of strengths, of which each says how much of the rate it makes.
 _GROUPS = 24
 #: Shares of what the rate may be by the uncertainty of the fragility curve that its fractiles stay above.
 FRACTILES = {"5%": 0.05, "16%": 0.16, "50%": 0.50, "84%": 0.84, "95%": 0.95}
+#: Of the dispersion, each of its parts is at least about this much where events are told apart; between so many medians
+#: of an event its rate is interpolated.
+_LEAST_PART, _OFFSETS = 0.1, 41
 #: By how much median and dispersion are moved for the slope of the rate.
 _MOVED = 1e-4
 
 
-def annual(curve: Curve, hazard: Mapping[str, Any]) -> dict[str, Any]:
+def annual(
+    curve: Curve, hazard: Mapping[str, Any], seen: Witnesses | None = None, events: Sequence[str] = ()
+) -> dict[str, Any]:
     """Return how often a year a limit is exceeded.
 
     Parameters
@@ -39,6 +49,8 @@ def annual(curve: Curve, hazard: Mapping[str, Any]) -> dict[str, Any]:
         The fragility curve of the limit.
     hazard
         ``strength``, SI, and ``annual_rate`` of the hazard curve, and ``at``, other strengths that are asked of.
+    seen, events
+        The runs behind the curve, and the names of their events.
 
     Returns
     -------
@@ -46,7 +58,8 @@ def annual(curve: Curve, hazard: Mapping[str, Any]) -> dict[str, Any]:
         ``annual_rate`` [1/year] with its interval, from the uncertainty of the curve to first order and not of the
         hazard; ``annual_probability`` with its ``annual_probability_fractiles``; ``return_period_years``;
         ``extrapolated``, the share of the rate from beyond the ends of the hazard curve; ``contribution``, the share
-        from each group of strengths; ``at``, the probability of the limit at each strength of the hazard curve, and at
+        from each group of strengths; ``by_event``, the median of each event, its share and its part of the rate, the
+        largest first; ``at``, the probability of the limit at each strength of the hazard curve, and at
         those that are asked of. None of them where there is no fragility curve.
     """
     strength, rate = np.array(hazard["strength"]), np.array(hazard["annual_rate"])
@@ -58,6 +71,7 @@ def annual(curve: Curve, hazard: Mapping[str, Any]) -> dict[str, Any]:
             **dict.fromkeys(names),
             "annual_probability_fractiles": None,
             "contribution": [],
+            "by_event": [],
             "at": [],
         }
     total = _total(curve, strength, rate)
@@ -78,6 +92,7 @@ def annual(curve: Curve, hazard: Mapping[str, Any]) -> dict[str, Any]:
             {"from": low, "to": high, "share": float(part) / total if total > 0.0 else 0.0}
             for low, high, part in zip(edges[:-1].tolist(), edges[1:].tolist(), parts[1:-1], strict=True)
         ],
+        "by_event": [] if seen is None else _by_event(curve, strength, rate, total, seen, events),
         "at": [
             {"strength": at, "annual_rate": exceeded, "probability": probability}
             for at, exceeded, probability in zip(
@@ -85,6 +100,32 @@ def annual(curve: Curve, hazard: Mapping[str, Any]) -> dict[str, Any]:
             )
         ],
     }
+
+
+def _by_event(
+    curve: Curve, strength: Floats, rate: Floats, total: float, seen: Witnesses, events: Sequence[str]
+) -> list[dict[str, Any]]:
+    """Return how much of the rate each event makes; nothing of a single one."""
+    from scipy.interpolate import CubicSpline
+
+    if curve.other is None or total <= 0.0:
+        return []
+    assert curve.median is not None
+    assert curve.dispersion is not None
+    # Neither a step nor events that are all alike: the runs of an event are few.
+    other = float(np.clip(curve.other, _LEAST_PART * curve.dispersion, (1.0 - _LEAST_PART**2) * curve.dispersion))
+    places, chance = offsets(seen, curve.median, math.sqrt(curve.dispersion**2 - other**2), other)
+    known = np.linspace(places.min(), places.max(), _OFFSETS)
+    alone = [replace(curve, median=curve.median * math.exp(offset), dispersion=other) for offset in known.tolist()]
+    rates = np.exp(CubicSpline(known, np.log([_total(event, strength, rate) for event in alone]))(places))
+    made = np.sum(chance * rates, axis=1)
+    shares = (made / made.sum()).tolist()
+    medians = (curve.median * np.exp(np.sum(chance * places, axis=1))).tolist()
+    rows = [
+        {"event": event, "median": median, "share": share, "annual_rate": share * total}
+        for event, median, share in zip(events, medians, shares, strict=True)
+    ]
+    return sorted(rows, key=lambda row: -row["share"])
 
 
 def _total(curve: Curve, strength: Floats, rate: Floats) -> float:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import log_ndtr
+from scipy.special import log_ndtr, ndtri
 
 from heeltoe.base.arrays import Floats, Integers
 
@@ -17,6 +17,8 @@ _MANY = 20_000
 # A dispersion below the first is a step, one beyond the second no curve.
 _LEAST, _MOST = 1e-3, 20.0
 _ITERATIONS, _CLOSE = 60, 1e-10
+# Of an integral over the median of an event.
+_NODES = 21
 
 
 @dataclass(frozen=True)
@@ -97,6 +99,12 @@ class Tally:
         return int(self._exceeding.sum())
 
     @property
+    def events(self) -> list[int]:
+        """Which events its witnesses are of, in the order of their places there."""
+        known: list[int] = np.unique(self._event).tolist()
+        return known
+
+    @property
     def witnesses(self) -> Witnesses:
         """What is known."""
         _, event = np.unique(self._event, return_inverse=True)
@@ -126,20 +134,29 @@ def fit(seen: Witnesses, weight: Floats) -> Floats:
         Not a number where a fit has none, as strength does not help to exceed the limit.
     """
     # P = Phi(a + b z) with a standard variable z; the likelihood is concave in a and b: Newton's steps, halved as long
-    # as they go down.
-    from scipy import stats
+    # as they go down. Events at one strength count together, at about one strength where there are many.
+    many = seen.logarithm.size > _MANY
+    labels, level = np.unique(np.rint(seen.logarithm / _ALIKE) if many else seen.logarithm, return_inverse=True)
 
+    def at_levels(counts: Floats) -> Floats:
+        return np.array([np.bincount(level, row, labels.size) for row in weight * counts])
+
+    def summed(values: Floats) -> Floats:
+        return np.asarray(np.bincount(level, values, labels.size), dtype=np.float64)
+
+    logarithm = summed(seen.runs * seen.logarithm) / summed(seen.runs)
+    exceeding, under = at_levels(seen.exceeding), at_levels(seen.runs - seen.exceeding)
     middle, scale = np.average(seen.logarithm, weights=seen.runs), max(float(seen.logarithm.std()), 1e-9)
-    z = (seen.logarithm - middle) / scale
-    share = (weight @ seen.exceeding) / (weight @ seen.runs)
-    at = np.column_stack([stats.norm.ppf(np.clip(share, 1e-3, 1.0 - 1e-3)), np.ones(len(weight))])
-    value = _likelihood(at, z, seen, weight)
+    z = (logarithm - middle) / scale
+    share = exceeding.sum(axis=1) / (exceeding + under).sum(axis=1)
+    at = np.column_stack([ndtri(np.clip(share, 1e-3, 1.0 - 1e-3)), np.ones(len(weight))])
+    value = _likelihood(at, z, exceeding, under)
     for _ in range(_ITERATIONS):
-        step = _newton(at, z, seen, weight)
+        step = _newton(at, z, exceeding, under)
         length = np.ones(len(at))
         for _ in range(30):
             tried = at + length[:, None] * step
-            new = _likelihood(tried, z, seen, weight)
+            new = _likelihood(tried, z, exceeding, under)
             worse = ~(new >= value - 1e-9 * np.abs(value))
             if not worse.any():
                 break
@@ -153,20 +170,17 @@ def fit(seen: Witnesses, weight: Floats) -> Floats:
     return np.column_stack([middle - scale * at[:, 0] / slope, scale / slope])
 
 
-def _likelihood(at: Floats, z: Floats, seen: Witnesses, weight: Floats) -> Floats:
+def _likelihood(at: Floats, z: Floats, exceeding: Floats, under: Floats) -> Floats:
     linear = at[:, :1] + at[:, 1:] * z
-    return np.asarray(
-        np.sum(weight * (seen.exceeding * log_ndtr(linear) + (seen.runs - seen.exceeding) * log_ndtr(-linear)), axis=1)
-    )
+    return np.asarray(np.sum(exceeding * log_ndtr(linear) + under * log_ndtr(-linear), axis=1))
 
 
-def _newton(at: Floats, z: Floats, seen: Witnesses, weight: Floats) -> Floats:
+def _newton(at: Floats, z: Floats, exceeding: Floats, under: Floats) -> Floats:
     linear = at[:, :1] + at[:, 1:] * z
     density = -0.5 * linear**2 - 0.5 * np.log(2.0 * np.pi)
     up, down = np.exp(density - log_ndtr(linear)), np.exp(density - log_ndtr(-linear))
-    under = seen.runs - seen.exceeding
-    first = weight * (seen.exceeding * up - under * down)
-    second = weight * (seen.exceeding * up * (up + linear) + under * down * (down - linear))
+    first = exceeding * up - under * down
+    second = exceeding * up * (up + linear) + under * down * (down - linear)
     gradient = np.column_stack([first.sum(axis=1), (first * z).sum(axis=1)])
     s0, s1, s2 = (np.sum(second * z**power, axis=1) for power in range(3))
     # A trace of the diagonal keeps a flat likelihood from steps without end.
@@ -224,3 +238,39 @@ def _middles(start: Floats, width: float, x: Floats, event: Integers, runs: Floa
         if np.abs(step).max() < 1e-9:
             break
     return middle
+
+
+def offsets(seen: Witnesses, median: float, record: float, other: float) -> tuple[Floats, Floats]:
+    """Return how far the logarithm of the median of each event may lie from that of all, (events, nodes), and how
+    probable that is by its runs: normal with the deviation `record` before them, each run exceeding with the dispersion
+    `other`.
+
+    The nodes are those of Gauss and Hermite about the most probable offset (Liu and Pierce 1994, Biometrika 81).
+    """
+    z = seen.logarithm - np.log(median)
+    under = seen.runs - seen.exceeding
+
+    def counted(values: Floats) -> Floats:
+        return np.asarray(np.bincount(seen.event, values, seen.events), dtype=np.float64)
+
+    offset, width = np.zeros(seen.events), np.zeros(seen.events)
+    for _ in range(_ITERATIONS):
+        linear = (z - offset[seen.event]) / other
+        density = -0.5 * linear**2 - 0.5 * np.log(2.0 * np.pi)
+        up, down = np.exp(density - log_ndtr(linear)), np.exp(density - log_ndtr(-linear))
+        slope = -counted(seen.exceeding * up - under * down) / other - offset / record**2
+        bend = counted(seen.exceeding * up * (up + linear) + under * down * (down - linear)) / other**2 + record**-2
+        width = bend**-0.5
+        step = np.clip(slope / bend, -record, record)
+        offset += step
+        if np.abs(step).max() < _CLOSE:
+            break
+    node, weight = np.polynomial.hermite_e.hermegauss(_NODES)
+    places = offset[:, None] + width[:, None] * node
+    logarithm = np.empty_like(places)
+    for k in range(_NODES):
+        linear = (z - places[seen.event, k]) / other
+        logarithm[:, k] = counted(seen.exceeding * log_ndtr(linear) + under * log_ndtr(-linear))
+    logarithm += np.log(weight) + 0.5 * node**2 - 0.5 * (places / record) ** 2
+    chance = np.exp(logarithm - logarithm.max(axis=1, keepdims=True))
+    return places, chance / chance.sum(axis=1, keepdims=True)

@@ -9,7 +9,7 @@ import numpy as np
 import pyarrow as pa
 
 from heeltoe.base.arrays import Floats
-from heeltoe.study.answers.fragility import LIMITED, limit_number
+from heeltoe.study.answers.fragility import LIMITED
 from heeltoe.study.answers.suite import below
 from heeltoe.study.run.aggregate import Walk
 
@@ -32,7 +32,8 @@ def portfolio_of(walk: Walk) -> list[dict[str, Any]] | None:
     names = walk.told.get("dams")
     if names is None:
         return None
-    limits = _limits(walk)
+    # Those of the curves, then those of the case.
+    limits = list(dict.fromkeys([*walk.asked, *walk.limits.items()]))
     slips = _by_motion(walk, walk.cube("residual_slip_m"))
     demands = {
         limit: np.max([_by_motion(walk, walk.cube(column)) for column in _columns(walk, limit)], axis=0)
@@ -50,15 +51,6 @@ def portfolio_of(walk: Walk) -> list[dict[str, Any]] | None:
         }
         for place, model in enumerate(walk.models)
     ]
-
-
-def _limits(walk: Walk) -> list[tuple[str, float]]:
-    """Return the limits by which dams are ranked: those of the curves, then those of the case."""
-    settings = walk.told["study"]["fragility"]
-    asked = settings["limits"] if settings else {}
-    limits = [(limit, limit_number(value)) for limit, values in asked.items() for value in values]
-    limits += [(limit, limit_number(value)) for limit, value in walk.limits.items()]
-    return list(dict.fromkeys(limits))
 
 
 def _columns(walk: Walk, limit: str) -> list[str]:

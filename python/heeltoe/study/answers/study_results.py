@@ -57,7 +57,9 @@ class Opened(Shown):
     @property
     def title(self) -> str:
         """Of the study."""
-        return str(self.told["title"]) or "untitled study"
+        count = len({motion["name"] for motion in self.told["motions"]})
+        suite = f"suite of {count} record{'s' * (count != 1)}"
+        return str(self.told["title"]) or (suite if self.told["study"].get("suite") else "untitled study")
 
     @property
     def complete(self) -> bool:
@@ -185,8 +187,13 @@ class Opened(Shown):
     def hazard(self) -> list[dict[str, Any]] | None:
         """How often a year each limit of the fragility curves is exceeded, model by model; None where the study has no
         hazard curve."""
-        hazard = self.told["hazard"]
-        return None if hazard is None else [{"model": model, **annual(curve, hazard)} for model, curve in self.curves]
+        hazard, names = self.told["hazard"], self.told["events"]
+        if hazard is None:
+            return None
+        return [
+            {"model": model, **annual(curve, hazard, tally.witnesses, [names[place] for place in tally.events])}
+            for (model, curve), tally in zip(self.curves, self.counted.values(), strict=True)
+        ]
 
     @cached_property
     def portfolio(self) -> list[dict[str, Any]] | None:

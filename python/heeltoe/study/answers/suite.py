@@ -15,12 +15,13 @@ import numpy as np
 
 from heeltoe.base.arrays import Floats
 from heeltoe.models.runner import TRUSTED, severity
-from heeltoe.result.limits import UNITS
-from heeltoe.study.answers.fragility import LIMITED, limit_number
+from heeltoe.result.limits import CREST, UNITS
+from heeltoe.study.answers.fragility import LIMITED
 from heeltoe.study.run.aggregate import Walk
 from heeltoe.units.parse import STANDARD_GRAVITY
 
-#: What is told of each record, and of all of them: the name in the JSON, and the limits that are held against it.
+#: What is told of each record, and of all of them: the name in the JSON, and the limits that are held against it; the
+#: crest where the runs say how it moves.
 DEMANDS = {
     "residual_slip_m": "residual_slip",
     "peak_slip_m": "peak_slip",
@@ -28,6 +29,8 @@ DEMANDS = {
     "opening_downstream_m": "opening_downstream",
     "rotation_rad": "rotation",
     "cracked_length_m": "cracked_length",
+    "crest_displacement_m": "crest_displacement",
+    "crest_acceleration_g": "crest_acceleration",
 }
 _SHARES = {"median": 0.50, "84%": 0.84}
 _SIGNS = ("recorded", "reversed")
@@ -69,6 +72,10 @@ def suite_of(walk: Walk) -> dict[str, Any] | None:
     return {"judge": judge, "models": [_of_model(walk, name, judge) for name in walk.models]}
 
 
+def _demands(walk: Walk) -> dict[str, str]:
+    return {key: limit for key, limit in DEMANDS.items() if walk.crest or limit not in CREST}
+
+
 def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
     ways = _ways(walk, model)
     records: list[dict[str, Any]] = []
@@ -79,7 +86,8 @@ def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
         signs = {sign: ways[name, sign] for sign in _SIGNS if (name, sign) in ways}
         if signs:
             records.append(_record(motion, signs))
-    values = {key: np.array([_counted(record, key) for record in records]) for key in DEMANDS}
+    demands = _demands(walk)
+    values = {key: np.array([_counted(record, key) for record in records]) for key in demands}
     statistics = {key: _statistics(column) for key, column in values.items()}
     worth = (walk.told["pilot"] or {}).get("evidence")
     worst = max(records, key=lambda record: (severity(record["outcome"]), _counted(record, "residual_slip_m")))
@@ -91,8 +99,8 @@ def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
         "statistics": statistics,
         "governing": {"motion": worst["motion"], "sign": worst["sign"]},
         "limits": [
-            _limit(name, limit_number(allowed), statistics[key][judge], worth if model == "flexible" else None)
-            for key, name in DEMANDS.items()
+            _limit(name, allowed, statistics[key][judge], worth if model == "flexible" else None)
+            for key, name in demands.items()
             if (allowed := walk.limits.get(name)) is not None
         ],
     }
@@ -100,14 +108,15 @@ def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
 
 def _ways(walk: Walk, model: str) -> dict[tuple[str, str], _Way]:
     """Return what each motion does either way round, by its name and its sign."""
-    names = sorted({name for limit in DEMANDS.values() for name in LIMITED[limit]})
+    wanted = _demands(walk)
+    names = sorted({name for limit in wanted.values() for name in LIMITED[limit]})
     cracks = [column for name in names for column in walk.of_cracks(name)]
     ways = {}
     for runs in walk("model", "motion", "reversed", "factor", "outcome", *names, *cracks):
         outcomes, code = runs.words("outcome")
         demands = {
             key: runs.largest(*(column for name in LIMITED[limit] for column in (name, *walk.of_cracks(name))))
-            for key, limit in DEMANDS.items()
+            for key, limit in wanted.items()
         }
         motions, place = runs.words("motion")
         turned, factors = runs.table["reversed"].to_pylist(), runs.numbers("factor").tolist()

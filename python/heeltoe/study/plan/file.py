@@ -21,7 +21,7 @@ from pydantic import (
 
 from heeltoe.base.display import Shown
 from heeltoe.case.fields import Count, Fields, TimeSpan, Truth
-from heeltoe.case.quantities import DimensionlessNumber, Duration, Length
+from heeltoe.case.quantities import AccelerationField, DimensionlessNumber, Duration, Length
 from heeltoe.case.read import read_fields
 from heeltoe.case.sentences import collected, first_error, gathered
 from heeltoe.case.suite import PeriodField, SuiteRule
@@ -199,6 +199,10 @@ class FragilityLimits(Fields):
     """Of the largest rotation [rad]."""
     cracked_length: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
     """Of the length of a bonded joint that cracks; a little less than its width stands for a joint cracked through."""
+    crest_displacement: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
+    """Of the horizontal displacement of the crest, either way, relative to the ground."""
+    crest_acceleration: Annotated[tuple[AccelerationField, ...], BeforeValidator(_listed)] = ()
+    """Of the horizontal acceleration of the crest with that of the ground, either way."""
 
 
 class Fragility(Fields):

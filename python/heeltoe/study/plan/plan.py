@@ -26,6 +26,7 @@ from heeltoe.motion.intensity import MEASURES, intensity, spectral_acceleration
 from heeltoe.motion.measures import measures
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.motion.targets import Target, target_of
+from heeltoe.result.limits import CREST
 from heeltoe.study.plan.axes import Axis, axis_of, beside, check_drawn, law_of
 from heeltoe.study.plan.crack_columns import check_cracks
 from heeltoe.study.plan.file import Distribution, Scale, Study
@@ -183,6 +184,12 @@ class Plan:
     pilot: Pilot | None = None
     dams: tuple[str, ...] | None = None
     hazard: HazardCurve | None = None
+
+    @cached_property
+    def crest(self) -> bool:
+        """Whether the runs are to say how the crest moves: a limit of the case or of a curve is on it."""
+        asked = [self.case.limits, *([self.study.fragility.limits] if self.study.fragility else [])]
+        return any(getattr(limits, name) not in (None, ()) for limits in asked for name in CREST)
 
     @property
     def every(self) -> bool:
@@ -366,6 +373,8 @@ class Plan:
             hashes["the study's motions"] = _hash(
                 self.study.motions.model_dump(mode="json", exclude={"folder", "files", "events"})
             )
+        if self.crest:
+            hashes["what is said of the crest"] = _hash(CREST)
         if self.dams is not None:
             columns = [[axis.path, list(map(str, axis.values))] for axis in self.axes]
             hashes["the table of dams"] = _hash([list(self.dams), columns])
@@ -424,6 +433,8 @@ def plan_of(study: Study, case: Case | None = None) -> Plan:
         if plan.sizes[2] > 1:
             raise InputError("suite-one-strength", "motions.scale.values", plan.sizes[2])
         _target(study, case)
+    if plan.crest and "decoupled" in study.model:
+        raise InputError("study-no-crest", "model", "decoupled")
     if plan.count > MOST:
         raise InputError("study-many", "study", f"{plan.count:.3g}", most=f"{MOST:.0e}")
     if study.method == "sobol" and plan.samples.count > MOST_SOBOL:

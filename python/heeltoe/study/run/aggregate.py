@@ -14,8 +14,11 @@ import pyarrow.parquet as pq
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.errors.error import InputError
 from heeltoe.motion.intensity import at_factor
+from heeltoe.result.crest import CREST_PEAKS
+from heeltoe.result.limits import CREST
 from heeltoe.study.plan.crack_columns import column_of
 from heeltoe.study.run.store import Store
+from heeltoe.units.parse import parse
 
 #: Runs that are looked at together; of so many times as many all are kept once they have been read.
 _TOGETHER, _KEPT = 65_536, 4
@@ -67,14 +70,39 @@ class Walk:
         return 1 + len(self.told["case"].get("further_cracks", ()))
 
     @property
-    def limits(self) -> dict[str, Any]:
-        """What the base case allows, by the name of the limit; its limits on the crest are those of single runs."""
+    def limits(self) -> dict[str, float]:
+        """What the base case allows, by the name of the limit, SI, accelerations in g."""
         limits = self.told["case"].get("limits") or {}
-        return {name: value for name, value in limits.items() if value is not None and not name.startswith("crest_")}
+        known = {
+            name: value for name, value in limits.items() if value is not None and (self.crest or name not in CREST)
+        }
+        return {name: self._number(value) for name, value in known.items()}
+
+    @property
+    def asked(self) -> list[tuple[str, float]]:
+        """The limits of the curves with their values, in the same units."""
+        settings = self.told["study"]["fragility"]
+        limits = settings["limits"] if settings else {}
+        return [(limit, self._number(value)) for limit, values in limits.items() for value in values]
+
+    def _number(self, value: object) -> float:
+        """Return a limit as the study keeps it: with its unit where it has one."""
+        if isinstance(value, int | float):
+            return float(value)
+        number, *unit = str(value).split()
+        if unit != ["m/s^2"]:
+            return float(number)
+        return float(number) / parse(self.told["case"].get("gravity", "1 g"), "acceleration", "gravity")
+
+    @property
+    def crest(self) -> bool:
+        """Whether the runs say how the crest moves."""
+        return bool(self.told.get("crest"))
 
     def of_cracks(self, name: str) -> list[str]:
         """Return the columns of a headline number at each of several cracks, from the crest down; none of one crack."""
-        return [column_of(place, name) for place in range(self.cracks)] if self.cracks > 1 else []
+        several = self.cracks > 1 and name not in CREST_PEAKS
+        return [column_of(place, name) for place in range(self.cracks)] if several else []
 
     def measure(self, name: str, period: str | float | None = None) -> str:
         """Return what a measure of strength is called among those that are known of the motions.

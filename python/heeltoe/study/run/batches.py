@@ -21,11 +21,11 @@ from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.kernel.block import BLOCK, OUTCOMES
 from heeltoe.mechanics.block import Block, build_block
-from heeltoe.mechanics.many import crack_widths, sound_blocks
+from heeltoe.mechanics.many import crack_widths, sound_blocks, sound_vectors
 from heeltoe.models.rigid.many import run_rows
 from heeltoe.models.rigid.model import run_rigid
 from heeltoe.models.rigid.rows import Rows
-from heeltoe.models.rigid.tables import with_openings
+from heeltoe.models.rigid.tables import crest_moves, with_openings
 from heeltoe.models.rigid.varying import by_itself
 from heeltoe.models.rigid.walk import limits_of
 from heeltoe.models.runner import (
@@ -41,6 +41,7 @@ from heeltoe.models.runner import (
 )
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import CRACKED, HEADLINES, headlines, leading_crack
+from heeltoe.result.crest import CREST_PEAKS, crest_peaks
 from heeltoe.result.numbers import SlipByMode, TimeByMode
 from heeltoe.result.response import Response
 from heeltoe.study.plan.crack_columns import OfCrack, column_of, numbers_of_cracks
@@ -71,8 +72,9 @@ Ran = tuple[Words, OfCrack, Sequence[OfCrack]]
 class Found:
     """Results of some runs, filled model by model."""
 
-    def __init__(self, count: int, cracks: int) -> None:
-        self.numbers = {name: np.full(count, np.nan) for name in (*NUMBERS, *numbers_of_cracks(cracks))}
+    def __init__(self, count: int, cracks: int, *, crest: bool) -> None:
+        self.of_dam = (*NUMBERS, *(CREST_PEAKS if crest else ()))
+        self.numbers = {name: np.full(count, np.nan) for name in (*self.of_dam, *numbers_of_cracks(cracks))}
         self.impacts = np.zeros(count, dtype=np.int64)
         self.slid_off = np.zeros(count, dtype=bool)
         self.undetermined = np.zeros(count, dtype=bool)
@@ -88,7 +90,7 @@ class Found:
 
     def put(self, rows: Integers, outcome: Words, request: OfCrack, cracks: Sequence[OfCrack] = ()) -> None:
         """Put what some runs came to into their rows: at the crack that leads, and at each of several."""
-        columns = {name: request.named[name] for name in NUMBERS}
+        columns = {name: request.named[name] for name in self.of_dam}
         columns |= {
             column_of(k, key): crack.named[key]
             for k, crack in enumerate(cracks)
@@ -128,7 +130,7 @@ def _of_table(
 
 def _of_responses(responses: Sequence[Response], place: int) -> OfCrack:
     """Return the numbers that some responses have at one of their cracks, counted from the crest down."""
-    names = (*NUMBERS, "impacts")
+    names = (*NUMBERS, *CREST_PEAKS, "impacts")
     rows, widths = [], []
     for response in responses:
         numbers = response.cracks[place].of_crack
@@ -140,6 +142,7 @@ def _of_responses(responses: Sequence[Response], place: int) -> OfCrack:
         row = {
             **{f"slip_{name}_m": value for name, value in numbers.slip_by_mode_m.items()},
             **{f"time_{name}_s": value for name, value in numbers.time_by_mode_s.items()},
+            **crest_peaks(response.crest),
             "end_time_s": response.end_time_s,
             "energy_residual": response.energy.residual,
             # These models know no joint that holds.
@@ -167,7 +170,7 @@ def run_part(plan: Plan, start: int, stop: int, threads: int = 1) -> pa.Table:
     Table
         Its metadata say, under :data:`SECONDS`, what took how long.
     """
-    results = Found(min(stop, plan.count) - start, 1 + len(plan.case.further_cracks))
+    results = Found(min(stop, plan.count) - start, 1 + len(plan.case.further_cracks), crest=plan.crest)
     with results.timed("sampling"):
         runs = plan.runs(start, stop)
     for place, model in enumerate(plan.study.model):
@@ -189,19 +192,25 @@ def _rigid(plan: Plan, runs: Runs, rows: Integers, results: Found, threads: int)
     earthquakes = [plan.earthquakes[motion] for motion in motions.tolist()]
     with results.timed("blocks"):
         numbers, blocks, sound = _blocks(plan, values, samples.size)
+        moves = _crest_moves(plan, values, blocks, samples.size) if plan.crest else None
     kept = sound[of_sample]
     rows, which, dam = rows[kept], which[kept], of_sample[kept]
     scales = _both_ways(runs.factor[rows])
     several = [blocks[place] for place in dam.tolist()] if blocks else []
     with results.timed("kernel"):
         table = run_rows(
-            Rows(numbers[dam], several, which.astype(np.int64), scales),
+            Rows(numbers[dam], several, which.astype(np.int64), scales, None if moves is None else moves[dam]),
             earthquakes,
             None if blocks else limits_of(plan.case),
             threads,
         )
     width = crack_widths(numbers[dam])
     named = with_openings(headlines(table), plan.case, width)
+    if moves is not None:
+        gravity = values.get("gravity", np.full(samples.size, plan.case.gravity))[dam]
+        named |= dict(
+            zip(CREST_PEAKS, (table["crest_displacement"], table["crest_acceleration"] / gravity), strict=True)
+        )
     outcome = _outcomes(plan.case, table)
     results.put(rows, outcome, _of_table(table, width, named))
     # Bounces may amplify the last digit: twins show it.
@@ -221,6 +230,16 @@ def _rigid(plan: Plan, runs: Runs, rows: Integers, results: Found, threads: int)
                 threads,
             )
         results.undetermined[rows[again]] = ~determined(table["slip"][again], twins["slip"])
+
+
+def _crest_moves(plan: Plan, values: Mapping[str, NDArray[Any]], blocks: Sequence[Block], count: int) -> Floats:
+    """Return how far slip and gaps move the crests of some dams, (dams, 3)."""
+    if blocks:
+        return np.array([crest_moves(block.case) for block in blocks])
+    if values.keys() <= set(COLUMNS):
+        return sound_vectors(plan.case, values, crest_moves)
+    cases = _cases(plan, values, count)
+    return np.array([np.full(3, np.nan) if case is None else crest_moves(case) for case in cases])
 
 
 def _outcomes(case: Case, table: Mapping[str, Floats]) -> Words:
@@ -243,7 +262,8 @@ def _two_blocks(plan: Plan, runs: Runs, rows: Integers, results: Found, threads:
         ground = plan.earthquakes[runs.motion[row]].scaled(float(runs.factor[row]))
 
         def through(earthquake: Earthquake) -> Response:
-            return run_two_blocks(case, earthquake, ground.end)
+            # The histories are for the crest alone.
+            return run_two_blocks(case, earthquake, None if plan.crest else ground.end)
 
         try:
             result = until_rest(through, reach_of_block, ground, case.analysis.silence)
@@ -363,10 +383,12 @@ def _flexible(plan: Plan, runs: Runs, rows: Integers, results: Found, threads: i
             ran = list(pool.map(through, scales.tolist()))
         dam = ran[0].shaken.dam
         cracks = []
+        peaks = [crest_peaks(rested.crest(case)) for rested in ran] if plan.crest else []
+        crest = {name: np.array([row[name] for row in peaks]) for name in CREST_PEAKS if peaks}
         for place, section in enumerate(dam.sections):
             summaries = [rested.run.summaries[place].by_name() for rested in ran]
             table = {name: np.array([row[name] for row in summaries]) for name in summaries[0]}
-            named = headlines(table)
+            named = headlines(table) | crest
             if made is not None and made.means:
                 named |= {name: np.full(scales.size, mean) for name, mean in made.means[place].items()}
             cracks.append(

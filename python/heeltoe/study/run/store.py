@@ -154,6 +154,7 @@ def keep(store: Store, plan: Plan) -> None:
         "hazard": None if plan.hazard is None else plan.hazard.to_json(),
         "spectra": plan.spectra(),
         "pilot": None if plan.pilot is None else plan.pilot.to_json(),
+        "crest": plan.crest,
         "study": plan.study.model_dump(mode="json"),
         "case": plan.case.model_dump(mode="json", exclude_unset=True),
         "build": build_info(),

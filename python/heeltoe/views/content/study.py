@@ -17,6 +17,7 @@ from heeltoe.result.verdict import verdict
 from heeltoe.study.answers.study_results import Opened
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.write import NOTHING, digits
+from heeltoe.views.content.dam_pages import dam_pages
 from heeltoe.views.content.drawings import drawing
 from heeltoe.views.content.input import case_rows
 from heeltoe.views.content.one_unit import one_unit_each
@@ -64,7 +65,8 @@ _CAPTIONS = {
 }
 _CAPTIONS |= {
     "suite": "Residual slip of each record, by its worse sign (bar) and the other (mark), with the numbers over all.",
-    "hazard": "The hazard curve (left), and how much of each annual rate motions of each strength make (right).",
+    "hazard": "The hazard curve (left), and how much of each annual rate motions of each strength make (right); below, "
+    "if there are several events, the fractiles of the annual probabilities and the shares that events make.",
     "ranks": "The worst dams of the table: residual slip over the motions, from the median to the 84 % (bar) and the "
     "largest (mark), and the share of the motions in which the first limit is exceeded.",
     "suite-spectra": "Response spectra of the records as they shake the dam, with mean and any target.",
@@ -176,6 +178,7 @@ def study_document(subject: StudySubject) -> Document:
         _question(subject),
         suite(subject),
         portfolio_section(subject),
+        dam_pages(subject),
         _varied(subject),
         _motions(subject),
         None if study.suite else results(subject),

@@ -8,19 +8,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from heeltoe.errors.sanitize import plain
 from heeltoe.result.contract import HEADLINES
+from heeltoe.result.crest import CREST_PEAKS
 from heeltoe.result.limits import LABELS, UNITS
 from heeltoe.study.answers.answers import MODES
+from heeltoe.study.answers.hazard import FRACTILES
 from heeltoe.units.write import NOTHING, digits, measured, scaled
 from heeltoe.views.content.tree import Block, Code, Inline, Section, Strong, Table, paragraph
-from heeltoe.views.words.numbers import Amount, in_one_unit
+from heeltoe.views.words.numbers import Amount, in_one_unit, kind
 from heeltoe.views.words.studies import ABOUT_CRACKS, TRAITS, ends_of, left_out, limit_of, limits_of, strength_scale
 
 if TYPE_CHECKING:
     from heeltoe.views.content.study import StudySubject
 
 _SHARES = (("50%", "half stay below"), ("84%", "84 % stay below"), ("95%", "95 % stay below"), ("largest", "largest"))
-_A = {"residual_slip": "a", "peak_slip": "a", "opening": "an", "rotation": "a", "cracked_length": "a"}
 _NAMES = {"pga": "PGA", "pgv": "PGV", "sa": "SA", "arias": "Arias intensity", "housner intensity": "Housner intensity"}
 _SHOWN = ("residual_slip_m", "opening_upstream_m", "rocking_upstream_rad")
 
@@ -47,10 +49,9 @@ def answer(subject: StudySubject) -> list[Block]:
 
 def _limits(subject: StudySubject) -> dict[str, str]:
     """Return the limits of the base case in words, by their names."""
-    limits = subject.case.limits
     return {
-        name: f"{LABELS[name]} of {measured(getattr(limits, name), UNITS.get(name, 'm'), subject.units)}"
-        for name in subject.found.walk.limits
+        name: f"{LABELS[name]} of {measured(value, UNITS.get(name, 'm'), subject.units)}"
+        for name, value in subject.found.walk.limits.items()
     }
 
 
@@ -69,7 +70,7 @@ def _exceeded(subject: StudySubject, model: str) -> list[str]:
     for row in subject.found.fragility if subject.study["fragility"] else ():
         if row["model"] != model:
             continue
-        what = f"{_A[row['limit']]} {limit_of(row['limit'], row['value'], subject.units, ' of')}"
+        what = _article(limit_of(row["limit"], row["value"], subject.units, " of"))
         if row["median"] is None:
             sentences.append(f"Of {what}: {row['why']}.")
             continue
@@ -90,6 +91,7 @@ def results(subject: StudySubject) -> Section:
     ended: list[tuple[Inline, ...]] = [("all runs", *(f"{row['runs']:,}" for row in summary))]
     ended += [(name, *(f"{row['outcomes'].get(name, 0):,}" for row in summary)) for name in outcomes]
     labels = {headline.key: headline.label for headline in HEADLINES}
+    crest = [(key, key.rpartition("_")[0].replace("_", " ")) for key in CREST_PEAKS if subject.found.walk.crest]
     rows: list[tuple[Inline, ...]] = [
         ("that slide", *(_percent(row["share_that_slides"]) for row in summary)),
         ("that slide farther than the crack is long", *(f"{row['slid_off']:,}" for row in summary)),
@@ -105,6 +107,11 @@ def results(subject: StudySubject) -> Section:
             )
             for of, at in _of_cracks(subject.found.walk.cracks)
             for key in _SHOWN
+            for name, what in _SHARES
+        ),
+        *(
+            (f"{label}: {what}", *(n(f"summary.{place}.{key}.{name}", kind(key)) for place in places))
+            for key, label in crest
             for name, what in _SHARES
         ),
         *(
@@ -208,8 +215,58 @@ def hazard_section(subject: StudySubject) -> Section | None:
         text += f" Up to {_percent(far)} of a rate come from beyond the ends of the hazard curve: extend it."
     head = ("exceeded", "probability a year", "rate within", "return period", f"most at a {_named(study)} of")
     table = Table(head, tuple(rows), "How often a year the limits are exceeded.", "lrrrr")
-    blocks = (paragraph(text), table, *_at_strengths(subject, annual, limits), *subject.figure("hazard"))
+    blocks = (
+        paragraph(text),
+        table,
+        *_fractiles(annual, limits, several=len(subject.found.walk.models) > 1),
+        *_by_event(subject, annual, limits),
+        *_at_strengths(subject, annual, limits),
+        *subject.figure("hazard"),
+    )
     return Section("Annual probability", blocks)
+
+
+def _fractiles(
+    annual: Sequence[Mapping[str, Any]], limits: Mapping[tuple[str, float], str], *, several: bool
+) -> tuple[Block, ...]:
+    """Return the fractiles of the annual probabilities by the uncertainty of the fragility curves."""
+    known = [row for row in annual if row["annual_probability_fractiles"]]
+    rows: list[tuple[Inline, ...]] = [
+        (
+            limits[row["limit"], row["value"]] + (f", {row['model']}" if several else ""),
+            *(f"{row['annual_probability_fractiles'][name]:.2e}" for name in FRACTILES),
+        )
+        for row in known
+    ]
+    caption = "Fractiles of the annual probabilities by the uncertainty of the fragility curves."
+    head = ("exceeded", *(f"{100.0 * share:.0f} %" for share in FRACTILES.values()))
+    return (Table(head, tuple(rows), caption, "l" + "r" * len(FRACTILES)),) if known else ()
+
+
+def _by_event(
+    subject: StudySubject, annual: Sequence[Mapping[str, Any]], limits: Mapping[tuple[str, float], str]
+) -> tuple[Block, ...]:
+    """Return which events make the annual rates, those that make most of the first one above."""
+    known = [row for row in annual if row["by_event"]]
+    if not known:
+        return ()
+    scale, several = strength_scale(known[0]["measure"], subject.units), len(subject.found.walk.models) > 1
+    parts = [{part["event"]: part for part in row["by_event"]} for row in known]
+    shown = list(parts[0])[:SHOWN_EVENTS]
+    rows: list[tuple[Inline, ...]] = [
+        (
+            plain(event),
+            *(f"{_percent(own[event]['share'])}; {scaled(own[event]['median'], scale)}" for own in parts),
+        )
+        for event in shown
+    ]
+    some = f"the {len(shown)} that make most of {len(parts[0]):,}" if len(shown) < len(parts[0]) else "all of them"
+    caption = (
+        f"Events, {some}: the share of the annual rate that motions like theirs make; behind it the "
+        f"{_named(subject.study['fragility'])} at which half of the dams exceed the limit in them."
+    )
+    heads = [limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "") for row in known]
+    return (Table(("event", *heads), tuple(rows), caption, "l" + "r" * len(known)),)
 
 
 def _at_strengths(
@@ -266,7 +323,7 @@ def _each_year(subject: StudySubject, model: str) -> list[str]:
     for row in subject.found.hazard or ():
         if row["model"] != model or row["annual_rate"] is None:
             continue
-        what = f"{_A[row['limit']]} {limit_of(row['limit'], row['value'], subject.units, ' of')}"
+        what = _article(limit_of(row["limit"], row["value"], subject.units, " of"))
         interval = row["annual_rate_interval"]
         within = "" if interval is None else f" ({interval[0]:.1e} to {interval[1]:.1e})"
         years = "" if _years(row) == NOTHING else f", once in {_years(row)}"
@@ -276,6 +333,8 @@ def _each_year(subject: StudySubject, model: str) -> list[str]:
     return sentences
 
 
+#: Events that a table shows.
+SHOWN_EVENTS = 12
 #: Dams of a portfolio that its table and its figure show.
 SHOWN_DAMS = 25
 
@@ -414,7 +473,7 @@ def _named(asked: dict[str, Any]) -> str:
 
 
 def _article(name: str) -> str:
-    return f"{'an' if name.startswith(('A', 'SA')) else 'a'} {name}"
+    return f"{'an' if name.startswith(('A', 'SA', 'o')) else 'a'} {name}"
 
 
 def _median(row: dict[str, Any], units: str) -> tuple[str, str]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.result.limits import LABELS
-from heeltoe.units.write import digits, length, measured
+from heeltoe.units.write import NOTHING, digits, length, measured
 from heeltoe.views.content.tree import Block, Code, Inline, Notes, Section, Strong, Table, paragraph
 from heeltoe.views.words.numbers import Amount, in_one_unit
 from heeltoe.views.words.studies import JUDGED, STATISTICS
@@ -19,7 +19,9 @@ _DEMANDS = {
     "peak_slip_m": "largest slip",
     "opening_upstream_m": "opening upstream",
     "opening_downstream_m": "opening downstream",
+    "crest_displacement_m": "crest displacement",
 }
+_ACCELERATION = "crest_acceleration_g"
 
 
 def suite_answer(subject: StudySubject) -> list[Block]:
@@ -30,9 +32,10 @@ def suite_answer(subject: StudySubject) -> list[Block]:
     blocks: list[Block] = []
     for row in suite["models"]:
         sentences = [_governing(row, subject.units), _numbers(row, subject.units)]
-        blocks.append(paragraph(Strong(f"Answer, {row['model']} model. "), " ".join(sentences)))
-        missed = [_limit(check, suite["judge"], subject.units) for check in row["limits"] if not check["met"]]
-        kept = [_limit(check, suite["judge"], subject.units) for check in row["limits"] if check["met"]]
+        blocks.append(paragraph(Strong(f"Answer, {row['model']} model. "), " ".join(filter(None, sentences))))
+        judged = _judged(row, suite["judge"])
+        missed = [_limit(check, judged, subject.units) for check in row["limits"] if not check["met"]]
+        kept = [_limit(check, judged, subject.units) for check in row["limits"] if check["met"]]
         if missed:
             blocks.append(Notes("failure", "Limits not met", tuple((text,) for text in missed)))
         if kept:
@@ -49,10 +52,15 @@ def suite(subject: StudySubject) -> Section | None:
     blocks: list[Block] = []
     for row in answer["models"]:
         blocks.append(_statistics(row, subject.units))
+    judged = (
+        f"The limits of the case are judged by {JUDGED[answer['judge']]}. "
+        if len(answer["models"][0]["records"]) > 1
+        else ""
+    )
     blocks.append(
         paragraph(
             "The number of a record is that of its worse sign. A record without a result counts as infinitely far. "
-            f"The limits of the case are judged by {JUDGED[answer['judge']]}. EN 1998-1:2004, 4.3.3.4.3(3), takes the "
+            f"{judged}EN 1998-1:2004, 4.3.3.4.3(3), takes the "
             "mean of seven or more records and the largest of fewer; ASCE/SEI 7-16, 16.4, the mean of eleven."
         )
     )
@@ -69,11 +77,15 @@ def _governing(row: Mapping[str, Any], units: str) -> str:
     end = f"where the run ends “{worst['outcome']}”"
     if worst["residual_slip_m"] is not None:
         end = f"with a residual slip of {length(worst['residual_slip_m'], units)}"
-    return f"Of {count} record{'s' * (count != 1)}{signs} {worst['motion']}, {worst['sign']}, governs, {end}."
+    if count == 1:
+        return f"The one record{signs} is {worst['motion']}, {worst['sign']}, {end}."
+    return f"Of {count} records{signs} {worst['motion']}, {worst['sign']}, governs, {end}."
 
 
 def _numbers(row: Mapping[str, Any], units: str) -> str:
-    """Say the numbers over the records."""
+    """Say the numbers over the records, of several."""
+    if len(row["records"]) == 1:
+        return ""
     numbers = row["statistics"]["residual_slip_m"]
     if numbers["mean"] is None:
         return "Not every record has a result, so that there is no mean."
@@ -81,16 +93,20 @@ def _numbers(row: Mapping[str, Any], units: str) -> str:
     return f"The mean is {texts[0]}, the median {texts[1]}; 84 % stay below {texts[2]}."
 
 
-def _limit(check: Mapping[str, Any], judge: str, units: str) -> str:
+def _judged(row: Mapping[str, Any], judge: str) -> str:
+    return JUDGED[judge] if len(row["records"]) > 1 else "that of the record"
+
+
+def _limit(check: Mapping[str, Any], judged: str, units: str) -> str:
     """Say how a number over the records stands to a limit."""
     label, allowed = LABELS[check["name"]], measured(check["allowed"], check["unit"], units)
     if check["value"] is None:
-        return f"The {label}: {JUDGED[judge]} is not finite, {allowed} is allowed."
+        return f"The {label}: {judged} is not finite, {allowed} is allowed."
     used = "" if check["utilisation"] is None else f" ({100.0 * check['utilisation']:.0f} %)"
     number = measured(check["value"], check["unit"], units)
     if not check["certain"]:
         number += f" ± {measured(check['uncertainty'], check['unit'], units)}, which decides,"
-    return f"The {label}: {JUDGED[judge]} is {number} of {allowed} allowed{used}."
+    return f"The {label}: {judged} is {number} of {allowed} allowed{used}."
 
 
 def _records(row: Mapping[str, Any], units: str) -> Table:
@@ -125,7 +141,14 @@ def _records(row: Mapping[str, Any], units: str) -> Table:
 def _statistics(row: Mapping[str, Any], units: str) -> Table:
     """Return the table of the numbers over the records."""
     numbers = row["statistics"]
-    texts = in_one_unit([[Amount(numbers[key][name], zero="0") for name in STATISTICS] for key in _DEMANDS], units)
-    rows = tuple((label, *cells) for label, cells in zip(_DEMANDS.values(), texts, strict=True))
-    caption = f"Over {len(row['records'])} records, {row['model']} model, each by its worse sign."
-    return Table(("", *STATISTICS.values()), rows, caption, "lrrrr")
+    # Of one record all of them are its own.
+    shown = STATISTICS if len(row["records"]) > 1 else {"largest": "the record"}
+    known = {key: label for key, label in _DEMANDS.items() if key in numbers}
+    texts = in_one_unit([[Amount(numbers[key][name], zero="0") for name in shown] for key in known], units)
+    rows = tuple((label, *cells) for label, cells in zip(known.values(), texts, strict=True))
+    if _ACCELERATION in numbers:
+        shakes = [numbers[_ACCELERATION][name] for name in shown]
+        rows += (("crest acceleration", *(NOTHING if g is None else measured(g, "g", units) for g in shakes)),)
+    over = f"Over {len(row['records'])} records" if len(shown) > 1 else "Of the record"
+    caption = f"{over}, {row['model']} model, {'each ' * (len(shown) > 1)}by its worse sign."
+    return Table(("", *shown.values()), rows, caption, "l" + "r" * len(shown))

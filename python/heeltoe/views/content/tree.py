@@ -126,10 +126,11 @@ class Listing:
 
 @dataclass(frozen=True)
 class Section:
-    """A part of the report with its heading."""
+    """A part of the report with its heading; one that is a `page` begins a new one."""
 
     title: str
     blocks: tuple[Block, ...]
+    page: bool = False
 
 
 Block = Paragraph | Notes | Table | Equation | FigureBlock | Beside | References | Listing | Section

@@ -9,6 +9,7 @@ from functools import cache
 from heeltoe.errors.error import InputError, shown
 from heeltoe.errors.suggestion import near
 from heeltoe.result.contract import HEADLINES
+from heeltoe.result.crest import CREST_PEAKS
 from heeltoe.views.explain.fields import fields_of_a_case, fields_of_a_study
 from heeltoe.views.explain.keys import columns, keys_of_the_json
 from heeltoe.views.explain.meaning import Meaning
@@ -17,7 +18,7 @@ from heeltoe.views.explain.meaning import Meaning
 _LONGEST = 200
 # Keys of a result stand below these again, where models stand side by side or runs in a table.
 _AGAIN = ("beside", "cracks", "runs", "sections", "statics", "rigid", "flexible", "decoupled")
-_HEADLINES = frozenset(headline.key for headline in HEADLINES)
+_HEADLINES = frozenset((*(headline.key for headline in HEADLINES), *CREST_PEAKS))
 
 
 @cache

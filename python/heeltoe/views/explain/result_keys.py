@@ -176,5 +176,6 @@ OF_STUDIES: dict[str, str] = {
     },
     "energy_residual": "What is left of the balance of energies, over the turnover.",
     "cracked_length_m": "Length that is cracked in the end, of a crack that is no bonded joint all of it.",
+    "crest_acceleration_g": "Largest acceleration of the crest with that of the ground, where a limit is on the crest.",
     "slid_off": "Whether the part above has slid off.",
 }

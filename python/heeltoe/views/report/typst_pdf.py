@@ -180,6 +180,8 @@ class _Writer:
                 if level == 1 and waiting:
                     yield "#place.flush()"
                 waiting = any(_figures((block,)))
+                if block.page:
+                    yield "#pagebreak(weak: true)"
                 yield f"#heading(level: {level}, {_words(block.title)})"
                 yield from self.write(block.blocks, level + 1)
             elif isinstance(block, FigureBlock):

@@ -7,6 +7,7 @@ from typing import Any
 
 from heeltoe.motion.intensity import MEASURES
 from heeltoe.result.contract import JOINT_METER_M
+from heeltoe.result.limits import UNITS
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import length, lengths
@@ -20,6 +21,8 @@ KINDS = {
     "opening_downstream": "downstream opening",
     "rotation": "rotation",
     "cracked_length": "cracked length",
+    "crest_displacement": "crest displacement",
+    "crest_acceleration": "crest acceleration",
 }
 #: As headings.
 TRAITS = {
@@ -47,14 +50,14 @@ ABOUT_CRACKS = (
 
 def limit_of(limit: str, value: float, units: str = "si", of: str = "") -> str:
     """Write a limit with its amount; `of` stands between them."""
-    amount = f"{value:.3g} rad" if limit == "rotation" else length(value, units)
+    amount = f"{value:.3g} {UNITS[limit]}" if limit in UNITS else length(value, units)
     return f"{KINDS[limit]}{of} {amount}"
 
 
 def limits_of(limits: Sequence[tuple[str, float]], units: str = "si") -> dict[tuple[str, float], str]:
     """Write the limits of one table, lengths in one unit."""
     texts = {limit: limit_of(*limit, units) for limit in limits}
-    of_length = [limit for limit in texts if limit[0] != "rotation"]
+    of_length = [limit for limit in texts if limit[0] not in UNITS]
     amounts = lengths([value for _, value in of_length], units)
     for limit, amount in zip(of_length, amounts, strict=True):
         number, unit = amount.split()

@@ -8,13 +8,12 @@
 //! Work wears the flank that is climbed while it is climbed, `k = tan(i_0 exp(-c W))`; the other flanks are found worn once
 //! the block turns to them: a flank that gave way as the block comes down would grind it down the faster the more it does.
 
-use super::super::block::SLIP;
+use super::super::block::{HEEL, SLIP};
 use super::super::impact::impact;
 use super::super::mode::{Corner, Mode, Slip};
 use super::super::reaction::Reactions;
 use super::super::walk::{Cause, Single};
-use super::advance::Trial;
-use super::instant::{Instant, Slope};
+use super::instant::{Instant, Slope, Still};
 use super::rough::Rough;
 use super::shaking::{Ground, Piece};
 use super::step::State;
@@ -22,29 +21,31 @@ use super::walk::Varying;
 use crate::asperity::{on_slopes, rise};
 use crate::friction::Strength;
 
-/// Nodes and weights of Gauss and Legendre's quadrature on [0, 1].
-const QUADRATURE: [[f64; 2]; 5] = [
-    [0.046_910_077_030_668_004, 0.118_463_442_528_094_54],
-    [0.230_765_344_947_158_45, 0.239_314_335_249_683_23],
-    [0.5, 0.284_444_444_444_444_44],
-    [0.769_234_655_052_841_5, 0.239_314_335_249_683_23],
-    [0.953_089_922_969_332, 0.118_463_442_528_094_54],
-];
-
 impl Varying<'_> {
     /// The block at a state, seen from a corner.
     pub(super) fn seen_from(&self, corner: Corner, state: &State, ground: &Ground) -> Instant {
-        let plain = self.turning.at(corner, state, ground);
-        match self.rough {
-            None => plain,
-            Some(_) => plain.on(self.slope(state)),
+        self.on_flank(corner, state, ground, self.slope(state))
+    }
+
+    /// The same on a flank whose slope is known.
+    pub(super) fn on_flank(&self, corner: Corner, state: &State, ground: &Ground, slope: Slope) -> Instant {
+        if self.rough.is_none() {
+            return self.turning.at(corner, state, ground);
         }
+        if !self.plain {
+            return self.turning.at(corner, state, ground).on(slope);
+        }
+        self.still(corner).under(ground).on(slope)
+    }
+
+    /// The block seen from a corner, where its loads and its geometry stay as they are.
+    pub(super) fn still(&self, corner: Corner) -> &Still {
+        self.stills[corner.gap() - HEEL].get_or_init(|| Still::of(self.turning, corner))
     }
 
     /// Angle of the flank at a state of the present step: it wears as it is climbed.
     fn angle(&self, rough: &Rough, state: &State) -> f64 {
-        let way = self.walk.mode.slip().map_or(0.0, Slip::sign);
-        if way * rise(rough.flank) > 0.0 {
+        if self.gives_way(rough) {
             rough.angle * rough.asperities.kept(-state[7] / rough.area)
         } else {
             rough.angle
@@ -66,12 +67,11 @@ impl Varying<'_> {
         Slope { slope, wear }
     }
 
-    /// What friction bears where the block is on its asperities.
-    pub(super) fn leaning(&self, strength: Strength, state: &State) -> Strength {
+    /// What friction bears where the block is on its asperities, on a flank of the slope `own`.
+    pub(super) fn leaning(&self, strength: Strength, state: &State, own: f64) -> Strength {
         let Some(rough) = &self.rough else {
             return strength;
         };
-        let own = self.slope(state).slope;
         let mut sides = [own; 2];
         if let Some([before, behind]) = self.stands_between(state) {
             let slope = |flank: i64| rise(flank) * rough.asperities.worn(rough.work).tan();
@@ -182,56 +182,44 @@ impl Varying<'_> {
         }
     }
 
-    /// How far the flank has risen under the block after so much of a step that leads to `end`.
-    fn risen(&self, start: &State, rate: &State, piece: &Piece, end: &State, taken: f64) -> f64 {
-        let straight = || self.slope(start).slope * (end[0] - start[0]);
-        let wears = self
-            .rough
-            .as_ref()
-            .is_some_and(|rough| rough.asperities.wear() > 0.0);
-        if !wears || end[7] == 0.0 {
-            return straight();
+    /// How far the flank has risen under the block on the way from `start` to `end`: while it wears, as integrated.
+    fn risen(&self, rough: &Rough, start: &State, end: &State) -> f64 {
+        if self.gives_way(rough) {
+            end[8]
+        } else {
+            self.slope(start).slope * (end[0] - start[0])
         }
-        QUADRATURE
-            .iter()
-            .map(|[node, weight]| {
-                let state = self.moved(start, rate, piece, node * taken);
-                weight * taken * self.slope(&state).slope * state[3]
-            })
-            .sum()
+    }
+
+    /// Whether the block climbs a flank that wears.
+    pub(super) fn gives_way(&self, rough: &Rough) -> bool {
+        let way = self.walk.mode.slip().map_or(0.0, Slip::sign);
+        rough.asperities.wear() > 0.0 && way * rise(rough.flank) > 0.0
     }
 
     /// Note how far the flank has risen and worn on the way to `end`.
-    pub(super) fn rise_to(&mut self, trial: &Trial, end: &State, taken: f64) {
-        if self.rough.is_none() {
+    pub(super) fn rise_to(&mut self, start: &State, end: &State) {
+        let Some(rough) = &self.rough else {
             return;
-        }
-        let risen = self.risen(&trial.start, &trial.rate, trial.piece, end, taken);
+        };
+        let (risen, angle) = (self.risen(rough, start, end), self.angle(rough, end));
         let lies = self.walk.mode.slip().is_some();
-        if let Some(mut rough) = self.rough.take() {
-            rough.angle = self.angle(&rough, end);
+        if let Some(rough) = &mut self.rough {
+            rough.angle = angle;
             rough.work -= end[7] / rough.area;
             rough.level += risen;
             if lies {
                 rough.highest = rough.highest.max(rough.level);
             }
-            self.rough = Some(rough);
         }
     }
 
     /// Keep the asperities at a state of the present step.
-    pub(super) fn keep_rough(
-        &mut self,
-        start: &State,
-        rate: &State,
-        piece: &Piece,
-        state: &State,
-        since: f64,
-    ) {
-        if self.rough.is_none() {
+    pub(super) fn keep_rough(&mut self, start: &State, state: &State) {
+        let Some(rough) = &self.rough else {
             return;
-        }
-        let risen = self.risen(start, rate, piece, state, since);
+        };
+        let risen = self.risen(rough, start, state);
         if let Some(rough) = &mut self.rough {
             let work = rough.work - state[7] / rough.area;
             rough

@@ -15,7 +15,7 @@ use super::advance::Trial;
 use super::line::{Bare, Flat, CLEAR};
 use super::power::Power;
 use super::shaking::{Ground, Piece};
-use super::step::State;
+use super::step::{State, SIZE};
 use super::walk::Varying;
 use crate::friction::{Strength, INVERSE, TERMS};
 
@@ -244,7 +244,7 @@ impl Varying<'_> {
         if cause == Some(Cause::Stop) {
             end[3] = 0.0;
         }
-        let trial = Trial::still(self.state, [0.0; 8], series.length, piece);
+        let trial = Trial::still(self.state, [0.0; SIZE], series.length, piece);
         self.move_on(&trial, &end, taken, time);
         if taken > 0.0 {
             self.gather(series.error, 0.0);

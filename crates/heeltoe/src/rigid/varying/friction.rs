@@ -34,6 +34,11 @@ impl Varying<'_> {
 
     /// What friction bears about a normal force in a mode at a state of the present step.
     pub(super) fn strength(&self, mode: Mode, normal: f64, state: &State) -> Strength {
+        self.strength_on(mode, normal, state, self.slope(state).slope)
+    }
+
+    /// The same on a flank whose slope is known.
+    fn strength_on(&self, mode: Mode, normal: f64, state: &State, slope: f64) -> Strength {
         let (Some(rubbing), Some(worn)) = (&self.rubbing, self.worn_at(state)) else {
             return self.walk.block.strength();
         };
@@ -42,7 +47,7 @@ impl Varying<'_> {
         let strength = rubbing
             .law
             .strength(rubbing.width, normal, speed, Worn { bonded, ..worn });
-        self.leaning(strength, state)
+        self.leaning(strength, state, slope)
     }
 
     /// Reactions in a mode at a state of the present step, and what friction bears there; none where friction makes the
@@ -50,7 +55,7 @@ impl Varying<'_> {
     pub(super) fn rubbed(&self, mode: Mode, state: &State, instant: &Instant) -> Option<(Vector, Strength)> {
         let mut normal = self.rubbing.as_ref().map_or(0.0, |r| r.still * r.width);
         let bends = self.rubbing.as_ref().is_some_and(Rubbing::bends);
-        let mut strength = self.strength(mode, normal, state);
+        let mut strength = self.strength_on(mode, normal, state, instant.slope);
         let mut reactions = under(&strength, mode, instant)?;
         for _ in 0..TANGENTS {
             let now = reactions[HEEL] + reactions[TOE];
@@ -58,7 +63,7 @@ impl Varying<'_> {
                 break;
             }
             normal = now;
-            strength = self.strength(mode, normal, state);
+            strength = self.strength_on(mode, normal, state, instant.slope);
             reactions = under(&strength, mode, instant)?;
         }
         Some((reactions, strength))
@@ -92,7 +97,7 @@ impl Varying<'_> {
             coefficient: rubbing.law.coefficients(rubbing.still, speed, rubbing.worn.path),
             ..Strength::default()
         };
-        self.leaning(strength, &self.state)
+        self.leaning(strength, &self.state, self.slope(&self.state).slope)
     }
 
     /// Note how far the base has slipped on the way to `end`; true where that went past a corner of the law.

@@ -17,9 +17,10 @@ use super::super::block::{inverse, Vector, HEEL, SLIP, TOE};
 use super::super::mode::Corner;
 use super::block::{Rotation, TurningBlock};
 use super::shaking::Ground;
-use super::step::State;
+use super::step::{State, SIZE};
 
 /// The block at one moment: masses, loads, and what is needed to solve for the reactions.
+#[derive(Clone)]
 pub(super) struct Instant {
     inverse_mass: [Vector; 3],
     mass: [Vector; 3],
@@ -30,8 +31,54 @@ pub(super) struct Instant {
     pub free_acceleration: Vector,
     /// Velocity terms of the equations of motion, on the side of the loads.
     centrifugal: Vector,
+    /// Slope from which the gaps count.
+    pub slope: f64,
     /// What wear adds to the acceleration off a slope per friction.
     wear: f64,
+}
+
+/// A block whose loads and geometry stay as they are: at every moment the same but for the ground.
+pub(super) struct Still {
+    instant: Instant,
+    /// Changes of loads and free accelerations per acceleration of the ground, across and up.
+    per_ground: [[Vector; 2]; 2],
+}
+
+impl Still {
+    pub(super) fn of(block: &TurningBlock, corner: Corner) -> Self {
+        let at = |ground: Ground| block.at(corner, &[0.0; SIZE], &ground);
+        let instant = at([0.0; 3]);
+        let per_ground = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|ground| {
+            let there = at(ground);
+            let pairs = [
+                (there.load, instant.load),
+                (there.free_acceleration, instant.free_acceleration),
+            ];
+            pairs.map(|(there, here)| std::array::from_fn(|i| there[i] - here[i]))
+        });
+        Still { instant, per_ground }
+    }
+
+    pub(super) fn under(&self, ground: &Ground) -> Instant {
+        let (_, free_acceleration, load) = self.felt(ground);
+        Instant {
+            free_acceleration,
+            load,
+            ..self.instant.clone()
+        }
+    }
+
+    /// Compliance, free accelerations and loads.
+    pub(super) fn felt(&self, ground: &Ground) -> (&[Vector; 3], Vector, Vector) {
+        let (mut free, mut load) = (self.instant.free_acceleration, self.instant.load);
+        for ([per_load, per_free], ground) in self.per_ground.iter().zip(ground) {
+            for i in 0..3 {
+                load[i] += per_load[i] * ground;
+                free[i] += per_free[i] * ground;
+            }
+        }
+        (&self.instant.compliance, free, load)
+    }
 }
 
 /// What the gaps of a rough crack count from.
@@ -103,6 +150,7 @@ impl TurningBlock {
             compliance,
             free_acceleration,
             centrifugal,
+            slope: 0.0,
             wear: 0.0,
         }
     }
@@ -259,7 +307,7 @@ impl Instant {
         for gap in [HEEL, TOE] {
             self.compliance[gap][SLIP] += wear;
         }
-        self.wear = wear;
+        (self.slope, self.wear) = (k, wear);
         self
     }
 

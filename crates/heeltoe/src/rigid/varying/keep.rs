@@ -6,7 +6,7 @@ use super::super::mode::{Corner, Mode};
 use super::super::result::Moment;
 use super::advance::Trial;
 use super::shaking::Piece;
-use super::step::{State, SIZE};
+use super::step::{State, COUNTED};
 use super::walk::Varying;
 
 impl Varying<'_> {
@@ -22,7 +22,7 @@ impl Varying<'_> {
         self.turning_points(trial, end, taken);
         let past = self.wear(end);
         self.gather_error(trial, past, taken);
-        self.rise_to(trial, end, taken);
+        self.rise_to(&trial.start, end);
         self.state = *end;
         self.book();
         let contacts = self.walk.mode.contacts();
@@ -39,7 +39,7 @@ impl Varying<'_> {
 
     /// Take the works of the last step over from the state into the ledger.
     pub(super) fn book(&mut self) {
-        let [work, rubbed] = [6, 7].map(|i| std::mem::take(&mut self.state[i]));
+        let [work, rubbed, _] = [6, 7, 8].map(|i| std::mem::take(&mut self.state[i]));
         let ledger = &mut self.walk.summary.ledger;
         ledger.input += work;
         ledger.friction -= rubbed;
@@ -56,7 +56,7 @@ impl Varying<'_> {
         // A corner of a law between the stages of a step spoils its estimate: it is no more than what is allowed. All of
         // what is a mean over the components may be the slip's.
         let error = if past_a_corner { 1.0 } else { trial.error.min(1.0) };
-        let parts = error * (SIZE as f64).sqrt();
+        let parts = error * (COUNTED as f64).sqrt();
         sum.slip += parts * self.scale[0];
         sum.speed += parts * self.scale[3];
         sum.time += taken;
@@ -153,7 +153,7 @@ impl Varying<'_> {
                 }
             }
             self.keep_worn(&state);
-            self.keep_rough(start, &rate, piece, &state, t);
+            self.keep_rough(start, &state);
             reaction[SLIP] -= self.slope(&state).slope * (reaction[HEEL] + reaction[TOE]);
             let [position, velocity] = self.contact(&state);
             self.walk.keep(Moment {

@@ -13,6 +13,7 @@
 mod advance;
 mod block;
 mod carried;
+mod climb;
 mod curve;
 mod flanks;
 mod flat;

@@ -13,18 +13,16 @@ use super::super::choice::Modes;
 use super::super::course::{Course, Earliest};
 use super::super::event;
 use super::super::ledger::work;
-use super::super::mode::{Mode, Slip};
+use super::super::mode::Mode;
 use super::super::reaction::{Felt, Reaction};
 use super::super::walk::Cause;
 use super::advance::Trial;
 use super::flanks::goes_upstream;
 use super::instant::Slope;
-use super::rough::Rough;
 use super::rubbing::Rubbing;
 use super::shaking::{level, Piece};
 use super::step::State;
 use super::walk::Varying;
-use crate::asperity::rise;
 
 /// Blocks with the friction of this moment: on both corners, where there may be a bond, and else.
 type Blocks = [Block; 2];
@@ -94,11 +92,10 @@ impl Varying<'_> {
         self.plain && self.rubbing.as_ref().is_some_and(settled) && self.slope(&self.state).wear == 0.0
     }
 
-    /// Whether friction stays as it is in a slip this way: neither its law changes nor the flank that is climbed.
-    fn rubs_evenly(&self, slip: Slip) -> bool {
-        let climbs = |rough: &Rough| slip.sign() * rise(rough.flank) > 0.0;
-        let gives_way = |rough: &Rough| rough.asperities.wear() > 0.0 && climbs(rough);
-        self.rubbing.as_ref().is_some_and(Rubbing::settled) && !self.rough.as_ref().is_some_and(gives_way)
+    /// Whether friction stays as it is in the present slip: neither its law changes nor the flank that is climbed.
+    fn rubs_evenly(&self) -> bool {
+        self.rubbing.as_ref().is_some_and(Rubbing::settled)
+            && !self.rough.as_ref().is_some_and(|rough| self.gives_way(rough))
     }
 
     /// The block as it is on its flank, with the friction of this moment.
@@ -144,7 +141,7 @@ impl Varying<'_> {
         let goes = match mode {
             Mode::Drift => self.plain && self.rubbing.is_some(),
             Mode::Rest | Mode::Rock(_) => self.is_ready(),
-            Mode::Slide(slip) | Mode::SlideRock(_, slip) => self.is_ready() && self.rubs_evenly(slip),
+            Mode::Slide(_) | Mode::SlideRock(..) => self.is_ready() && self.rubs_evenly(),
         };
         if !goes || piece.left <= 0.0 {
             return None;
@@ -258,6 +255,7 @@ impl Varying<'_> {
             start[SLIP],
             own,
             self.walk.block.rotation(&start),
+            0.0,
             0.0,
             0.0,
         ]

@@ -18,14 +18,31 @@ impl Varying<'_> {
 
     /// Whether friction makes the reactions of a slip infinite at a state.
     pub(super) fn jams(&self, state: &State, ground: &Ground) -> bool {
-        self.walk.mode.slip().is_some() && {
+        self.walk.mode.slip().is_some() && self.climb(state, ground).is_none() && {
             let instant = self.seen_from(self.corner, state, ground);
             self.rubbed(self.walk.mode, state, &instant).is_none()
         }
     }
 
     pub(super) fn rates(&self, state: &State, ground: &Ground) -> State {
-        let instant = self.seen_from(self.corner, state, ground);
+        if let Some(climb) = self.climb(state, ground) {
+            let speed = state[3];
+            let worked = [climb.pushed, climb.reactions[SLIP], climb.slope].map(|force| force * speed);
+            let [power, rubbing, rise] = worked;
+            return [
+                speed,
+                0.0,
+                0.0,
+                climb.acceleration,
+                0.0,
+                0.0,
+                power,
+                rubbing,
+                rise,
+            ];
+        }
+        let slope = self.slope(state);
+        let instant = self.on_flank(self.corner, state, ground, slope);
         let (reactions, _) = self.reactions(state, &instant);
         let mut acceleration = instant.acceleration(&reactions);
         let contacts = self.walk.mode.contacts();
@@ -49,6 +66,7 @@ impl Varying<'_> {
             c,
             instant.power(state),
             rubbing,
+            slope.slope * state[3],
         ]
     }
 
@@ -75,6 +93,9 @@ impl Varying<'_> {
 
     /// Normal forces and what is left of the friction cone, both ways, at a state; sizes to judge them by.
     pub(super) fn limits(&self, state: &State, ground: &Ground) -> [(f64, f64); 4] {
+        if let Some(climb) = self.climb(state, ground) {
+            return self.limits_under(&climb.reactions, &climb.strength);
+        }
         let instant = self.seen_from(self.corner, state, ground);
         let (reactions, strength) = self.reactions(state, &instant);
         self.limits_under(&reactions, &strength)

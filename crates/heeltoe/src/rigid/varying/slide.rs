@@ -11,7 +11,7 @@ use super::super::walk::Cause;
 use super::advance::Trial;
 use super::line::{Felt, Force, Line, Slide, CLEAR};
 use super::shaking::{Ground, Piece, TurningShaking};
-use super::step::State;
+use super::step::{State, SIZE};
 use super::walk::Varying;
 
 impl Varying<'_> {
@@ -158,7 +158,7 @@ impl Varying<'_> {
         if cause == Some(Cause::Stop) {
             end[3] = 0.0;
         }
-        let trial = Trial::still(self.state, [0.0; 8], slide.length, piece);
+        let trial = Trial::still(self.state, [0.0; SIZE], slide.length, piece);
         self.move_on(&trial, &end, at, time);
         if turns_corner {
             self.turn_corner(slide.corner);

@@ -1,6 +1,6 @@
 //! From sample to sample of the record, and from event to event within each piece.
 
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 
 use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
 use super::super::choice::{accelerations, select, Modes, Moving};
@@ -11,12 +11,12 @@ use super::super::result::{Outcome, Run};
 use super::super::shaking::Piece as Level;
 use super::super::walk::{Carried, Cause, Options, Single, Walk, Wanted};
 use super::block::{Rotation, TurningBlock};
-use super::instant::Instant;
+use super::instant::{Instant, Still};
 use super::line::{Flat, Line};
 use super::rough::Rough;
 use super::rubbing::{Gathered, Rubbing};
 use super::shaking::{level, Ground, Piece, TurningShaking};
-use super::step::State;
+use super::step::{State, SIZE};
 use crate::asperity::Asperities;
 use crate::friction::{Law, Worn};
 
@@ -53,6 +53,8 @@ pub(super) struct Varying<'a> {
     pub(super) lines: [Cell<Option<Line>>; 2],
     /// The same by any law, see [`super::flat`].
     pub(super) flats: [Cell<Option<Flat>>; 2],
+    /// The block on a rough crack seen from either corner, where its loads and its geometry stay as they are.
+    pub(super) stills: [OnceCell<Still>; 2],
     /// Friction that goes by a law, where it does.
     pub(super) rubbing: Option<Rubbing<'a>>,
     /// Whether its loads and its geometry stay as they are, see [`super::plain`].
@@ -102,20 +104,21 @@ pub fn simulate(
             wanted,
         ),
         turning,
-        scale: [length, length, turn, fast, fast, spin, any, any],
+        scale: [length, length, turn, fast, fast, spin, any, any, any],
         time_scale: block.width / speed,
         corner: if position[TOE] < position[HEEL] {
             Corner::Toe
         } else {
             Corner::Heel
         },
-        state: [0.0; 8],
+        state: [0.0; SIZE],
         suggested: any,
         starting: None,
         anchors: vec![[0.0; 2]; turning.anchors.len()],
         reserve: None,
         lines: Default::default(),
         flats: Default::default(),
+        stills: Default::default(),
         rubbing,
         plain: turning.stays(shaking),
         rough: rough.map(|(asperities, before)| Rough::new(asperities, before, position[SLIP], block.width)),
@@ -184,6 +187,7 @@ impl Varying<'_> {
             velocity[SLIP],
             velocity[own],
             rate,
+            0.0,
             0.0,
             0.0,
         ];

@@ -1,37 +1,52 @@
-"""The hazard at the site with the fragility curves over it, and which motions make the annual rates."""
+"""The hazard at the site with the fragility curves over it, how well the annual probabilities are known, and which
+motions and events make them."""
 
 from __future__ import annotations
 
-import numpy as np
-from matplotlib.figure import Figure
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any
 
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from heeltoe.errors.sanitize import plain
 from heeltoe.study.answers.study_results import Opened
 from heeltoe.views.figures.studies.common import LINES, headed, measured
 from heeltoe.views.figures.style import WIDTH, styled
 from heeltoe.views.words.studies import limits_of
 
+#: Events of a hazard that figure and table show, and the letters of a name.
+_SHOWN, _LONGEST = 12, 24
+
 
 @styled
 def hazard_figure(found: Opened, units: str = "si") -> Figure | None:
     """Draw the hazard curve, on the left, and on the right the share of each annual rate that motions of each strength
-    make; None where no limit has a rate."""
+    make, with its fractiles and the shares of events below; None where no limit has a rate."""
     rows = [row for row in found.hazard or () if row["annual_rate"]]
     if not rows:
         return None
     study, hazard = found.told["study"]["fragility"], found.told["hazard"]
     strength = measured(study["measure"], study["period"], units)
     limits = limits_of([(row["limit"], row["value"]) for row in rows], units)
-    figure = Figure(figsize=(WIDTH, 3.9), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    several = len({row["model"] for row in rows}) > 1
+    names = [limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "") for row in rows]
+    known = any(row["by_event"] for row in rows)
+    events = _events(rows)
+    below = 1.3 + 0.2 * max(len(events), 2 * len(rows))
+    figure = Figure(figsize=(WIDTH, 3.9 + known * below), layout="constrained")
+    panels = figure.subplots(2, 2, height_ratios=[3.9, below]) if known else figure.subplots(1, 2, squeeze=False)
+    (left, right), *lower = panels
     at = np.array(hazard["strength"]) / strength.scale
     left.loglog(at, hazard["annual_rate"], color="#000000", marker="o", markersize=3.5, linewidth=1.6)
     left.set_xlabel(strength.label)
     left.set_ylabel("exceeded so often a year")
     left.set_title("hazard, and the annual rates of the limits", fontsize=9, loc="left")
-    several = len({row["model"] for row in rows}) > 1
-    for place, row in enumerate(rows):
+    for place, (row, label) in enumerate(zip(rows, names, strict=True)):
         colour, dash = LINES[place % len(LINES)]
-        label = limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "")
         left.axhline(row["annual_rate"], color=colour, linestyle=dash, linewidth=1.3)
         if row["annual_rate_interval"] is not None:
             left.axhspan(*row["annual_rate_interval"], color=colour, alpha=0.12, linewidth=0.0)
@@ -45,5 +60,49 @@ def hazard_figure(found: Opened, units: str = "si") -> Figure | None:
     right.set_title("which motions make it", fontsize=9, loc="left")
     for axes in (left, right):
         axes.set_xlim(at[0], at[-1])
+        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axes.xaxis.set_major_formatter("{x:g}")
+        axes.xaxis.set_minor_formatter(NullFormatter())
+    for fractiles, shares in lower:
+        _fractiles(fractiles, rows)
+        _shares(shares, rows, events)
     figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8)
     return headed(figure, found, "fragility over hazard")
+
+
+def _events(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return the events that make most of the rates together."""
+    made = Counter[str]()
+    for row in rows:
+        made.update({part["event"]: part["share"] for part in row["by_event"]})
+    return [event for event, _ in made.most_common(_SHOWN)]
+
+
+def _fractiles(axes: Axes, rows: Sequence[Mapping[str, Any]]) -> None:
+    """Draw the fractiles of the annual probability of each limit: 5 to 95 % thin, 16 to 84 % thick."""
+    for place, row in enumerate(rows):
+        colour, known = LINES[place % len(LINES)][0], row["annual_probability_fractiles"]
+        if known is not None:
+            axes.plot([known["5%"], known["95%"]], [-place] * 2, color=colour, linewidth=1.4)
+            axes.plot([known["16%"], known["84%"]], [-place] * 2, color=colour, linewidth=5.0, solid_capstyle="butt")
+        axes.plot(row["annual_probability"], -place, "o", color="#000000", markersize=4.5, zorder=3)
+    axes.set_xscale("log")
+    axes.set_ylim(0.6 - len(rows), 0.6)
+    axes.set_yticks([])
+    axes.set_xlabel("probability a year (thin: 5 to 95 %, thick: 16 to 84 %)")
+    axes.set_title("how well it is known", fontsize=9, loc="left")
+
+
+def _shares(axes: Axes, rows: Sequence[Mapping[str, Any]], events: Sequence[str]) -> None:
+    """Draw the share of each rate that some events make, the largest above."""
+    height = 0.8 / len(rows)
+    for place, row in enumerate(rows):
+        shares = {part["event"]: 100.0 * part["share"] for part in row["by_event"]}
+        at = [-k + 0.4 - height * (place + 0.5) for k in range(len(events))]
+        widths = [shares.get(event, 0.0) for event in events]
+        axes.barh(at, widths, height, color=LINES[place % len(LINES)][0])
+    axes.set_yticks([-k for k in range(len(events))], [plain(event)[:_LONGEST] for event in events], fontsize=7)
+    axes.set_ylim(0.6 - len(events), 0.6)
+    axes.set_xlabel("share of the annual rate [%]")
+    axes.set_title("which events make it", fontsize=9, loc="left")
+    axes.grid(visible=False, axis="y")

@@ -47,7 +47,7 @@ def suite_figure(found: Opened, units: str = "si") -> Figure | None:
     for axes, row in zip(panels, models, strict=True):
         records = [row["records"][place] for place in order]
         _bars(axes, records, scale)
-        for name, (colour, dash) in _OVER.items():
+        for name, (colour, dash) in _OVER.items() if count > 1 else ():
             value = row["statistics"]["residual_slip_m"][name]
             if value is not None:
                 label = f"{STATISTICS[name]}: {number(scale * value, 3)} {unit}"
@@ -61,7 +61,9 @@ def suite_figure(found: Opened, units: str = "si") -> Figure | None:
         axes.set_title(f"{row['model']} model", fontsize=9, loc="left")
         axes.grid(visible=False, axis="y")
     if len(models) == 1:
-        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8)
+        named = panels[0].get_legend_handles_labels()
+        if named[0]:
+            figure.legend(*named, loc="outside lower center", ncols=4, fontsize=8)
     else:
         for axes in panels:
             axes.legend(loc="lower right", fontsize=7, frameon=True, framealpha=0.95, edgecolor="none")
@@ -115,10 +117,12 @@ def suite_spectra_figure(found: Opened) -> Figure | None:
             if governs
             else {"color": "#999999", "linewidth": 0.7}
         )
-        label = f"{_name(record['motion'])}, which governs" if governs else None
+        label = _name(record["motion"]) + ", which governs" * (len(records) > 1) if governs else None
         axes.semilogx(period, values, label=label, **look)
-    axes.plot([], [], color="#999999", linewidth=0.7, label="other records")
-    axes.semilogx(period, spectra["mean"] / STANDARD_GRAVITY, color="#000000", linewidth=2.2, label="mean", zorder=4)
+    if len(records) > 1:
+        axes.plot([], [], color="#999999", linewidth=0.7, label="other records")
+        mean = spectra["mean"] / STANDARD_GRAVITY
+        axes.semilogx(period, mean, color="#000000", linewidth=2.2, label="mean", zorder=4)
     target = spectra["target"]
     if target is not None:
         values = np.array(target["pseudo_acceleration_m_s2"]) / STANDARD_GRAVITY
