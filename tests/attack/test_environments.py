@@ -30,7 +30,7 @@ COMMANDS: dict[str, Sequence[str | Path]] = {
     "new": ["new", "fresh"],
 }
 FURTHER: dict[str, Sequence[str | Path]] = {
-    "solve": ["solve", "dam.toml", "crack.friction", "--until", "residual_slip = 1 mm"],
+    "solve": ["solve", "dam.toml", "crack.friction", "--until", "residual_slip = 1 mm", "--between", "0.05,1"],
     "law": ["law", "cohesion"],
     "explain": ["explain", "crack.friction"],
     "examples": ["examples"],
