@@ -9,10 +9,22 @@ pub(super) const LANES: usize = 8;
 /// One number for each mode of a group.
 pub(super) type Group = [f64; LANES];
 
+/// What is compiled for the registers of a machine as a function of its own: the steps of an elastic dam are one function
+/// by inlining, and compilers take more than twice as long for one of twice the size.
+pub(super) trait Work {
+    type Answer;
+
+    /// To be inlined into [`Lanes::apart`].
+    fn run<W: Lanes>(self) -> Self::Answer;
+}
+
 /// A group in registers.
 pub(super) trait Lanes: Copy {
     /// Whether `a b + c` is rounded once.
     const FUSED: bool;
+
+    /// Do this in a function of its own.
+    fn apart<T: Work>(work: T) -> T::Answer;
 
     fn load(group: &Group) -> Self;
 
@@ -58,6 +70,11 @@ pub(super) struct Plain(Group);
 impl Lanes for Plain {
     const FUSED: bool = false;
 
+    #[inline(never)]
+    fn apart<T: Work>(work: T) -> T::Answer {
+        work.run::<Plain>()
+    }
+
     #[inline(always)]
     fn load(group: &Group) -> Self {
         Plain(*group)
@@ -92,7 +109,7 @@ pub(super) mod x86 {
         _mm512_storeu_pd, _mm512_unpackhi_pd, _mm512_unpacklo_pd,
     };
 
-    use super::{Group, Lanes, LANES};
+    use super::{Group, Lanes, Work, LANES};
 
     /// In one register of AVX-512.
     #[derive(Clone, Copy)]
@@ -101,6 +118,16 @@ pub(super) mod x86 {
     // Safety of all below: they run where the machine has been found to have these registers, and a group has eight numbers.
     impl Lanes for Avx512 {
         const FUSED: bool = true;
+
+        #[inline(always)]
+        fn apart<T: Work>(work: T) -> T::Answer {
+            #[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
+            #[inline(never)]
+            fn run<T: Work>(work: T) -> T::Answer {
+                work.run::<Avx512>()
+            }
+            unsafe { run(work) }
+        }
 
         #[inline(always)]
         fn load(group: &Group) -> Self {
@@ -162,6 +189,16 @@ pub(super) mod x86 {
 
     impl Lanes for Avx2 {
         const FUSED: bool = true;
+
+        #[inline(always)]
+        fn apart<T: Work>(work: T) -> T::Answer {
+            #[target_feature(enable = "avx2,fma")]
+            #[inline(never)]
+            fn run<T: Work>(work: T) -> T::Answer {
+                work.run::<Avx2>()
+            }
+            unsafe { run(work) }
+        }
 
         #[inline(always)]
         fn load(group: &Group) -> Self {

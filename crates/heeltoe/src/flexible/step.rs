@@ -19,11 +19,13 @@
 //! that.
 
 use super::bodies::Sides;
+use super::bond::Bonds;
 use super::contact_operator::FacesOperator;
-use super::coulomb::Report;
+use super::coulomb::{Problem, Report, Solver};
 use super::crack_forces::CrackForces;
 use super::dam::{Dam, Shaking, Wanted};
 use super::dampers::Dampers;
+use super::law::Laws;
 use super::ledger::Ledger;
 use super::modal_stepper::{Drive, ModalStepper};
 use super::result::Run;
@@ -31,7 +33,7 @@ use super::scheme::TimeStep;
 use super::simd::dot;
 #[cfg(target_arch = "x86_64")]
 use super::simd::x86;
-use super::simd::{Lanes, Plain};
+use super::simd::{Lanes, Plain, Work};
 use super::status::Status;
 use super::still::Still;
 use super::walk::Walk;
@@ -289,24 +291,17 @@ impl<'a> Moreau<'a> {
                     damping: self.drive.damping,
                     softness,
                 };
-                let mut report = Report::default();
-                if let Some(bonds) = &mut crack.bonds {
-                    let (problem, solver) = (&mut crack.problem, &mut crack.solver);
-                    let moved = &mut crack.moved;
-                    report = bonds.solve::<W>(problem, solver, &mut faces, &crack.before, self.step, moved);
-                }
-                while crack.bonds.is_none() {
-                    report.go_on(crack.solver.solve::<W>(&mut crack.problem, &mut faces));
-                    let (problem, solver) = (&mut crack.problem, &mut crack.solver);
-                    let met = crack
-                        .laws
-                        .as_mut()
-                        .is_none_or(|laws| laws.met(problem, solver, &crack.before, self.step, &mut report));
-                    if met {
-                        break;
-                    }
-                }
-                (report, softness)
+                let solving = Solving {
+                    faces: &mut faces,
+                    problem: &mut crack.problem,
+                    solver: &mut crack.solver,
+                    bonds: crack.bonds.as_mut(),
+                    laws: crack.laws.as_mut(),
+                    before: &crack.before,
+                    moved: &mut crack.moved,
+                    step: self.step,
+                };
+                (W::apart(solving), softness)
             }
         };
         self.walk.steps.note(report);
@@ -424,6 +419,48 @@ impl<'a> Moreau<'a> {
         ledger.stored = energy(&self.bodies) + ledger.springs;
         self.dampers.book(&mut ledger);
         ledger
+    }
+}
+
+/// The contact problem of a step, with the bonds or the laws of the crack.
+struct Solving<'s, 'f, 'a> {
+    faces: &'s mut FacesOperator<'f, 'a>,
+    problem: &'s mut Problem,
+    solver: &'s mut Solver,
+    bonds: Option<&'s mut Bonds>,
+    laws: Option<&'s mut Laws>,
+    before: &'s [f64],
+    moved: &'s mut bool,
+    step: TimeStep,
+}
+
+impl Work for Solving<'_, '_, '_> {
+    type Answer = Report;
+
+    #[inline(always)]
+    fn run<W: Lanes>(mut self) -> Report {
+        if let Some(bonds) = self.bonds {
+            return bonds.solve::<W>(
+                self.problem,
+                self.solver,
+                self.faces,
+                self.before,
+                self.step,
+                self.moved,
+            );
+        }
+        let mut report = Report::default();
+        loop {
+            report.go_on(self.solver.solve::<W>(self.problem, self.faces));
+            let (problem, solver) = (&mut *self.problem, &mut *self.solver);
+            let met = self
+                .laws
+                .as_mut()
+                .is_none_or(|laws| laws.met(problem, solver, self.before, self.step, &mut report));
+            if met {
+                return report;
+            }
+        }
     }
 }
 
