@@ -30,10 +30,11 @@ _WATER, _WATER_BY_DEPTH = (0.45, 3.6e7), 6.4e8
 _ROCK, _ROCK_ACROSS, _ROCK_STEPS = (0.7, 6.7e7), (3.1e-3, 7e5), 4
 # Seconds of each d^3 where all modes are wanted: 0.12 s of 710, 0.9 s of 1,570 degrees of freedom.
 _DENSE = 3e-10
-# Copies of the d m numbers of the modes of a part: while they are solved, and after that; the bytes of a number.
-_SOLVING, _KEPT, NUMBER = 14.0, 3.0, 8.0
+# Copies of the d m numbers of the modes of a part: while some or all of them are solved, and after that; the bytes of a
+# number.
+_SOLVING, _SOLVING_ALL, _KEPT, NUMBER = 8.5, 3.0, 2.5, 8.0
 # Bytes of whatever there is beside.
-_BESIDE = 3e6
+_BESIDE = 2e6
 # A part that is lower has so many rows less, of each element across, for each of its heights over its widths.
 _FLAT, _FLATTEST = 1.5, 0.15
 _TIMES = ((86400.0, "days"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
@@ -76,7 +77,7 @@ class Part:
         numbers = self.freedoms * self.modes
         dense = 3.0 * self.kept >= self.freedoms
         seconds = _DENSE * self.freedoms**3 if dense else _SOLVED * numbers
-        return Cost(seconds, NUMBER * _SOLVING * numbers)
+        return Cost(seconds, NUMBER * (_SOLVING_ALL if dense else _SOLVING) * numbers)
 
     @property
     def kept_memory(self) -> float:
