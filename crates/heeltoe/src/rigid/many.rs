@@ -13,7 +13,7 @@ use crate::stop::Stop;
 const CHUNK: usize = 16;
 
 /// Run `count` blocks that stand still; `case` says which block meets which motion, and which crest is looked at, if any:
-/// what [`Crest::peaks`] says of it is returned, too.
+/// what `Crest::peaks` says of it is returned, too.
 pub fn run<'a>(
     count: usize,
     options: Options,
