@@ -1,4 +1,4 @@
-"""A run of tests says what failed where a reader of its end, or of a run that was stopped, finds it."""
+"""What a run of tests says at its end: what failed, and the page of what attacks came to."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from shared.attack_page import write_page
 from shared.dams import ROOT
 
 
@@ -48,3 +49,14 @@ def test_a_test_that_fails_is_named_at_once(tmp_path, workers):
     assert code == 1
     at_once, end = [k for k, line in enumerate(lines) if line.startswith("FAILED test_two.py::test_fails")]
     assert at_once < lines.index(next(line for line in lines if "FAILURES" in line)) < end
+
+
+def test_figures_of_other_seeds_are_added(tmp_path, monkeypatch):
+    page = tmp_path / "attack.md"
+    for seed, accepted in ((81, 1200), (82, 34)):
+        monkeypatch.setattr("shared.attack_page.SEED", seed)
+        write_page(page, [("cases", {"accepted": accepted, "defect": 1})], add=seed == 82)
+    text = page.read_text()
+    assert "| cases | 1,236 | 1,234 | 0 | 0 | 2 |" in text
+    assert "| all | 1,236 |" in text
+    assert "seeds 81, 82." in text
