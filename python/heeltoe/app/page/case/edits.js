@@ -4,9 +4,11 @@ export class Edits {
   /**
    * @param {import("../talk.js").Talk} talk
    * @param {(told: any, idle: boolean) => void} heard Called with what the server makes of them, and whether none waits.
+   * @param {(idle: boolean) => void} waits Called when an edit goes out and when all are answered.
    */
-  constructor(talk, heard) {
+  constructor(talk, heard, waits) {
     this.talk = talk;
+    this.waits = waits;
     /** @type {{what: string, fields: any}[]} */
     this.waiting = [];
     /** @type {{what: string, fields: any} | null} */
@@ -80,5 +82,6 @@ export class Edits {
     if (this.going || !this.here) return;
     this.going = this.waiting.shift() || null;
     if (this.going) this.serial = this.talk.ask(this.going.what, this.going.fields);
+    this.waits(this.idle);
   }
 }

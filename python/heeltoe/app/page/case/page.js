@@ -10,7 +10,7 @@ export function casePage(talk) {
   let units = "";
   let stale = true;
   let visible = false;
-  const edits = new Edits(talk, show);
+  const edits = new Edits(talk, show, (idle) => drawing.root.setAttribute("aria-busy", String(!idle)));
   const form = new CaseForm(edits);
   const drawing = new CaseDrawing(edits, (name, what) => {
     const place = Number(name.split(" ")[1]) - 1;
