@@ -7,11 +7,13 @@ import time
 import pytest
 
 from heeltoe import InputError, read_case, run
+from heeltoe.models.run import cost_of
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import measures
 from heeltoe.motion.processing import band_pass
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.study.small.run_table import parse_axes, run_small
+from heeltoe.study.small.statics import After, statics_table
 from shared.attacked import limited
 from shared.cases import refusal
 from shared.dams import example
@@ -75,12 +77,20 @@ def test_what_is_proposed_allows_it():
 def test_a_table_is_judged_as_a_whole():
     fields = example("typical-base", *DAM).model_dump(mode="json", exclude_unset=True)
     variations = parse_axes(["crack.friction=0.8,1.0"])
-    from heeltoe.models.run import cost_of
-
     one = cost_of(read_case(fields))
     limit = f"analysis.time_limit={1.5 * one.seconds} s"
     with pytest.raises(InputError) as error:
         run_small(fields, [limit], variations, pytest.fail, cost=cost_of)
+    assert (error.value.code, error.value.field) == ("too-costly", "--vary")
+
+
+def test_a_table_of_choices_of_the_checks_costs_the_one_run_that_it_shares():
+    dam = example("typical-base", *DAM, "flexible.elements_across=2", "flexible.evidence=none")
+    after, limit = After(model="flexible"), f"analysis.time_limit={1.5 * cost_of(dam, 'flexible').seconds} s"
+    fields = dam.model_dump(mode="json", exclude_unset=True)
+    assert len(statics_table(fields, [limit], parse_axes(["statics.residual_friction=0.8,1.0"]), after).dams) == 2
+    with pytest.raises(InputError) as error:
+        statics_table(fields, [limit], parse_axes(["crack.friction=0.8,1.0"]), after)
     assert (error.value.code, error.value.field) == ("too-costly", "--vary")
 
 

@@ -95,7 +95,7 @@ def _judge(case: Case, after: After, say: Say, made: Made) -> Joints:
 
     def run_once(dam: Case, what: str) -> Sequence[Response]:
         model = after.model or AUTO
-        key = model, dam.model_dump_json(exclude={"statics": True})
+        key = model, _run_of(dam)
         if key not in made:
             say(f"running the earthquake{what}")
             made[key] = tuple(reversed(run(dam, model).responses))
@@ -105,6 +105,11 @@ def _judge(case: Case, after: After, say: Say, made: Made) -> Joints:
         return run_once(alone, f", crack at {alone.crack.elevation:g} m alone")
 
     return joints_after(case, lambda: run_once(case, ""), run_alone)
+
+
+def _run_of(case: Case) -> str:
+    """Return all that a run depends on: static checks read more of a case."""
+    return case.model_dump_json(exclude={"statics": True})
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,7 +198,8 @@ def statics_table(
         Where a value cannot be used, or the runs of all dams take more than the first case allows.
     """
     cells, cases = cases_of(source, changes, axes)
-    check_together(cases, lambda case: cost_of(case, after.model or AUTO) if after.runs(case) else None)
+    runs = {_run_of(case): case for case in cases if after.runs(case)}
+    check_together([*runs.values()], lambda case: cost_of(case, after.model or AUTO))
     table = []
     made: Made = {}
     for done, case in enumerate(cases):
