@@ -23,7 +23,7 @@ from heeltoe import flexible, read_case, read_study, run_study
 from heeltoe.kernel.build import PROFILE
 from heeltoe.models.flexible.body import bonded, reduced
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.plan.plan import Pilot, Plan, plan_of
 from heeltoe.study.run.batches import run_part
 from heeltoe.study.run.run import Outlook
@@ -78,7 +78,7 @@ def forget() -> None:
         module._KEPT.clear()
 
 
-def alone(found: Opened, plan: Plan) -> Alone:
+def alone(found: StudyResults, plan: Plan) -> Alone:
     """Make some runs of a study by themselves, without evidence, at its mesh."""
     case, pilot = read_case(EXAMPLE), plan.pilot
     require(pilot is not None and pilot.halvings == 0, "the study halves its steps: a run alone would not")
@@ -159,13 +159,13 @@ def measure(frictions: tuple[float, ...]) -> list[list[str]]:
         marks.append(busy())
         count = study.store.count
         require(study.complete and study.all_ok, "some run has no result")
-        plan = replace(plan_of(read_study(file)), pilot=Pilot(**study.told["pilot"]))
+        plan = replace(plan_of(read_study(file)), pilot=Pilot(**study.manifest["pilot"]))
         here = in_this_process(plan)
         single = alone(study, plan)
     ahead, during = ((end - start) / count for start, end in pairwise(marks))
     # The seconds of a study are elapsed ones of its workers, one for each core, as these are.
     _, whole = (end - start for start, end in pairwise(began))
-    inside = sum(study.told["seconds"][item] for item in ("blocks", "kernel"))
+    inside = sum(study.manifest["seconds"][item] for item in ("blocks", "kernel"))
     beside = (os.cpu_count() or 1) * whole / inside - 1.0
     ready = single.kernel + single.setup
     return [

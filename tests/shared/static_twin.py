@@ -168,10 +168,10 @@ class Stand:
     toe_stress: float
 
 
-Opened = Callable[[float, float], list[tuple[float, float]]]
+StudyResults = Callable[[float, float], list[tuple[float, float]]]
 
 
-def stand(base: float, loads: Force, opened: Opened, bends: list[float]) -> Stand:
+def stand(base: float, loads: Force, opened: StudyResults, bends: list[float]) -> Stand:
     """Open the crack bit by bit until its tip is not in tension."""
     _, up, turning = loads
     rounding = 1e-12 * abs(up) / base

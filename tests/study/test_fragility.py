@@ -241,4 +241,4 @@ def test_what_is_not_installed_is_said(tmp_path, monkeypatch):
 
 def test_what_a_field_that_varies_makes_suspicious_is_said(tmp_path):
     study = run_study(study_file(tmp_path, GRID.replace("[0.3, 0.5]", "[0.5, 3.0]")), tmp_path / "out")
-    assert any("friction of 3 is higher" in text for text in study.told["warnings"])
+    assert any("friction of 3 is higher" in text for text in study.manifest["warnings"])

@@ -167,11 +167,11 @@ def test_a_study_with_a_hazard_says_how_often_a_year(tmp_path):
     assert [point["strength"] / 9.80665 for point in study.hazard[0]["at"]] == pytest.approx([0.1, 0.3, 0.5, 1.0, 2.0])
     weak, strong = study.hazard
     assert weak["annual_rate"] > strong["annual_rate"] > 0.0
-    by_hand = annual(study.curves[0][1], study.told["hazard"])
+    by_hand = annual(study.curves[0][1], study.manifest["hazard"])
     assert weak["annual_rate"] == by_hand["annual_rate"]
-    assert {row["event"] for row in weak["by_event"]} == set(study.told["events"])
+    assert {row["event"] for row in weak["by_event"]} == set(study.manifest["events"])
     assert sum(row["share"] for row in weak["by_event"]) == pytest.approx(1.0, rel=1e-12)
-    assert study.told["hazard"]["strength"][1] == pytest.approx(0.5 * study.told["hazard"]["strength"][2])
+    assert study.manifest["hazard"]["strength"][1] == pytest.approx(0.5 * study.manifest["hazard"]["strength"][2])
     assert json.loads(json.dumps(study.to_json(), allow_nan=False))
     # Another hazard is another question to the same runs.
     (tmp_path / "hazard.csv").write_text("pga [g], annual rate\n0.1, 0.04\n0.5, 0.004\n1, 0.0006\n2, 0.00008\n")

@@ -100,7 +100,7 @@ def test_dams_are_ranked_by_probability_and_slip(tmp_path):
     assert keys[0] > keys[-1]
     assert [dam["rank"] for dam in answer["dams"]] == [1, 2, 3]
     assert result.portfolio_table().num_rows == 3
-    assert not any("above the crest" in text for text in result.told["warnings"])
+    assert not any("above the crest" in text for text in result.manifest["warnings"])
 
 
 def test_a_dam_that_fails_comes_first_and_warnings_name_their_dam(tmp_path):
@@ -110,7 +110,7 @@ def test_a_dam_that_fails_comes_first_and_warnings_name_their_dam(tmp_path):
     assert (first["name"], first["exceeds"], first["residual_slip_m"]["mean"]) == ("Bad", [1.0], None)
     assert second["residual_slip_m"]["mean"] is not None
     assert json.loads(json.dumps(answer.to_json(), allow_nan=False))
-    assert any(text.startswith("Bad: reservoir.depth") for text in answer.told["warnings"])
+    assert any(text.startswith("Bad: reservoir.depth") for text in answer.manifest["warnings"])
     with pytest.raises(InputError) as error:
         answer.to_xarray()
     assert error.value.code == "study-no-grid"

@@ -22,7 +22,7 @@ def compared(strengths, demand, event, traits, pieces=1):
             event[here],
             {name: each[here] for name, each in traits.items()},
         )
-    return result.told()
+    return result.as_dict()
 
 
 def saltelli(function, dimensions, count):
@@ -117,7 +117,7 @@ def test_the_indices_of_a_study(tmp_path):
     assert (rigid["rows"], rigid["left_out"]) == (32, 0)
     # The same rows by hand, from the table.
     slip = np.abs(study.to_table(["residual_slip_m"])["residual_slip_m"].to_numpy()).reshape(32, 7)
-    again = sobol_indices(slip, [*study.told["study"]["vary"], "motion", "strength"])
+    again = sobol_indices(slip, [*study.manifest["study"]["vary"], "motion", "strength"])
     assert again == rigid
     json.dumps(study.to_json(), allow_nan=False)
     with pytest.raises(InputError, match="method: a study by sensitivity has no such answer"):

@@ -154,7 +154,7 @@ def test_a_study_goes_on_where_it_stopped(tmp_path, monkeypatch):
     assert rows(run_study(file, out, resume=True)) == whole
     assert len(ran) == half.store.parts - 3
     # What took how long is kept, of all that ran.
-    before, after = half.told["seconds"], open_study(out).told["seconds"]
+    before, after = half.manifest["seconds"], open_study(out).manifest["seconds"]
     assert set(before) == set(after) == {"sampling", "blocks", "kernel", "tables", "writing"}
     assert all(0.0 <= before[name] <= after[name] for name in before)
 
@@ -331,4 +331,4 @@ def test_a_damaged_part_is_computed_anew_and_said(tmp_path, damage, monkeypatch)
     part.write_bytes(damage(part.read_bytes()))
     again = run_study(file, out, resume=True)
     assert rows(again) == first
-    assert any("1 of the files in runs/ were damaged" in warning for warning in again.told["warnings"])
+    assert any("1 of the files in runs/ were damaged" in warning for warning in again.manifest["warnings"])

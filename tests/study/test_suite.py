@@ -79,7 +79,7 @@ def test_a_dam_that_fails_in_a_record_has_no_mean_and_meets_no_limit(records):
 
 def test_records_scaled_at_the_first_period_agree_there(dam, records):
     suite = heeltoe.run_suite(dam, records, model="rigid", sa="0.5 g", target="en1998:0.3g,B")
-    period = suite.told["study"]["motions"]["scale"]["period"]
+    period = suite.manifest["study"]["motions"]["scale"]["period"]
     first = heeltoe.dam_periods(dam, 1).intact[0]
     assert float(period.split()[0]) == pytest.approx(first, rel=1e-5)
     spectra = suite_spectra(suite.walk, suite.suite["models"][0]["records"])
@@ -262,7 +262,7 @@ def test_every_field_of_a_suite_changes_something_or_is_refused(dam, records, mo
         # The file states its unit and its step, and has no vertical component in it.
         assert after.field in (f"suite.{name}" for name in suite)
         return
-    assert after.suite != before.suite or after.told["spectra"] != before.told["spectra"]
+    assert after.suite != before.suite or after.manifest["spectra"] != before.manifest["spectra"]
 
 
 def test_what_is_wrong_with_a_suite_names_the_field_of_the_case(dam, records):

@@ -47,7 +47,7 @@ def test_a_drawn_study(tmp_path):
         "all runs are of rigid blocks",
         "Shinozuka",
         "heeltoe study it",
-        study.told["fingerprint"],
+        study.manifest["fingerprint"],
     ):
         assert message in text, message
     # What stands there is what the study says.

@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from heeltoe.study.answers.study_results import Opened
+    from heeltoe.study.answers.study_results import StudyResults
     from heeltoe.study.run.run import Outlook, Progress
 
 
 class Runner(Protocol):
     """What runs a study, or a suite."""
 
-    def __call__(self, *, progress: Callable[[Progress], None], before: Callable[[Outlook], None]) -> Opened:
+    def __call__(self, *, progress: Callable[[Progress], None], before: Callable[[Outlook], None]) -> StudyResults:
         """Return the results."""
 
 

@@ -65,7 +65,7 @@ def write_table(table: pa.Table, path: Path) -> None:
     import pyarrow.csv
     import pyarrow.parquet
 
-    # Opened here: Arrow would take a directory with a colon in its name for an address.
+    # StudyResults here: Arrow would take a directory with a colon in its name for an address.
     with path.open("wb") as file:
         if path.suffix == ".csv":
             pyarrow.csv.write_csv(_without_formulas(table), file)

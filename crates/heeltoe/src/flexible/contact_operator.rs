@@ -1,28 +1,23 @@
 //! How the crack answers to forces in a step: `u = W p` through both faces, and `G` where contacts are closed.
 
-use super::bodies::Sides;
 use super::contact::Contacts;
 use super::coulomb::{ContactOperator, Problem};
 use super::coupling::Blocks;
-use super::dampers::Dampers;
-use super::modal_stepper::ModalStepper;
+use super::linear::LinearDam;
 use super::simd::Lanes;
 
 /// How the crack answers in a step, by what its faces do.
 pub(super) struct FacesOperator<'s, 'a> {
     pub(super) contacts: &'s Contacts,
     pub(super) blocks: &'s mut Blocks,
-    pub(super) bodies: &'s mut Sides<ModalStepper<'a>>,
-    pub(super) dampers: &'s mut Dampers<'a>,
-    pub(super) damping: usize,
+    pub(super) linear: &'s mut LinearDam<'a>,
     pub(super) softness: f64,
 }
 
 impl ContactOperator for FacesOperator<'_, '_> {
     #[inline(always)]
     fn fill(&mut self, problem: &mut Problem, wanted: impl Fn(usize) -> bool) {
-        let answers = self.bodies.map(|body| body.answers(self.damping));
-        let gain = self.dampers.holding(self.damping);
+        let (answers, gain) = (self.linear.answers(), self.linear.holding());
         self.blocks.fill(
             &mut problem.g,
             self.contacts,
@@ -35,8 +30,7 @@ impl ContactOperator for FacesOperator<'_, '_> {
 
     #[inline(always)]
     fn fill_row(&mut self, problem: &mut Problem, contact: usize, wanted: impl Fn(usize) -> bool) {
-        let answers = self.bodies.map(|body| body.answers(self.damping));
-        let gain = self.dampers.holding(self.damping);
+        let (answers, gain) = (self.linear.answers(), self.linear.holding());
         let others = (0..self.contacts.len()).filter(|other| wanted(*other));
         self.blocks.fill_row(
             &mut problem.g,
@@ -51,11 +45,10 @@ impl ContactOperator for FacesOperator<'_, '_> {
 
     #[inline(always)]
     fn velocities<W: Lanes>(&mut self, _: &Problem, p: &[f64], u: &mut [f64]) {
-        let (upper, lower) = self.bodies.both_mut(|body| &mut body.impulse);
+        let (upper, lower) = self.linear.impulse_mut();
         self.contacts.spread(p, upper, lower);
-        self.dampers.answer::<W>(self.bodies, self.damping);
-        let faces = self.bodies.faces(|body| body.at_crack(&body.answer));
-        self.contacts.relative(faces, u);
+        self.linear.answer::<W>();
+        self.contacts.relative(self.linear.answered(), u);
         if self.softness > 0.0 {
             u.iter_mut().zip(p).for_each(|(u, p)| *u += self.softness * p);
         }

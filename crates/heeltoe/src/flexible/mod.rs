@@ -22,6 +22,7 @@ mod idce;
 mod kinks;
 mod law;
 mod ledger;
+mod linear;
 pub mod many;
 mod modal_stepper;
 mod newmark;

@@ -18,16 +18,15 @@
 //! be thrown back so that contact would do positive work. Nothing rebounds at a node: the waves in the concrete do
 //! that.
 
-use super::bodies::Sides;
 use super::bond::Bonds;
 use super::contact_operator::FacesOperator;
 use super::coulomb::{Problem, Report, Solver};
 use super::crack_forces::CrackForces;
 use super::dam::{Dam, Shaking, Wanted};
-use super::dampers::Dampers;
 use super::law::Laws;
 use super::ledger::Ledger;
-use super::modal_stepper::{Drive, ModalStepper};
+use super::linear::LinearDam;
+use super::modal_stepper::Drive;
 use super::result::Run;
 use super::scheme::TimeStep;
 use super::simd::dot;
@@ -69,7 +68,7 @@ fn simulate_avx2(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
 #[inline(always)]
 fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
     let mut moreau = Moreau::new(dam, shaking, theta, wanted);
-    moreau.go_on::<W>(None, 0, 0);
+    moreau.go_on::<W>(false, 0, 0);
     if moreau.walk.observed() {
         moreau.ledger.stored = moreau.ledger.start;
         let start = moreau.ledger;
@@ -79,15 +78,15 @@ fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
     for step in 0..shaking.ground.len() {
         moreau.set_up::<W>();
         moreau.contact::<W>();
-        let position = moreau.bodies.faces(|body| &body.position);
-        moreau.walk.book(step, position, shaking.dt);
+        moreau.walk.book(step, moreau.linear.position(), shaking.dt);
         if moreau.walk.observed() {
-            moreau.walk.gather(moreau.bodies.faces(|body| &body.impulse), 1.0);
+            moreau.walk.gather(moreau.linear.impulse(), 1.0);
         }
-        moreau.join();
+        let pushed = moreau.acting.is_some() || moreau.still.is_some();
+        moreau.linear.join(moreau.quiet, pushed);
         // The modes follow, and begin the next step.
         let sticks = moreau.walk.crack.solver.status.contains(&Status::Stick);
-        moreau.go_on::<W>(Some(moreau.drive), step + 1, usize::from(!sticks));
+        moreau.go_on::<W>(true, step + 1, usize::from(!sticks));
         if moreau.walk.due(step) {
             let now = moreau.balance();
             moreau.keep(&now);
@@ -110,33 +109,22 @@ fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
 /// The dam on its way.
 struct Moreau<'a> {
     walk: Walk<'a>,
-    bodies: Sides<ModalStepper<'a>>,
+    linear: LinearDam<'a>,
     acting: Option<CrackForces<'a>>,
-    dampers: Dampers<'a>,
     still: Option<&'a Still>,
     /// Whether nothing moves the dam in this step.
     quiet: bool,
     ledger: Ledger,
-    drive: Drive,
     shaking: &'a Shaking<'a>,
-    step: TimeStep,
 }
 
 impl<'a> Moreau<'a> {
     fn new(dam: &'a Dam, shaking: &'a Shaking, theta: f64, wanted: Wanted<'a>) -> Self {
         let dt = shaking.dt;
-        let step = TimeStep { dt, theta };
         let still = dam.still.as_ref();
-        let bodies = Sides {
-            upper: ModalStepper::new(&dam.bodies.upper, still, 0, step),
-            lower: dam
-                .bodies
-                .lower
-                .as_ref()
-                .map(|body| ModalStepper::new(body, still, 1, step)),
-        };
-        let start = energy(&bodies);
-        let faces = bodies.faces(|body| &body.position);
+        let linear = LinearDam::new(dam, TimeStep { dt, theta });
+        let start = linear.energy();
+        let faces = linear.position();
         let mut walk = Walk::new(dam, dt, wanted, faces);
         if let Some(still) = still {
             walk.crack.solver.status.copy_from_slice(&still.status);
@@ -150,123 +138,59 @@ impl<'a> Moreau<'a> {
         Moreau {
             walk,
             acting: CrackForces::new(&dam.inside, shaking.rising, faces),
-            dampers: Dampers::new(&bodies, dam.reservoir.as_ref(), step),
             still,
             quiet: false,
             ledger: Ledger {
                 start,
                 ..Ledger::default()
             },
-            // The dam has been standing: it starts with the damping of a crack that sticks.
-            drive: Drive {
-                ground: [0.0; 2],
-                damping: 0,
-            },
-            bodies,
+            linear,
             shaking,
-            step,
         }
     }
 
     /// Let the modes finish the step `now`, unless this is the start, and begin another with this state of damping.
     #[inline(always)]
-    fn go_on<W: Lanes>(&mut self, now: Option<Drive>, next: usize, damping: usize) {
+    fn go_on<W: Lanes>(&mut self, under_way: bool, next: usize, damping: usize) {
         let Shaking {
             ground, dt, scale, ..
         } = self.shaking;
         let a = ground.get(next).copied().unwrap_or([0.0; 2]);
-        self.drive = Drive {
+        let drive = Drive {
             ground: [scale[0] * a[0] * dt, scale[1] * a[1] * dt],
             damping,
         };
-        for body in self.bodies.iter_mut() {
-            body.advance::<W>(now, self.drive, self.step);
-        }
+        self.linear.advance::<W>(under_way, drive);
     }
 
     /// Write the contact problem of the step, with what else acts in the crack.
     #[inline(always)]
     fn set_up<W: Lanes>(&mut self) {
-        let (bodies, damping) = (&self.bodies, self.drive.damping);
-        let position = bodies.faces(|body| &body.position);
+        let linear = &self.linear;
         let crack = &mut self.walk.crack;
-        crack.meet(position, damping, || bodies.map(|body| body.answers(damping)));
-        self.act();
+        crack.meet(linear.position(), linear.damping(), || linear.answers());
+        if let Some(acting) = &mut self.acting {
+            self.linear.push(acting);
+        }
         // A dam that stands under loads that do not change goes on standing, to the last bit.
-        self.quiet = self.still.is_some()
-            && self.bodies.iter().all(ModalStepper::rests)
-            && self.dampers.rests(self.drive.ground);
+        self.quiet = self.still.is_some() && self.linear.rests();
         if self.quiet {
             return;
         }
-        self.push::<W>();
-        let TimeStep { dt, theta } = self.step;
+        self.linear
+            .find_free::<W>(self.acting.is_some(), self.still.is_some());
+        let TimeStep { dt, theta } = self.linear.step;
         let back = (1.0 - theta) / theta;
-        let bodies = &self.bodies;
         let crack = &mut self.walk.crack;
         let contacts = &crack.contacts;
-        contacts.relative(
-            bodies.faces(|body| body.at_crack(&body.free)),
-            &mut crack.problem.b,
-        );
-        contacts.relative(bodies.faces(|body| &body.velocity), &mut crack.before);
+        contacts.relative(self.linear.free(), &mut crack.problem.b);
+        contacts.relative(self.linear.velocity(), &mut crack.before);
         let approach = &crack.before[contacts.len()..];
         for ((h, gap), approach) in crack.problem.h.iter_mut().zip(&contacts.gaps).zip(approach) {
             *h = (gap.max(0.0) / dt).max(back * approach);
         }
         crack.set_up();
-        crack.bear(self.step);
-    }
-
-    /// Let what is in the crack beside contact push the nodes of both faces.
-    #[inline(always)]
-    fn act(&mut self) {
-        let Some(acting) = &mut self.acting else {
-            return;
-        };
-        let mut above = std::mem::take(&mut self.bodies.upper.push);
-        let mut below = match &mut self.bodies.lower {
-            Some(body) => std::mem::take(&mut body.push),
-            None => Vec::new(),
-        };
-        let position = self.bodies.faces(|body| &body.position);
-        let velocity = self.bodies.faces(|body| &body.velocity);
-        acting.push(position, velocity, self.step, &mut above, &mut below);
-        self.bodies.upper.push = above;
-        if let Some(lower) = &mut self.bodies.lower {
-            lower.push = below;
-        }
-    }
-
-    /// Let the crack feel what acts beside contact, the forces that the start has in it, and the dashpots.
-    #[inline(always)]
-    fn push<W: Lanes>(&mut self) {
-        let (alone, damping) = (self.acting.is_none(), self.drive.damping);
-        let pushed = !alone || self.still.is_some();
-        for body in self.bodies.iter_mut() {
-            if self.still.is_some() {
-                body.let_go(self.step.dt, alone);
-            }
-            if pushed {
-                body.push_crack::<W>(damping, alone);
-            }
-        }
-        if !self.dampers.is_empty() {
-            self.dampers.begin::<W>(&mut self.bodies, self.drive);
-        }
-    }
-
-    /// Hand the bodies all impulses of the step: those of contact, less what the start has in it, and the others.
-    #[inline(always)]
-    fn join(&mut self) {
-        let pushed = self.acting.is_some() || self.still.is_some();
-        for body in self.bodies.iter_mut() {
-            if self.quiet {
-                body.impulse.fill(0.0);
-            } else if pushed {
-                body.join_push();
-            }
-        }
+        crack.bear(self.linear.step);
     }
 
     /// Solve the contact problem and move the nodes; the bodies get their impulses, the ledger its works.
@@ -276,19 +200,18 @@ impl<'a> Moreau<'a> {
         let softness = crack.softness(self.walk.dam.softness());
         let (report, softness) = match self.still.filter(|_| self.quiet) {
             Some(still) => {
-                let report = crack.hold(&still.contact, self.step.dt);
-                let (upper, lower) = self.bodies.both_mut(|body| &mut body.impulse);
+                let report = crack.hold(&still.contact, self.linear.step.dt);
+                let (upper, lower) = self.linear.impulse_mut();
                 crack.impulses(upper, lower);
                 // Nothing moves, and nothing yields.
                 (report, 0.0)
             }
             None => {
+                let step = self.linear.step;
                 let mut faces = FacesOperator {
                     contacts: &crack.contacts,
                     blocks: &mut crack.blocks,
-                    bodies: &mut self.bodies,
-                    dampers: &mut self.dampers,
-                    damping: self.drive.damping,
+                    linear: &mut self.linear,
                     softness,
                 };
                 let solving = Solving {
@@ -299,7 +222,7 @@ impl<'a> Moreau<'a> {
                     laws: crack.laws.as_mut(),
                     before: &crack.before,
                     moved: &mut crack.moved,
-                    step: self.step,
+                    step,
                 };
                 (W::apart(solving), softness)
             }
@@ -308,12 +231,7 @@ impl<'a> Moreau<'a> {
         self.book_contact(softness);
         let before = self.acted();
         if !self.quiet {
-            if !self.dampers.is_empty() {
-                self.dampers.finish::<W>(&mut self.bodies, self.drive);
-            }
-            for body in self.bodies.iter_mut() {
-                body.move_crack::<W>(self.step);
-            }
+            self.linear.finish::<W>();
         }
         self.book_acted(before);
     }
@@ -321,7 +239,7 @@ impl<'a> Moreau<'a> {
     /// Book the work of the impulses of contact.
     #[inline(always)]
     fn book_contact(&mut self, softness: f64) {
-        let theta = self.step.theta;
+        let theta = self.linear.step.theta;
         self.book_bonds();
         let ledger = &mut self.ledger;
         let crack = &self.walk.crack;
@@ -357,12 +275,21 @@ impl<'a> Moreau<'a> {
     /// Let the bonds be where the step has brought them.
     #[inline(always)]
     fn book_bonds(&mut self) {
-        let (crack, end) = (&mut self.walk.crack, self.walk.steps.steps as f64 * self.step.dt);
+        let (crack, end) = (
+            &mut self.walk.crack,
+            self.walk.steps.steps as f64 * self.linear.step.dt,
+        );
         if let Some(bonds) = &mut crack.bonds {
             if self.quiet {
                 bonds.taken.fill(0.0);
             } else {
-                bonds.book(&crack.problem, &crack.solver, &crack.before, self.step, end);
+                bonds.book(
+                    &crack.problem,
+                    &crack.solver,
+                    &crack.before,
+                    self.linear.step,
+                    end,
+                );
             }
         }
     }
@@ -370,10 +297,8 @@ impl<'a> Moreau<'a> {
     /// Work of the impulses of water and anchors on the velocities as they are.
     #[inline(always)]
     fn acted(&self) -> [f64; 2] {
-        let velocity = || self.bodies.faces(|body| &body.velocity);
-        self.acting
-            .as_ref()
-            .map_or([0.0; 2], |acting| acting.work(velocity()))
+        let acting = self.acting.as_ref();
+        acting.map_or([0.0; 2], |acting| acting.work(self.linear.velocity()))
     }
 
     /// Book it, from what it was before the step.
@@ -383,9 +308,9 @@ impl<'a> Moreau<'a> {
         let Some(acting) = &mut self.acting else {
             return;
         };
-        let theta = self.step.theta;
+        let theta = self.linear.step.theta;
         let work = [0, 1].map(|k| (1.0 - theta) * before[k] + theta * after[k]);
-        let taken_up = acting.settle(self.bodies.faces(|body| &body.position));
+        let taken_up = acting.settle(self.linear.position());
         let ledger = &mut self.ledger;
         ledger.input += work[0];
         // What the anchors have not taken up of their work is the scheme's doing.
@@ -397,27 +322,22 @@ impl<'a> Moreau<'a> {
     /// Look at the stresses.
     #[inline(always)]
     fn stress<W: Lanes>(&mut self) {
-        let total = self.bodies.map(ModalStepper::amplitudes);
+        let total = self.linear.amplitudes();
         self.walk.stress::<W>(&total.map(|modes| &modes[..]));
     }
 
     /// Keep a frame.
     fn keep(&mut self, ledger: &Ledger) {
-        let position = self.bodies.faces(|body| &body.position);
-        let total = self.bodies.map(ModalStepper::amplitudes);
-        let water = self.dampers.water();
-        self.walk
-            .keep(position, &total.map(|modes| &modes[..]), water, ledger);
+        let linear = &self.linear;
+        let total = linear.amplitudes();
+        let total = total.map(|modes| &modes[..]);
+        self.walk.keep(linear.position(), &total, linear.water(), ledger);
     }
 
     /// The ledger with the sums of both bodies and the energy they hold; the sums go on, so that frames change nothing.
     fn balance(&self) -> Ledger {
         let mut ledger = self.ledger;
-        for body in self.bodies.iter() {
-            body.sums.book(&mut ledger);
-        }
-        ledger.stored = energy(&self.bodies) + ledger.springs;
-        self.dampers.book(&mut ledger);
+        self.linear.book(&mut ledger);
         ledger
     }
 }
@@ -462,9 +382,4 @@ impl Work for Solving<'_, '_, '_> {
             }
         }
     }
-}
-
-fn energy(bodies: &Sides<ModalStepper>) -> f64 {
-    let of = |body: &ModalStepper| body.body.energy(&body.amplitudes(), &body.v);
-    of(&bodies.upper) + bodies.lower.as_ref().map_or(0.0, of)
 }

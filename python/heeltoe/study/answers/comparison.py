@@ -68,7 +68,7 @@ class Comparison:
             added = np.bincount(which, values[slides], self._events)
             self._trait[name] = self._trait.get(name, np.zeros(self._events)) + added
 
-    def told(self) -> dict[str, Any]:
+    def as_dict(self) -> dict[str, Any]:
         """Return what has been found.
 
         Returns
@@ -125,8 +125,8 @@ class _Sums:
 
 def compared(walk: Walk, demand: str) -> dict[str, dict[str, Any]]:
     """Compare measures of the strength of motions by how well they foretell a slip of the table, for each model."""
-    motions = walk.told["motions"]
-    comparisons = {model: Comparison(len(walk.told["events"])) for model in walk.models}
+    motions = walk.manifest["motions"]
+    comparisons = {model: Comparison(len(walk.manifest["events"])) for model in walk.models}
     traits = {
         name: np.array([motion["traits"][name] for motion in motions], dtype=np.float64)
         for name in motions[0].get("traits", ())
@@ -143,7 +143,7 @@ def compared(walk: Walk, demand: str) -> dict[str, dict[str, Any]]:
                 event[here],
                 {key: trait[here] for key, trait in known.items()},
             )
-    return {name: comparison.told() for name, comparison in comparisons.items()}
+    return {name: comparison.as_dict() for name, comparison in comparisons.items()}
 
 
 def _line(trait: Floats, over: Floats) -> dict[str, float] | None:

@@ -29,7 +29,7 @@ def portfolio_of(walk: Walk) -> list[dict[str, Any]] | None:
         motions in which each limit is exceeded, by ``limit value``, and mean, median, 84 % and largest of the residual
         slip [m], None where they are not finite.
     """
-    names = walk.told.get("dams")
+    names = walk.manifest.get("dams")
     if names is None:
         return None
     # Those of the curves, then those of the case.
@@ -62,7 +62,7 @@ def _by_motion(walk: Walk, cube: Floats) -> Floats:
     where a run has none."""
     size = np.nan_to_num(np.abs(cube), nan=np.inf)
     if size.shape[1] > 1:
-        motions = [motion["name"] for motion in walk.told["motions"]]
+        motions = [motion["name"] for motion in walk.manifest["motions"]]
         places = [[k for k, name in enumerate(motions) if name == motion] for motion in dict.fromkeys(motions)]
         size = np.stack([size[:, place].max(axis=1) for place in places], axis=1)
     return size.reshape(size.shape[0], -1, size.shape[-1])

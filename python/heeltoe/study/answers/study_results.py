@@ -28,26 +28,26 @@ from heeltoe.study.answers.portfolio import portfolio_of, ranks_table
 from heeltoe.study.answers.sensitivity import sobol_indices, tornado
 from heeltoe.study.answers.suite import suite_of
 from heeltoe.study.run.aggregate import SHAKEN, Walk
-from heeltoe.study.run.store import RUNS, Store, read_told
+from heeltoe.study.run.store import RUNS, Store, read_manifest
 from heeltoe.units.parse import DIMENSIONS
 
 
 @dataclass(frozen=True, eq=False)
-class Opened(Shown):
+class StudyResults(Shown):
     """The results of a study.
 
     Attributes
     ----------
     store
         Where they are.
-    told
+    manifest
         What the study is, as kept beside its runs.
     kept
         Whether its runs stay where they are; those of a suite without a directory go with the result.
     """
 
     store: Store
-    told: dict[str, Any]
+    manifest: dict[str, Any]
     kept: bool = True
 
     def __repr__(self) -> str:
@@ -57,9 +57,9 @@ class Opened(Shown):
     @property
     def title(self) -> str:
         """Of the study."""
-        count = len({motion["name"] for motion in self.told["motions"]})
+        count = len({motion["name"] for motion in self.manifest["motions"]})
         suite = f"suite of {count} record{'s' * (count != 1)}"
-        return str(self.told["title"]) or (suite if self.told["study"].get("suite") else "untitled study")
+        return str(self.manifest["title"]) or (suite if self.manifest["study"].get("suite") else "untitled study")
 
     @property
     def complete(self) -> bool:
@@ -112,7 +112,7 @@ class Opened(Shown):
         InputError
             Where the study is no grid.
         """
-        method = "a table of dams" if self.told["dams"] else self.told["study"]["method"]
+        method = "a table of dams" if self.manifest["dams"] else self.manifest["study"]["method"]
         if method != "grid":
             raise InputError("study-no-grid", "to_xarray", method)
         try:
@@ -122,22 +122,22 @@ class Opened(Shown):
             raise InputError("study-package", "to_xarray", "xarray") from None
         table = self.to_pandas()
         table["motion"] = table["motion"].astype(str) + np.where(table["reversed"], ", turned round", "")
-        along = [*self.told["study"]["vary"], "motion", *self._strength(table), "model"]
+        along = [*self.manifest["study"]["vary"], "motion", *self._strength(table), "model"]
         kept = [name for name in along if table[name].nunique() > 1]
         return table.drop(columns=["run", "sample", "event", "reversed"]).set_index(kept).to_xarray()
 
     def _strength(self, table: Any) -> list[str]:
-        motions = self.told["study"]["motions"]
+        motions = self.manifest["study"]["motions"]
         if motions is None or motions["scale"] is None:
             return []
         count = len(motions["scale"]["values"])
-        table["strength"] = (table["run"] // len(self.told["study"]["model"])) % count
+        table["strength"] = (table["run"] // len(self.manifest["study"]["model"])) % count
         return ["strength"]
 
     @cached_property
     def walk(self) -> Walk:
         """Walks through the runs, some at a time."""
-        return Walk(self.store, self.told)
+        return Walk(self.store, self.manifest)
 
     @cached_property
     def outcomes(self) -> dict[str, int]:
@@ -187,7 +187,7 @@ class Opened(Shown):
     def hazard(self) -> list[dict[str, Any]] | None:
         """How often a year each limit of the fragility curves is exceeded, model by model; None where the study has no
         hazard curve."""
-        hazard, names = self.told["hazard"], self.told["events"]
+        hazard, names = self.manifest["hazard"], self.manifest["events"]
         if hazard is None:
             return None
         return [
@@ -228,7 +228,7 @@ class Opened(Shown):
         InputError
             Where it asks for none.
         """
-        settings = self.told["study"]["fragility"]
+        settings = self.manifest["study"]["fragility"]
         return [
             (model, curve(limit, value, settings["measure"], tally, confidence=settings["confidence"]))
             for (model, limit, value), tally in self.counted.items()
@@ -243,7 +243,7 @@ class Opened(Shown):
         InputError
             Where the study asks for no curve.
         """
-        settings = self.told["study"]["fragility"]
+        settings = self.manifest["study"]["fragility"]
         if settings is None:
             raise InputError("study-no-fragility", "fragility")
         return counted(self.walk, settings)
@@ -274,7 +274,7 @@ class Opened(Shown):
 
     def compared(self, demand: str = "residual_slip_m") -> dict[str, dict[str, Any]]:
         """Compare the measures of the strength of motions by how well they foretell a slip, for each model; see
-        :meth:`heeltoe.study.answers.comparison.Comparison.told`.
+        :meth:`heeltoe.study.answers.comparison.Comparison.as_dict`.
 
         Parameters
         ----------
@@ -331,7 +331,7 @@ class Opened(Shown):
         return [f"{at[dam]:.4g} {unit}".strip() if dam in at else "?" for dam in dams]
 
     def _asked(self, method: str) -> dict[str, Any]:
-        study: dict[str, Any] = self.told["study"]
+        study: dict[str, Any] = self.manifest["study"]
         if study["method"] != method:
             raise InputError("study-no-answer", "method", study["method"], method=method)
         return study
@@ -347,16 +347,16 @@ class Opened(Shown):
             "summary": self.summary,
             "suite": self.suite,
             "portfolio": self.portfolio,
-            "fragility": None if self.told["study"]["fragility"] is None else self.fragility,
+            "fragility": None if self.manifest["study"]["fragility"] is None else self.fragility,
             "hazard": self.hazard,
             "measures_compared": self.compared(),
-            "sensitivity": self.sensitivity() if self.told["study"]["method"] == "sensitivity" else None,
-            "one_at_a_time": self.tornado() if self.told["study"]["method"] == "one at a time" else None,
-            "warnings": self.told["warnings"],
-            "pilot": self.told["pilot"],
-            "seconds": self.told.get("seconds"),
-            "study": self.told["study"],
-            "build": self.told["build"],
+            "sensitivity": self.sensitivity() if self.manifest["study"]["method"] == "sensitivity" else None,
+            "one_at_a_time": self.tornado() if self.manifest["study"]["method"] == "one at a time" else None,
+            "warnings": self.manifest["warnings"],
+            "pilot": self.manifest["pilot"],
+            "seconds": self.manifest.get("seconds"),
+            "study": self.manifest["study"],
+            "build": self.manifest["build"],
         }
 
     def strength(self, name: str, period: str | float | None = None) -> np.ndarray[Any, Any]:
@@ -372,7 +372,7 @@ class Opened(Shown):
         return np.concatenate([np.zeros(0), *(runs.strength(measure) for runs in self.walk(*SHAKEN))])
 
 
-def open_study(directory: str | PathLike[str]) -> Opened:
+def open_study(directory: str | PathLike[str]) -> StudyResults:
     """Open the results of a study, complete or not.
 
     Raises
@@ -381,5 +381,5 @@ def open_study(directory: str | PathLike[str]) -> Opened:
         Where there is none.
     """
     place = Path(directory)
-    record = read_told(place)
-    return Opened(Store(place, record["count"], record["size"]), record)
+    record = read_manifest(place)
+    return StudyResults(Store(place, record["count"], record["size"]), record)

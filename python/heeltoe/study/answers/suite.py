@@ -65,7 +65,7 @@ def suite_of(walk: Walk) -> dict[str, Any] | None:
         ``judge``, the number over the records that is held against the limits; ``models`` with the ``records``, the
         ``statistics`` over them, the record that governs and the ``limits``, all SI and without signs.
     """
-    rule = walk.told["study"].get("suite")
+    rule = walk.manifest["study"].get("suite")
     if rule is None:
         return None
     judge = str(rule["judge"])
@@ -79,7 +79,7 @@ def _demands(walk: Walk) -> dict[str, str]:
 def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
     ways = _ways(walk, model)
     records: list[dict[str, Any]] = []
-    for motion in walk.told["motions"]:
+    for motion in walk.manifest["motions"]:
         name = motion["name"]
         if motion["reversed"] and any(record["motion"] == name for record in records):
             continue
@@ -89,7 +89,7 @@ def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
     demands = _demands(walk)
     values = {key: np.array([_counted(record, key) for record in records]) for key in demands}
     statistics = {key: _statistics(column) for key, column in values.items()}
-    worth = (walk.told["pilot"] or {}).get("evidence")
+    worth = (walk.manifest["pilot"] or {}).get("evidence")
     worst = max(records, key=lambda record: (severity(record["outcome"]), _counted(record, "residual_slip_m")))
     for record in records:
         record["governs"] = record is worst
@@ -200,7 +200,7 @@ def _uncertainty(name: str, value: float, worth: Mapping[str, Any]) -> float:
     if not known:
         return 0.0
     # Of the ways that one limit limits, the larger is the one that counts.
-    own = max(known, key=lambda each: abs(each["value"]))
+    own = max(known, key=lambda limit: abs(limit["value"]))
     size = abs(own["value"])
     return float(own["uncertainty"] * max(1.0, value / size if size else 1.0))
 
@@ -208,7 +208,7 @@ def _uncertainty(name: str, value: float, worth: Mapping[str, Any]) -> float:
 def suite_spectra(walk: Walk, records: Sequence[Mapping[str, Any]]) -> dict[str, Any] | None:
     """Return the response spectra of the records as they shake the dam [m/s2], (records, periods), with their mean, and
     the target; None where the study keeps none."""
-    spectra = walk.told.get("spectra")
+    spectra = walk.manifest.get("spectra")
     if spectra is None:
         return None
     scaled = np.array([np.multiply(record["factor"], spectra["motions"][record["motion"]]) for record in records])

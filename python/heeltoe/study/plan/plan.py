@@ -297,7 +297,7 @@ class Plan:
         """Return the pilot where it has made the run of a motion: of one dam at one strength."""
         return None if self.pilot is None or self.axes or self.scale is not None else self.pilot.of_motion(motion)
 
-    def told_motions(self) -> list[dict[str, Any]]:
+    def motions_of_manifest(self) -> list[dict[str, Any]]:
         """Return the motions with their measures as recorded, SI; spectral accelerations at the periods that the study
         names, as ``"sa(0.3)"``."""
         study = self.study

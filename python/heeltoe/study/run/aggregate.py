@@ -32,21 +32,21 @@ class Walk:
     ----------
     store
         Where they are.
-    told
+    manifest
         What the study is.
     """
 
     store: Store
-    told: Mapping[str, Any]
+    manifest: Mapping[str, Any]
 
     def __call__(self, *columns: str) -> Iterator[Stretch]:
         """Walk through the runs that are there, in their order."""
         if self.store.count <= _KEPT * _TOGETHER:
             for table in self._small:
-                yield Stretch(table.select(list(columns)), self.told)
+                yield Stretch(table.select(list(columns)), self.manifest)
             return
         for parts in self._stretches():
-            yield Stretch(_read(self.store, parts, list(columns)), self.told)
+            yield Stretch(_read(self.store, parts, list(columns)), self.manifest)
 
     @cached_property
     def _small(self) -> list[pa.Table]:
@@ -62,17 +62,17 @@ class Walk:
     @property
     def models(self) -> list[str]:
         """The models, in the order of their places."""
-        return list(self.told["study"]["model"])
+        return list(self.manifest["study"]["model"])
 
     @property
     def cracks(self) -> int:
         """How many cracks the dams have."""
-        return 1 + len(self.told["case"].get("further_cracks", ()))
+        return 1 + len(self.manifest["case"].get("further_cracks", ()))
 
     @property
     def limits(self) -> dict[str, float]:
         """What the base case allows, by the name of the limit, SI, accelerations in g."""
-        limits = self.told["case"].get("limits") or {}
+        limits = self.manifest["case"].get("limits") or {}
         known = {
             name: value for name, value in limits.items() if value is not None and (self.crest or name not in CREST)
         }
@@ -81,7 +81,7 @@ class Walk:
     @property
     def asked(self) -> list[tuple[str, float]]:
         """The limits of the curves with their values, in the same units."""
-        settings = self.told["study"]["fragility"]
+        settings = self.manifest["study"]["fragility"]
         limits = settings["limits"] if settings else {}
         return [(limit, self._number(value)) for limit, values in limits.items() for value in values]
 
@@ -92,12 +92,12 @@ class Walk:
         number, *unit = str(value).split()
         if unit != ["m/s^2"]:
             return float(number)
-        return float(number) / parse(self.told["case"].get("gravity", "1 g"), "acceleration", "gravity")
+        return float(number) / parse(self.manifest["case"].get("gravity", "1 g"), "acceleration", "gravity")
 
     @property
     def crest(self) -> bool:
         """Whether the runs say how the crest moves."""
-        return bool(self.told.get("crest"))
+        return bool(self.manifest.get("crest"))
 
     def of_cracks(self, name: str) -> list[str]:
         """Return the columns of a headline number at each of several cracks, from the crest down; none of one crack."""
@@ -114,22 +114,22 @@ class Walk:
         """
         if name == "sa" and period is not None:
             name = f"sa({float(str(period).split()[0]):g})"
-        known = ", ".join(self.told["motions"][0]["measures"])
-        if any(name not in motion["measures"] for motion in self.told["motions"]):
+        known = ", ".join(self.manifest["motions"][0]["measures"])
+        if any(name not in motion["measures"] for motion in self.manifest["motions"]):
             raise InputError("study-measure", "measure", name, known=known)
         return name
 
     @property
     def every(self) -> bool:
         """Whether every dam meets every motion, or one each."""
-        study = self.told["study"]
+        study = self.manifest["study"]
         chosen = study["motions"] and study["motions"]["every"]
         return study["method"] in ("grid", "one at a time") if chosen is None else bool(chosen)
 
     @property
     def strengths(self) -> int | None:
         """Through how many strengths each motion goes; None where each dam draws one."""
-        motions = self.told["study"]["motions"]
+        motions = self.manifest["study"]["motions"]
         scale = motions and motions["scale"]
         if not scale:
             return 1
@@ -141,7 +141,7 @@ class Walk:
         cube = np.full(self.store.count, np.nan)
         for runs in self("run", name):
             cube[runs.whole("run")] = runs.numbers(name)
-        motions = len(self.told["motions"]) if self.every else 1
+        motions = len(self.manifest["motions"]) if self.every else 1
         return cube.reshape(-1, motions, self.strengths or 1, len(self.models))
 
 
@@ -157,28 +157,32 @@ class Stretch:
     ----------
     table
         The columns that were asked for.
-    told
+    manifest
         What the study is.
     """
 
     table: pa.Table
-    told: Mapping[str, Any]
+    manifest: Mapping[str, Any]
 
     @property
     def model(self) -> Integers:
         """(n,) place among the models of the study."""
-        return self._places("model", {name: place for place, name in enumerate(self.told["study"]["model"])})
+        return self._places("model", {name: place for place, name in enumerate(self.manifest["study"]["model"])})
 
     @property
     def event(self) -> Integers:
         """(n,) place among the events of the study."""
-        return self._places("event", {name: place for place, name in enumerate(self.told["events"])})
+        return self._places("event", {name: place for place, name in enumerate(self.manifest["events"])})
 
     @cached_property
     def motion(self) -> Integers:
         """(n,) place among the motions of the study."""
         both = [
-            {motion["name"]: place for place, motion in enumerate(self.told["motions"]) if motion["reversed"] == turned}
+            {
+                motion["name"]: place
+                for place, motion in enumerate(self.manifest["motions"])
+                if motion["reversed"] == turned
+            }
             for turned in (False, True)
         ]
         ways = [self._places("motion", known) for known in both]
@@ -186,7 +190,7 @@ class Stretch:
 
     def strength(self, measure: str) -> Floats:
         """Return how strong the motion of each run is, (n,) SI, by what :meth:`Walk.measure` returns."""
-        values = np.array([motion["measures"][measure] for motion in self.told["motions"]], dtype=np.float64)
+        values = np.array([motion["measures"][measure] for motion in self.manifest["motions"]], dtype=np.float64)
         return np.asarray(at_factor(values[self.motion], measure, self.numbers("factor")), dtype=np.float64)
 
     def numbers(self, name: str) -> Floats:

@@ -276,9 +276,9 @@ def _two_blocks(plan: Plan, runs: Runs, rows: Integers, results: Found, threads:
         ran = list(pool.map(run, rows.tolist(), [dams[sample] for sample in of_sample.tolist()]))
     done = [(row, *result) for row, result in zip(rows.tolist(), ran, strict=True) if result is not None]
     if done:
-        there = np.array([row for row, _, _ in done])
-        results.put(there, *_ran([response for _, response, _ in done]))
-        results.undetermined[there] = [undetermined for _, _, undetermined in done]
+        places = np.array([row for row, _, _ in done])
+        results.put(places, *_ran([response for _, response, _ in done]))
+        results.undetermined[places] = [undetermined for _, _, undetermined in done]
 
 
 def _ran(responses: Sequence[Response]) -> Ran:

@@ -22,7 +22,7 @@ from heeltoe.models.flexible.model import answer_at_rest
 from heeltoe.models.flexible.run.expected import frame_step_of
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import leading_crack
-from heeltoe.study.answers.study_results import Opened, open_study
+from heeltoe.study.answers.study_results import StudyResults, open_study
 from heeltoe.study.plan.file import Study, read_study
 from heeltoe.study.plan.plan import Pilot, Plan, plan_of
 from heeltoe.study.run.batches import SECONDS, run_part
@@ -156,7 +156,7 @@ def run_study(
     scheduler: str | None = None,
     progress: Callable[[Progress], None] | None = None,
     before: Callable[[Outlook], None] | None = None,
-) -> Opened:
+) -> StudyResults:
     """Run a study, or what is left of it.
 
     Parameters
@@ -179,7 +179,7 @@ def run_study(
 
     Returns
     -------
-    Opened
+    StudyResults
         The results, as :func:`heeltoe.open_study` returns them.
 
     Raises

@@ -104,7 +104,7 @@ def begin(plan: Plan, directory: Path, size: int, *, resume: bool) -> Store:
     """
     check_directory(directory, "--out")
     if (directory / STUDY).exists():
-        record = read_told(directory)
+        record = read_manifest(directory)
         if record["fingerprint"] != plan.fingerprint:
             raise InputError("study-other", "--out", directory, changed=_changed(record["inputs"], plan.inputs))
         if not resume:
@@ -149,7 +149,7 @@ def keep(store: Store, plan: Plan) -> None:
         "inputs": plan.inputs,
         "warnings": plan.warnings(),
         "events": list(plan.events),
-        "motions": plan.told_motions(),
+        "motions": plan.motions_of_manifest(),
         "dams": None if plan.dams is None else list(plan.dams),
         "hazard": None if plan.hazard is None else plan.hazard.to_json(),
         "spectra": plan.spectra(),
@@ -164,11 +164,11 @@ def keep(store: Store, plan: Plan) -> None:
 
 def keep_questions(directory: Path, plan: Plan) -> None:
     """Put what is asked of the runs, on which they do not hang, in the place of what was asked before."""
-    record = read_told(directory)
+    record = read_manifest(directory)
     record |= {
         "title": plan.study.title,
         "study": plan.study.model_dump(mode="json"),
-        "motions": plan.told_motions(),
+        "motions": plan.motions_of_manifest(),
         "hazard": None if plan.hazard is None else plan.hazard.to_json(),
         "spectra": plan.spectra(),
     }
@@ -177,7 +177,7 @@ def keep_questions(directory: Path, plan: Plan) -> None:
 
 def keep_seconds(directory: Path, seconds: Mapping[str, float]) -> None:
     """Add to what a study is how long what of its runs took."""
-    record = read_told(directory)
+    record = read_manifest(directory)
     before = record.get("seconds", {})
     record["seconds"] = before | {name: round(before.get(name, 0.0) + more, 3) for name, more in seconds.items()}
     write_text(directory / STUDY, json_text(record), "--out")
@@ -185,11 +185,11 @@ def keep_seconds(directory: Path, seconds: Mapping[str, float]) -> None:
 
 def pilot_of(directory: Path) -> Pilot | None:
     """Return how fine the flexible runs of a study that has been begun are; None where that is not known yet."""
-    pilot = read_told(directory)["pilot"]
+    pilot = read_manifest(directory)["pilot"]
     return None if pilot is None else Pilot.from_json(pilot)
 
 
-def read_told(directory: Path) -> dict[str, Any]:
+def read_manifest(directory: Path) -> dict[str, Any]:
     """Return what a study's directory says that it is.
 
     Raises

@@ -17,7 +17,7 @@ from heeltoe.case.read import read_case
 from heeltoe.case.suite import Suite
 from heeltoe.errors.error import InputError
 from heeltoe.models.run import AUTO, check_model, models_of
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.plan.file import Study
 from heeltoe.study.plan.motions import suite_events
 from heeltoe.study.run.run import Outlook, Progress, run_study
@@ -44,7 +44,7 @@ def run_suite(
     progress: Callable[[Progress], None] | None = None,
     before: Callable[[Outlook], None] | None = None,
     **suite: Any,
-) -> Opened:
+) -> StudyResults:
     """Run one dam through several earthquakes, each both ways round.
 
     Parameters
@@ -65,7 +65,7 @@ def run_suite(
 
     Returns
     -------
-    Opened
+    StudyResults
         The runs; `suite` has each record, the numbers over all of them, and the limits.
 
     Raises

@@ -30,7 +30,7 @@ _SHARE = 0.62
 
 def dam_pages(subject: StudySubject) -> Section | None:
     """Return a page for each of the worst dams of a table; None of a study without one."""
-    portfolio = subject.found.portfolio
+    portfolio = subject.results.portfolio
     if not portfolio:
         return None
     worst = [dam["dam"] for dam in portfolio[-1]["dams"][:PAGES]]
@@ -47,7 +47,7 @@ def _runs(subject: StudySubject, dams: list[int]) -> dict[int, list[dict[str, An
     fields = list(_fields(subject))
     kept: dict[int, list[dict[str, Any]]] = {dam: [] for dam in dams}
     names = ("sample", "model", "motion", "reversed", "factor", "outcome", "residual_slip_m", *fields)
-    for runs in subject.found.walk(*names):
+    for runs in subject.results.walk(*names):
         here = runs.table.filter(np.isin(runs.whole("sample"), dams))
         for row in here.to_pylist():
             kept[row["sample"]].append(row)
@@ -56,21 +56,21 @@ def _runs(subject: StudySubject, dams: list[int]) -> dict[int, list[dict[str, An
 
 def _fields(subject: StudySubject) -> Mapping[str, str]:
     """Return the units of the fields that the table of dams gives."""
-    names = subject.found.dataset.schema.names
-    given = names[names.index("factor") + 1 : names.index("outcome")]
-    return {name: DIMENSIONS[quantity].unit if (quantity := quantity_of(name)) else "" for name in given}
+    names = subject.results.dataset.schema.names
+    varied = names[names.index("factor") + 1 : names.index("outcome")]
+    return {name: DIMENSIONS[quantity].unit if (quantity := quantity_of(name)) else "" for name in varied}
 
 
 def _page(subject: StudySubject, dam: int, runs: list[dict[str, Any]]) -> Section:
     """Return the page of a dam."""
     from heeltoe.views.figures.section import section_figure
 
-    units, found = subject.units, subject.found
+    units, results = subject.units, subject.results
     fields = {
         name: f"{runs[0][name]!r} {unit}".strip() if isinstance(runs[0][name], float) else runs[0][name]
         for name, unit in _fields(subject).items()
     }
-    case, name = subject.case.with_(fields), str(found.told["dams"][dam])
+    case, name = subject.case.with_(fields), str(results.manifest["dams"][dam])
     blocks: list[Block] = [paragraph(Strong("Rank. "), " ".join(_ranks(subject, dam)))]
     rows: list[tuple[Inline, ...]] = [
         (Code(field), shown(text, units, field.rpartition(".")[2]), shown(_base(subject.case, field), units))
@@ -92,7 +92,7 @@ def _base(case: Case, field: str) -> Any:
 def _ranks(subject: StudySubject, dam: int) -> list[str]:
     """Say for each model which rank a dam has, and by what."""
     sentences = []
-    for row in subject.found.portfolio or ():
+    for row in subject.results.portfolio or ():
         own = next(entry for entry in row["dams"] if entry["dam"] == dam)
         shares = [
             f"{100.0 * share:.1f} % of the motions exceed the {limit_of(limit['limit'], limit['value'], subject.units)}"
@@ -109,11 +109,13 @@ def _ranks(subject: StudySubject, dam: int) -> list[str]:
 
 def _motions(subject: StudySubject, runs: list[dict[str, Any]]) -> Table:
     """Return the runs of a dam that slip most, those without a result first."""
-    peaks = {motion["name"]: motion["measures"]["pga"] / STANDARD_GRAVITY for motion in subject.found.told["motions"]}
+    peaks = {
+        motion["name"]: motion["measures"]["pga"] / STANDARD_GRAVITY for motion in subject.results.manifest["motions"]
+    }
     ranked = sorted(runs, key=lambda run: np.inf if run["residual_slip_m"] is None else abs(run["residual_slip_m"]))
     worst = ranked[::-1][:_MOTIONS]
     slips = in_one_unit([[Amount(run["residual_slip_m"], zero="0")] for run in worst], subject.units)
-    several = len(subject.found.walk.models) > 1
+    several = len(subject.results.walk.models) > 1
     rows: list[tuple[Inline, ...]] = [
         (
             Code(plain(run["motion"])),

@@ -14,7 +14,7 @@ from heeltoe.errors.sanitize import plain
 from heeltoe.mechanics.references import cited
 from heeltoe.models.runner import TRUSTED
 from heeltoe.result.verdict import verdict
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.write import NOTHING, digits
 from heeltoe.views.content.dam_pages import dam_pages
@@ -92,7 +92,7 @@ class StudySubject:
         What was typed; empty if it was not typed.
     """
 
-    found: Opened
+    results: StudyResults
     directory: Path
     numbers: Numbers
     figures: Mapping[str, FigureBlock]
@@ -101,12 +101,12 @@ class StudySubject:
     @cached_property
     def case(self) -> Case:
         """Its base case."""
-        return Case.of(self.found.told["case"], self.directory)
+        return Case.of(self.results.manifest["case"], self.directory)
 
     @property
     def study(self) -> dict[str, Any]:
         """The study file as read."""
-        return dict(self.found.told["study"])
+        return dict(self.results.manifest["study"])
 
     @property
     def units(self) -> str:
@@ -119,7 +119,7 @@ class StudySubject:
 
 
 def study_subject(
-    study: Opened, directory: Path, units: str, command: str, figures: Mapping[str, Figure] | None
+    study: StudyResults, directory: Path, units: str, command: str, figures: Mapping[str, Figure] | None
 ) -> StudySubject:
     """Gather what a report needs.
 
@@ -148,14 +148,14 @@ def study_subject(
     return replace(subject, figures=blocks)
 
 
-def study_answer(study: Opened, units: str) -> tuple[Block, ...]:
+def study_answer(study: StudyResults, units: str) -> tuple[Block, ...]:
     """Return what the study says in sentences, and which runs are missing or have no result."""
     subject = StudySubject(study, Path(), Numbers(study.to_json(), units), {}, "")
     blocks = suite_answer(subject) or answer(subject)
     return without_gaps(_missing(study), *blocks, *portfolio(subject), _lost(study))
 
 
-def study_sections(study: Opened, units: str) -> tuple[Block, ...]:
+def study_sections(study: StudyResults, units: str) -> tuple[Block, ...]:
     """Return the results of a study in tables."""
     subject = StudySubject(study, Path(), Numbers(study.to_json(), units), {}, "")
     sections = (
@@ -173,7 +173,7 @@ def study_sections(study: Opened, units: str) -> tuple[Block, ...]:
 
 def study_document(subject: StudySubject) -> Document:
     """Return the whole report."""
-    study = subject.found
+    study = subject.results
     sections = (
         _question(subject),
         suite(subject),
@@ -197,19 +197,19 @@ def study_document(subject: StudySubject) -> Document:
     return Document(
         title=plain(study.title),
         subtitle=f"A {what} of {study.store.count:,} runs, by the {models} model{'s' * bool(others)}",
-        footer=f"heeltoe {study.told['build']['heeltoe']} · study {study.told['fingerprint'][:12]}",
+        footer=f"heeltoe {study.manifest['build']['heeltoe']} · study {study.manifest['fingerprint'][:12]}",
         blocks=one_unit_each(without_gaps(*sections), subject.numbers),
     )
 
 
 def _question(subject: StudySubject) -> Section:
-    study = subject.found
+    study = subject.results
     dams = study.store.count // max(1, _each(subject))
-    motions = len(study.told["motions"])
+    motions = len(study.manifest["motions"])
     asked = (
         f"What does the part above the crack do in {study.store.count:,} runs: {dams:,} "
         f"dam{'s' * (dams != 1)}, {motions:,} ground motion{'s' * (motions != 1)} of "
-        f"{len(study.told['events']):,} event{'s' * (len(study.told['events']) != 1)}?"
+        f"{len(study.manifest['events']):,} event{'s' * (len(study.manifest['events']) != 1)}?"
     )
     asked += "" if study.walk.every or motions == 1 else " Each dam meets one of them."
     blocks: list[Block | None] = [
@@ -219,13 +219,13 @@ def _question(subject: StudySubject) -> Section:
         None if study.suite else _base_case(subject),
         _lost(study),
     ]
-    if study.told["warnings"]:
-        warned = tuple((plain(text, 1000),) for text in study.told["warnings"])
+    if study.manifest["warnings"]:
+        warned = tuple((plain(text, 1000),) for text in study.manifest["warnings"])
         blocks.append(Notes("warning", "Warnings", warned))
     return Section("Question and answer", without_gaps(*blocks))
 
 
-def _missing(study: Opened) -> Block | None:
+def _missing(study: StudyResults) -> Block | None:
     """Say how many runs are missing."""
     if study.complete:
         return None
@@ -233,7 +233,7 @@ def _missing(study: Opened) -> Block | None:
     return Notes("warning", "Not complete", ((text,),))
 
 
-def _lost(study: Opened) -> Block | None:
+def _lost(study: StudyResults) -> Block | None:
     """Say which runs ended without a result."""
     lost = {name: count for name, count in study.outcomes.items() if name not in TRUSTED}
     if not sum(lost.values()):
@@ -249,8 +249,8 @@ def _lost(study: Opened) -> Block | None:
 
 def _each(subject: StudySubject) -> int:
     """Return how many runs each dam has."""
-    walk = subject.found.walk
-    return (len(subject.found.told["motions"]) if walk.every else 1) * (walk.strengths or 1) * len(walk.models)
+    walk = subject.results.walk
+    return (len(subject.results.manifest["motions"]) if walk.every else 1) * (walk.strengths or 1) * len(walk.models)
 
 
 def _base_case(subject: StudySubject) -> Block | None:
@@ -276,7 +276,7 @@ def _varied(subject: StudySubject) -> Section:
     how += f", {study['samples']:,} samples, seed {study['seed']}." if drawn else "."
     blocks.append(paragraph(how))
     if study["cases"]:
-        many = f"{len(subject.found.told['dams']):,} dams of the table "
+        many = f"{len(subject.results.manifest['dams']):,} dams of the table "
         blocks.append(paragraph(many, Code(study["cases"]), "; all else is as in the base case."))
     elif study["vary"]:
         varied = tuple((Code(path), values_said(values, subject.units, path)) for path, values in study["vary"].items())
@@ -290,7 +290,7 @@ def _varied(subject: StudySubject) -> Section:
 
 
 def _motions(subject: StudySubject) -> Section:
-    motions = subject.found.told["motions"]
+    motions = subject.results.manifest["motions"]
     motions_of_study = subject.study["motions"]
     scale = motions_of_study and motions_of_study["scale"]
     sentence = (
@@ -336,7 +336,7 @@ def _seconds(value: float | None) -> str:
 
 def _fine(subject: StudySubject) -> Section | None:
     """Say how fine flexible runs are, and where the time went."""
-    pilot, seconds = subject.found.told["pilot"], subject.found.told.get("seconds")
+    pilot, seconds = subject.results.manifest["pilot"], subject.results.manifest.get("seconds")
     blocks: list[Block] = []
     if pilot is not None:
         below = pilot["elements_across_below"]
@@ -356,10 +356,10 @@ def _fine(subject: StudySubject) -> Section | None:
 
 
 def _references(subject: StudySubject) -> tuple[str, ...]:
-    keys = list(subject.found.walk.models)
+    keys = list(subject.results.walk.models)
     if subject.study["fragility"]:
         keys += _SOURCES["fragility"]
-    if len({motion["name"] for motion in subject.found.told["motions"]}) > 1:
+    if len({motion["name"] for motion in subject.results.manifest["motions"]}) > 1:
         keys += _SOURCES["measures"]
     if subject.study["method"] == "sensitivity":
         keys += _SOURCES["sensitivity"]
@@ -367,15 +367,15 @@ def _references(subject: StudySubject) -> tuple[str, ...]:
 
 
 def _rerun(subject: StudySubject) -> Section:
-    study = subject.found
-    build = " ".join(f"{name} {version}" for name, version in study.told["build"].items())
+    study = subject.results
+    build = " ".join(f"{name} {version}" for name, version in study.manifest["build"].items())
     return Section(
         "To run it again",
         (
             paragraph("With the study file, its base case and its records, this command makes the same numbers again:"),
             Listing(subject.command or "heeltoe study STUDY.toml --report"),
             paragraph(Strong("Build. "), Code(build)),
-            paragraph(Strong("Study, SHA-256. "), Code(study.told["fingerprint"])),
+            paragraph(Strong("Study, SHA-256. "), Code(study.manifest["fingerprint"])),
             paragraph(
                 "The hash covers the study, every field of the base case in SI units, defaults included, and the "
                 "samples of all ground motions, so that the same hash and the same build mean the same numbers."

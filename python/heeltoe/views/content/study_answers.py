@@ -30,14 +30,14 @@ _SHOWN = ("residual_slip_m", "opening_upstream_m", "rocking_upstream_rad")
 def answer(subject: StudySubject) -> list[Block]:
     """Return what the study says in a few sentences, model by model."""
     blocks: list[Block] = []
-    for row in subject.found.summary:
+    for row in subject.results.summary:
         slip = row["residual_slip_m"]
         sentence = f"{_percent(row['share_that_slides'])} of {row['runs']:,} runs slide more than a joint meter reads"
         if slip["50%"] is not None:
             (amounts,) = in_one_unit(
                 [[Amount(slip[key], zero="0") for key in ("50%", "84%", "largest")]], subject.units
             )
-            of = " of the crack that leads" if subject.found.walk.cracks > 1 else ""
+            of = " of the crack that leads" if subject.results.walk.cracks > 1 else ""
             sentence += f"; the residual slip{of}, positive downstream, has the median {amounts[0]}, 84 % stay below "
             sentence += f"{amounts[1]}, and the farthest run ends at {amounts[2]}"
         sentence = f"{sentence}. " + " ".join(
@@ -51,13 +51,13 @@ def _limits(subject: StudySubject) -> dict[str, str]:
     """Return the limits of the base case in words, by their names."""
     return {
         name: f"{LABELS[name]} of {measured(value, UNITS.get(name, 'm'), subject.units)}"
-        for name, value in subject.found.walk.limits.items()
+        for name, value in subject.results.walk.limits.items()
     }
 
 
 def _not_kept(subject: StudySubject, summary: dict[str, Any]) -> list[str]:
     """Say how many runs do not keep within each limit of the base case."""
-    where = ", at one crack at least" if subject.found.walk.cracks > 1 else ""
+    where = ", at one crack at least" if subject.results.walk.cracks > 1 else ""
     return [
         f"{summary['limits_not_met'][name]:,} of {summary['runs']:,} runs exceed the {limit} that the case "
         f"allows{where}."
@@ -67,7 +67,7 @@ def _not_kept(subject: StudySubject, summary: dict[str, Any]) -> list[str]:
 
 def _exceeded(subject: StudySubject, model: str) -> list[str]:
     sentences = []
-    for row in subject.found.fragility if subject.study["fragility"] else ():
+    for row in subject.results.fragility if subject.study["fragility"] else ():
         if row["model"] != model:
             continue
         what = _article(limit_of(row["limit"], row["value"], subject.units, " of"))
@@ -76,14 +76,14 @@ def _exceeded(subject: StudySubject, model: str) -> list[str]:
             continue
         middle, ends = _median(row, subject.units)
         guess = "" if row["reached"] else ", which no motion here has"
-        where = " at any crack" if subject.found.walk.cracks > 1 else ""
+        where = " at any crack" if subject.results.walk.cracks > 1 else ""
         sentences.append(f"Half of the dams exceed {what}{where} at {_article(_named(row))} of {middle}{ends}{guess}.")
     return sentences
 
 
 def results(subject: StudySubject) -> Section:
     """Return the section on how runs ended, how far they slide and by which mode."""
-    summary, n = subject.found.summary, subject.numbers
+    summary, n = subject.results.summary, subject.numbers
     places = range(len(summary))
     head = ("", *(row["model"] for row in summary))
     align = "l" + "r" * len(summary)
@@ -91,7 +91,7 @@ def results(subject: StudySubject) -> Section:
     ended: list[tuple[Inline, ...]] = [("all runs", *(f"{row['runs']:,}" for row in summary))]
     ended += [(name, *(f"{row['outcomes'].get(name, 0):,}" for row in summary)) for name in outcomes]
     labels = {headline.key: headline.label for headline in HEADLINES}
-    crest = [(key, key.rpartition("_")[0].replace("_", " ")) for key in CREST_PEAKS if subject.found.walk.crest]
+    crest = [(key, key.rpartition("_")[0].replace("_", " ")) for key in CREST_PEAKS if subject.results.walk.crest]
     rows: list[tuple[Inline, ...]] = [
         ("that slide", *(_percent(row["share_that_slides"]) for row in summary)),
         ("that slide farther than the crack is long", *(f"{row['slid_off']:,}" for row in summary)),
@@ -105,7 +105,7 @@ def results(subject: StudySubject) -> Section:
                 f"{of}{labels[key]}: {what}",
                 *(n(f"summary.{place}.{at}{key}.{name}", _QUANTITIES[key]) for place in places),
             )
-            for of, at in _of_cracks(subject.found.walk.cracks)
+            for of, at in _of_cracks(subject.results.walk.cracks)
             for key in _SHOWN
             for name, what in _SHARES
         ),
@@ -120,7 +120,7 @@ def results(subject: StudySubject) -> Section:
             if any(row["dominant_mode"].get(mode) for row in summary)
         ),
     ]
-    cracks = f"; {ABOUT_CRACKS}" if subject.found.walk.cracks > 1 else ""
+    cracks = f"; {ABOUT_CRACKS}" if subject.results.walk.cracks > 1 else ""
     return Section(
         "Results",
         (
@@ -152,12 +152,12 @@ def fragility(subject: StudySubject) -> Section | None:
     asked = subject.study["fragility"]
     if asked is None:
         return None
-    curves = subject.found.fragility
+    curves = subject.results.fragility
     limits = limits_of([(curve["limit"], curve["value"]) for curve in curves], subject.units)
     rows: list[tuple[Inline, ...]] = []
     for curve in curves:
         what = limits[curve["limit"], curve["value"]]
-        label = f"{what}, {curve['model']}" if len(subject.found.walk.models) > 1 else what
+        label = f"{what}, {curve['model']}" if len(subject.results.walk.models) > 1 else what
         exceeding = f"{curve['exceeding']:,} of {curve['runs']:,}"
         if curve["median"] is None:
             rows.append((label, curve["why"], "", "", "", exceeding))
@@ -186,14 +186,14 @@ def fragility(subject: StudySubject) -> Section | None:
 
 def hazard_section(subject: StudySubject) -> Section | None:
     """Return the section on how often a year each limit is exceeded, where the study has a hazard curve."""
-    annual = subject.found.hazard
+    annual = subject.results.hazard
     if annual is None:
         return None
     limits = limits_of([(row["limit"], row["value"]) for row in annual], subject.units)
     rows: list[tuple[Inline, ...]] = []
     for row in annual:
         what = limits[row["limit"], row["value"]]
-        label = f"{what}, {row['model']}" if len(subject.found.walk.models) > 1 else what
+        label = f"{what}, {row['model']}" if len(subject.results.walk.models) > 1 else what
         if row["annual_rate"] is None:
             rows.append((label, row["why"], "", "", ""))
             continue
@@ -218,7 +218,7 @@ def hazard_section(subject: StudySubject) -> Section | None:
     blocks = (
         paragraph(text),
         table,
-        *_fractiles(annual, limits, several=len(subject.found.walk.models) > 1),
+        *_fractiles(annual, limits, several=len(subject.results.walk.models) > 1),
         *_by_event(subject, annual, limits),
         *_at_strengths(subject, annual, limits),
         *subject.figure("hazard"),
@@ -250,7 +250,7 @@ def _by_event(
     known = [row for row in annual if row["by_event"]]
     if not known:
         return ()
-    scale, several = strength_scale(known[0]["measure"], subject.units), len(subject.found.walk.models) > 1
+    scale, several = strength_scale(known[0]["measure"], subject.units), len(subject.results.walk.models) > 1
     parts = [{part["event"]: part for part in row["by_event"]} for row in known]
     shown = list(parts[0])[:SHOWN_EVENTS]
     rows: list[tuple[Inline, ...]] = [
@@ -278,7 +278,7 @@ def _at_strengths(
     if not known:
         return ()
     scale = strength_scale(known[0]["measure"], subject.units)
-    several = len(subject.found.walk.models) > 1
+    several = len(subject.results.walk.models) > 1
     heads = [limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "") for row in known]
     rows: list[tuple[Inline, ...]] = []
     for place, point in enumerate(known[0]["at"]):
@@ -320,7 +320,7 @@ _ENDLESS = 1e8
 def _each_year(subject: StudySubject, model: str) -> list[str]:
     """Say how often a year each limit is exceeded."""
     sentences = []
-    for row in subject.found.hazard or ():
+    for row in subject.results.hazard or ():
         if row["model"] != model or row["annual_rate"] is None:
             continue
         what = _article(limit_of(row["limit"], row["value"], subject.units, " of"))
@@ -342,7 +342,7 @@ SHOWN_DAMS = 25
 def portfolio(subject: StudySubject) -> list[Block]:
     """Return the dams of a table by their ranks, a table for each model."""
     blocks: list[Block] = []
-    for row in subject.found.portfolio or ():
+    for row in subject.results.portfolio or ():
         worst, count = row["dams"][:SHOWN_DAMS], len(row["dams"])
         limits = [limit_of(limit["limit"], limit["value"], subject.units) for limit in row["limits"]]
         cells = [
@@ -364,7 +364,7 @@ def portfolio(subject: StudySubject) -> list[Block]:
 
 def portfolio_section(subject: StudySubject) -> Section | None:
     """Return the section on the dams of a table, where the study has one."""
-    if subject.found.portfolio is None:
+    if subject.results.portfolio is None:
         return None
     text = (
         "Each motion counts by its worse sign at each of its strengths. A run without a result counts as infinitely "
@@ -375,10 +375,10 @@ def portfolio_section(subject: StudySubject) -> Section | None:
 
 def measures_compared(subject: StudySubject) -> Section | None:
     """Return the section that compares measures of the strength of motions, where there are several motions."""
-    if len({motion["name"] for motion in subject.found.told["motions"]}) < 2:
+    if len({motion["name"] for motion in subject.results.manifest["motions"]}) < 2:
         return None
     blocks: list[Block] = []
-    for model, comparison in subject.found.compared().items():
+    for model, comparison in subject.results.compared().items():
         if not comparison["measures"]:
             continue
         traits = [
@@ -404,7 +404,7 @@ def measures_compared(subject: StudySubject) -> Section | None:
 
 def hangs_on(subject: StudySubject) -> Section | None:
     """Return the section on what the slip depends on, where the study is made for it."""
-    method, study = subject.study["method"], subject.found
+    method, study = subject.study["method"], subject.results
     if method == "sensitivity":
         blocks = [_sobol(model, numbers) for model, numbers in study.sensitivity().items()]
     elif method == "one at a time":

@@ -26,7 +26,7 @@ _ACCELERATION = "crest_acceleration_g"
 
 def suite_answer(subject: StudySubject) -> list[Block]:
     """Return what a suite says: a sentence and the limits for each model, then its records."""
-    suite = subject.found.suite
+    suite = subject.results.suite
     if suite is None:
         return []
     blocks: list[Block] = []
@@ -46,7 +46,7 @@ def suite_answer(subject: StudySubject) -> list[Block]:
 
 def suite(subject: StudySubject) -> Section | None:
     """Return the section with records, numbers over them and figures, of a suite."""
-    answer = subject.found.suite
+    answer = subject.results.suite
     if answer is None:
         return None
     blocks: list[Block] = []

@@ -16,7 +16,7 @@ from heeltoe.base.atomic_files import written
 from heeltoe.errors.error import InputError
 from heeltoe.models.statics.joints import Joints
 from heeltoe.result.response import Response
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.small.run_table import SmallStudy
 from heeltoe.study.small.statics import statics_json
 from heeltoe.views.explain.keys import numbers_of_a_run, unit_of
@@ -44,7 +44,7 @@ def check_workbook(field: str = "--xlsx") -> None:
         raise InputError("workbook-package", field, "xlsxwriter")
 
 
-def write_workbook(result: Response | SmallStudy | Opened | Joints, path: str | Path) -> Path:
+def write_workbook(result: Response | SmallStudy | StudyResults | Joints, path: str | Path) -> Path:
     """Write the tables of a result as a workbook, SI, with the unit beside each number or in the head of its column.
 
     Parameters
@@ -71,12 +71,12 @@ def write_workbook(result: Response | SmallStudy | Opened | Joints, path: str | 
     return place
 
 
-def fill_workbook(result: Response | SmallStudy | Opened | Joints, path: Path) -> None:
+def fill_workbook(result: Response | SmallStudy | StudyResults | Joints, path: Path) -> None:
     """Write a workbook as :func:`write_workbook` into a directory that is written aside already."""
     _write(_sheets(result), path)
 
 
-def _sheets(result: Response | SmallStudy | Opened | Joints) -> Iterator[tuple[str, Row, Iterator[Row]]]:
+def _sheets(result: Response | SmallStudy | StudyResults | Joints) -> Iterator[tuple[str, Row, Iterator[Row]]]:
     """Return each sheet: its name, its head, and its rows."""
     if isinstance(result, Joints):
         yield "numbers", _NUMBERS, _numbers(statics_json(result))
@@ -84,7 +84,7 @@ def _sheets(result: Response | SmallStudy | Opened | Joints) -> Iterator[tuple[s
         yield _of_table("checks", pa.Table.from_pylist(list(check_rows(result))))
         return
     yield "numbers", _NUMBERS, _numbers(result.to_json())
-    if isinstance(result, SmallStudy | Opened):
+    if isinstance(result, SmallStudy | StudyResults):
         yield _of_table("runs", result.to_table())
     elif isinstance(result, Response):
         for response in result.responses:

@@ -16,7 +16,7 @@ from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.models.flexible.surroundings.amplification import Amplification
 from heeltoe.result.response import Response
 from heeltoe.result.write import json_text, write_table
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.small.overturning import OverturningMap
 from heeltoe.study.small.run_table import SmallStudy
 from heeltoe.study.small.solve import Solved
@@ -182,7 +182,7 @@ def write_law(curves: Mapping[str, LawCurve], directory: Path) -> list[Path]:
 
 
 def write_study(
-    study: Opened,
+    study: StudyResults,
     directory: Path,
     units: str = "si",
     *,

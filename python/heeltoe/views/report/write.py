@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from heeltoe.models.statics.joints import Joints
     from heeltoe.models.statics.model import Statics
     from heeltoe.result.response import Response
-    from heeltoe.study.answers.study_results import Opened
+    from heeltoe.study.answers.study_results import StudyResults
     from heeltoe.views.content.tree import Document
 
 #: What each kind of report needs that heeltoe itself does not.
@@ -154,7 +154,7 @@ def write_report(
 
 
 def write_study_report(
-    study: Opened,
+    study: StudyResults,
     fresh: Path,
     *,
     base: Path | None = None,

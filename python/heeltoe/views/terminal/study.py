@@ -5,7 +5,7 @@ from __future__ import annotations
 from rich.console import Console
 from rich.markup import escape
 
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.run.run import Outlook, Progress
 from heeltoe.views.content.study import study_answer, study_sections
 from heeltoe.views.terminal.render import Screen, print_title, print_warnings, render
@@ -48,16 +48,16 @@ def progress_text(progress: Progress) -> str:
     return f"{progress.rate:,.0f} runs/s, {duration(progress.left)} left{failed}"
 
 
-def print_study(study: Opened, console: Console, units: str = "si", *, details: bool = False) -> None:
+def print_study(study: StudyResults, console: Console, units: str = "si", *, details: bool = False) -> None:
     """Print the answers of a study in sentences; in detail its tables, too. Lengths are in ``"si"`` or ``"us"``."""
     print_title(study.title, "study" if study.suite is None else "suite", console)
-    plan = study.told["study"]
-    events = counted(len(study.told["events"]), "event")
+    plan = study.manifest["study"]
+    events = counted(len(study.manifest["events"]), "event")
     # A suite, or several motions of one dam, vary no field.
     by = f"{plan['method']}, {counted(len(plan['vary']), 'field')}, {events}" if plan["vary"] else events
     console.print(escape(f"{study.store.count:,} runs; {by}"), style="dim", soft_wrap=True, highlight=False)
     render(study_answer(study, units), console)
-    warnings = study.told["warnings"]
+    warnings = study.manifest["warnings"]
     if not details:
         Screen(console).add_warnings(warnings, "distributions, fragility, measures of strength and sensitivity")
         return

@@ -108,7 +108,7 @@ def _affordable(trials: Trials, level: Level, *, full: bool, means: bool) -> boo
 
 def _worst(evidences: Sequence[Evidence]) -> Evidence:
     """Return the evidence of the crack whose slip is the least certain, the first of them where several are as bad."""
-    return max(evidences, key=lambda each: (not each.converged, each.slip.uncertainty / each.allowed))
+    return max(evidences, key=lambda evidence: (not evidence.converged, evidence.slip.uncertainty / evidence.allowed))
 
 
 def _finer(evidences: Evidence, level: Level, options: Flexible) -> Level | None:

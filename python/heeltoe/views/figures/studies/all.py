@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.views.figures.studies.curves import bands_figure, fragility_figure
 from heeltoe.views.figures.studies.hazard import hazard_figure
 from heeltoe.views.figures.studies.parts import modes_figure, slips_figure
@@ -13,9 +13,9 @@ from heeltoe.views.figures.studies.sensitivity import sobol_figure, tornado_figu
 from heeltoe.views.figures.studies.suite import suite_figures
 
 
-def study_figures(study: Opened, units: str = "si") -> dict[str, Figure]:
+def study_figures(study: StudyResults, units: str = "si") -> dict[str, Figure]:
     """Return what can be drawn of a study, complete or not, by name, in units ``"si"`` or ``"us"``."""
-    method, asked = study.told["study"]["method"], study.told["study"]["fragility"]
+    method, asked = study.manifest["study"]["method"], study.manifest["study"]["fragility"]
     drawn = {
         **suite_figures(study, units),
         "ranks": ranks_figure(study, units) if study.portfolio else None,

@@ -7,7 +7,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.units.systems import INCH
 from heeltoe.views.figures.style import heading
 from heeltoe.views.words.studies import strength_scale
@@ -24,7 +24,7 @@ class Strength:
     Attributes
     ----------
     measure, period
-        As :meth:`heeltoe.study.answers.study_results.Opened.bands` takes them.
+        As :meth:`heeltoe.study.answers.study_results.StudyResults.bands` takes them.
     scale
         What a strength in SI is divided by.
     label
@@ -37,12 +37,12 @@ class Strength:
     label: str
 
 
-def strength_of(found: Opened, units: str = "si") -> Strength:
+def strength_of(study: StudyResults, units: str = "si") -> Strength:
     """Return the measure in which the study counts."""
-    study = found.told["study"]
-    asked = study["fragility"] or (study["motions"] or {}).get("scale") or {}
-    measure = asked.get("measure", "pga")
-    return measured("pga" if measure == "factor" else measure, asked.get("period"), units)
+    plan = study.manifest["study"]
+    settings = plan["fragility"] or (plan["motions"] or {}).get("scale") or {}
+    measure = settings.get("measure", "pga")
+    return measured("pga" if measure == "factor" else measure, settings.get("period"), units)
 
 
 def measured(measure: str, period: Any, units: str = "si") -> Strength:
@@ -59,14 +59,14 @@ def slip_scale(units: str) -> tuple[float, str]:
     return (1.0 / INCH, "in") if units == "us" else (1e3, "mm")
 
 
-def farthest(found: Opened) -> float:
+def farthest(study: StudyResults) -> float:
     """Return the largest residual slip of all runs, either way [m]; zero where there is none."""
-    return max((abs(item["residual_slip_m"]["largest"] or 0.0) for item in found.summary), default=0.0)
+    return max((abs(item["residual_slip_m"]["largest"] or 0.0) for item in study.summary), default=0.0)
 
 
-def headed(figure: Figure, found: Opened, *lines: str) -> Figure:
+def headed(figure: Figure, study: StudyResults, *lines: str) -> Figure:
     """Write above a figure which study it shows, and what."""
-    there = sum(found.outcomes.values())
-    runs = f"{there:,} runs" if found.complete else f"{there:,} of {found.store.count:,} runs"
-    heading(figure, found.title, "; ".join([runs, *lines]))
+    count = sum(study.outcomes.values())
+    runs = f"{count:,} runs" if study.complete else f"{count:,} of {study.store.count:,} runs"
+    heading(figure, study.title, "; ".join([runs, *lines]))
     return figure

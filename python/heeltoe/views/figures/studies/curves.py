@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from heeltoe.base.arrays import Floats
 from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.study.answers.fragility import Curve, observed
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.run.aggregate import SHAKEN
 from heeltoe.units.write import length
 from heeltoe.views.figures.studies.common import LINES, Strength, farthest, headed, measured, slip_scale, strength_of
@@ -25,7 +25,7 @@ _SLIP = "residual_slip_m"
 
 
 @styled
-def bands_figure(study: Opened, units: str = "si") -> Figure | None:
+def bands_figure(study: StudyResults, units: str = "si") -> Figure | None:
     """Draw what 16, 50 and 84 % of the runs stay below, by the strength of the motion; of an incremental dynamic
     analysis each motion beside. None where no strength varies or nothing slides."""
     strength, largest = strength_of(study, units), farthest(study)
@@ -56,7 +56,7 @@ def bands_figure(study: Opened, units: str = "si") -> Figure | None:
     return headed(figure, study, shown, f"slips below {length(JOINT_METER_M / 2.0, units)} stand on the lower edge")
 
 
-def _single_curves(study: Opened, strength: Strength) -> tuple[Floats, Floats]:
+def _single_curves(study: StudyResults, strength: Strength) -> tuple[Floats, Floats]:
     """Return strength and slip of some single dams in single motions, (curves, strengths, models)."""
     strengths, models = study.walk.strengths or 1, len(study.walk.models)
     count = study.store.count // (strengths * models)
@@ -102,10 +102,10 @@ def _band(axes: Axes, band: dict[str, list[float]], scale: float, seen: Callable
 
 
 @styled
-def fragility_figure(study: Opened, units: str = "si") -> Figure | None:
+def fragility_figure(study: StudyResults, units: str = "si") -> Figure | None:
     """Draw the fragility curves with what they lie within, and the shares of the runs that exceed; None without runs
     on which one could stand."""
-    asked = study.told["study"]["fragility"]
+    asked = study.manifest["study"]["fragility"]
     fitted = [pair for pair in study.curves if pair[1].median is not None]
     if not fitted:
         return None
@@ -118,7 +118,7 @@ def fragility_figure(study: Opened, units: str = "si") -> Figure | None:
     strongest = max(tally.highest for tally in study.counted.values()) / strength.scale
     x = np.linspace(0.0, strongest, 241)[1:]
     for name, axes in zip(models, panels, strict=True):
-        for curve in (each for of, each in fitted if of == name):
+        for curve in (curve for of, curve in fitted if of == name):
             look = LINES[limits.index((curve.limit, curve.value)) % len(LINES)]
             middle, shares = observed(study.counted[name, curve.limit, curve.value])
             points = (np.array(middle) / strength.scale, np.array(shares))

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from heeltoe.errors.sanitize import plain
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.views.figures.studies.common import LINES, headed, measured
 from heeltoe.views.figures.style import WIDTH, styled
 from heeltoe.views.words.studies import limits_of
@@ -23,14 +23,14 @@ _SHOWN, _LONGEST = 12, 24
 
 
 @styled
-def hazard_figure(found: Opened, units: str = "si") -> Figure | None:
+def hazard_figure(study: StudyResults, units: str = "si") -> Figure | None:
     """Draw the hazard curve, on the left, and on the right the share of each annual rate that motions of each strength
     make, with its fractiles and the shares of events below; None where no limit has a rate."""
-    rows = [row for row in found.hazard or () if row["annual_rate"]]
+    rows = [row for row in study.hazard or () if row["annual_rate"]]
     if not rows:
         return None
-    study, hazard = found.told["study"]["fragility"], found.told["hazard"]
-    strength = measured(study["measure"], study["period"], units)
+    settings, hazard = study.manifest["study"]["fragility"], study.manifest["hazard"]
+    strength = measured(settings["measure"], settings["period"], units)
     limits = limits_of([(row["limit"], row["value"]) for row in rows], units)
     several = len({row["model"] for row in rows}) > 1
     names = [limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "") for row in rows]
@@ -67,7 +67,7 @@ def hazard_figure(found: Opened, units: str = "si") -> Figure | None:
         _fractiles(fractiles, rows)
         _shares(shares, rows, events)
     figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8)
-    return headed(figure, found, "fragility over hazard")
+    return headed(figure, study, "fragility over hazard")
 
 
 def _events(rows: Sequence[Mapping[str, Any]]) -> list[str]:

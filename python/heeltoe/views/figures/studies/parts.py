@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.study.answers.answers import MODES, farther, modes
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.units.write import length, number
 from heeltoe.views.figures.studies.common import LINES, farthest, headed, slip_scale, strength_of
 from heeltoe.views.figures.style import MODE_COLOURS, MODE_HATCHES, WIDTH, styled
@@ -20,7 +20,7 @@ _LONG = 100
 
 
 @styled
-def slips_figure(study: Opened, units: str = "si") -> Figure | None:
+def slips_figure(study: StudyResults, units: str = "si") -> Figure | None:
     """Draw which share of the runs of each model slides farther than so much; None where nothing slides."""
     largest = farthest(study)
     if not largest > JOINT_METER_M:
@@ -48,7 +48,7 @@ def slips_figure(study: Opened, units: str = "si") -> Figure | None:
 
 
 @styled
-def modes_figure(study: Opened, units: str = "si") -> Figure | None:
+def modes_figure(study: StudyResults, units: str = "si") -> Figure | None:
     """Draw which mode of motion makes most of the slip, in shares of the runs that slide at each strength; None where
     nothing slides."""
     names = [row["model"] for row in study.summary if row["dominant_mode"]]

@@ -8,7 +8,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from heeltoe.errors.sanitize import plain
 from heeltoe.result.contract import JOINT_METER_M
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.views.figures.studies.common import headed, slip_scale
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
 from heeltoe.views.words.studies import limit_of
@@ -18,7 +18,7 @@ _SHOWN, _LONGEST = 25, 28
 
 
 @styled
-def ranks_figure(study: Opened, units: str = "si") -> Figure | None:
+def ranks_figure(study: StudyResults, units: str = "si") -> Figure | None:
     """Draw the worst dams of the last model from above: slips on the left, on the right the share of the motions in
     which the first limit is exceeded; None without a table of dams."""
     if not study.portfolio:

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.views.figures.studies.common import headed, slip_scale
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
 from heeltoe.views.words.studies import ends_of
@@ -18,9 +18,9 @@ _HIGH, _LOW = COLOURS["rotation"], COLOURS["slip"]
 
 
 @styled
-def sobol_figure(found: Opened) -> Figure | None:
+def sobol_figure(study: StudyResults) -> Figure | None:
     """Draw first and total indices of the residual slip with what they lie within; None where it does not vary."""
-    by_model = {name: answer for name, answer in found.sensitivity().items() if answer["indices"]}
+    by_model = {name: answer for name, answer in study.sensitivity().items() if answer["indices"]}
     if not by_model:
         return None
     figure, panels = _panels(by_model, max(len(item["indices"]) for item in by_model.values()))
@@ -39,21 +39,21 @@ def sobol_figure(found: Opened) -> Figure | None:
         axes.set_title(f"{name} model{_left_out(answer['left_out'], 'rows')}", fontsize=9, loc="left")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
     confidence = next(iter(by_model.values()))["confidence"]
-    return headed(figure, found, f"Sobol's indices of the residual slip, {confidence:.0%} intervals")
+    return headed(figure, study, f"Sobol's indices of the residual slip, {confidence:.0%} intervals")
 
 
 @styled
-def tornado_figure(found: Opened, units: str = "si") -> Figure | None:
+def tornado_figure(study: StudyResults, units: str = "si") -> Figure | None:
     """Draw what each field by itself makes of the slip; None where no motion gave a result for all dams."""
-    by_model = {name: answer for name, answer in found.tornado().items() if answer["fields"]}
+    by_model = {name: answer for name, answer in study.tornado().items() if answer["fields"]}
     if not by_model:
         return None
     figure, panels = _panels(by_model, max(len(item["fields"]) for item in by_model.values()))
     scale, unit = slip_scale(units)
     for axes, (name, answer) in zip(panels, by_model.items(), strict=True):
         fields = answer["fields"][::-1]
-        for row, each in enumerate(fields):
-            ends = [(text, scale * slip) for slip, text in ends_of(each, units)]
+        for row, field in enumerate(fields):
+            ends = [(text, scale * slip) for slip, text in ends_of(field, units)]
             _bar(axes, row, ends, scale * answer["base"])
         axes.axvline(scale * answer["base"], color="#444444", linewidth=0.8)
         axes.margins(x=0.2)
@@ -66,7 +66,7 @@ def tornado_figure(found: Opened, units: str = "si") -> Figure | None:
     for axes in panels:
         axes.set_xticks(ticks)
         axes.set_xlim(low, high)
-    return headed(figure, found, "one field at a time; the line is the case as it is")
+    return headed(figure, study, "one field at a time; the line is the case as it is")
 
 
 def _panels(by_model: Mapping[str, Any], rows: int) -> tuple[Figure, list[Axes]]:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from heeltoe.errors.sanitize import plain
-from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.answers.suite import suite_spectra
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.write import number
@@ -25,17 +25,17 @@ _LONGEST = 34
 _ROW, _PAD = 0.24, 0.12
 
 
-def suite_figures(found: Opened, units: str = "si") -> dict[str, Figure | None]:
+def suite_figures(study: StudyResults, units: str = "si") -> dict[str, Figure | None]:
     """Return the figures of a suite by name; none of another study."""
-    if found.suite is None:
+    if study.suite is None:
         return {}
-    return {"suite": suite_figure(found, units), "suite-spectra": suite_spectra_figure(found)}
+    return {"suite": suite_figure(study, units), "suite-spectra": suite_spectra_figure(study)}
 
 
 @styled
-def suite_figure(found: Opened, units: str = "si") -> Figure | None:
+def suite_figure(study: StudyResults, units: str = "si") -> Figure | None:
     """Draw the residual slip of each record as a bar, its other sign as a mark, the numbers over all as lines."""
-    suite = found.suite
+    suite = study.suite
     if suite is None:
         return None
     models, (scale, unit) = suite["models"], slip_scale(units)
@@ -71,7 +71,7 @@ def suite_figure(found: Opened, units: str = "si") -> Figure | None:
         np.arange(count), [_name(models[0]["records"][place]["motion"]) for place in order], fontsize=8
     )
     panels[0].set_ylim(-0.6, count - 0.4)
-    return headed(figure, found, "each record by its worse sign; mark: its other sign")
+    return headed(figure, study, "each record by its worse sign; mark: its other sign")
 
 
 def _slip(record: Mapping[str, Any]) -> float:
@@ -99,12 +99,12 @@ def _bars(axes: Axes, records: list[Mapping[str, Any]], scale: float) -> None:
 
 
 @styled
-def suite_spectra_figure(found: Opened) -> Figure | None:
+def suite_spectra_figure(study: StudyResults) -> Figure | None:
     """Draw the response spectra of the records as they shake the dam, their mean, and the target; None where the study
     keeps none."""
-    suite = found.suite
+    suite = study.suite
     records = [] if suite is None else suite["models"][0]["records"]
-    spectra = suite_spectra(found.walk, records)
+    spectra = suite_spectra(study.walk, records)
     if spectra is None:
         return None
     figure = Figure(figsize=(WIDTH, 4.2), layout="constrained")
@@ -130,7 +130,7 @@ def suite_spectra_figure(found: Opened) -> Figure | None:
         axes.semilogx(
             target["period_s"], values, color=COLOURS["toe"], linestyle="--", linewidth=2.0, label=label, zorder=4
         )
-    scale = (found.told["study"]["motions"] or {}).get("scale")
+    scale = (study.manifest["study"]["motions"] or {}).get("scale")
     if scale and scale["measure"] == "sa":
         at = float(str(scale["period"]).split()[0])
         axes.axvline(at, color="#444444", linestyle=":", linewidth=1.2, label=f"scaled at {at:.3g} s")
@@ -140,4 +140,4 @@ def suite_spectra_figure(found: Opened) -> Figure | None:
     axes.set_ylabel(f"pseudo-acceleration, {100.0 * spectra['damping']:.3g} % damping [g]")
     axes.set_xticks([0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0], ["0.05", "0.1", "0.2", "0.5", "1", "2", "4"])
     axes.legend(loc="upper right", fontsize=8, frameon=True, framealpha=0.9, edgecolor="none")
-    return headed(figure, found, "response spectra of the records as they shake the dam")
+    return headed(figure, study, "response spectra of the records as they shake the dam")

@@ -1,0 +1,216 @@
+//! The dam as its cracks see it: a linear system between any two steps of contact.
+//!
+//! Elastic bodies in their modes, dashpots between them, rock that takes waves away and the water of a reservoir all
+//! answer linearly to impulses `p` in the cracks. With the velocities `u_f` that a step ends with without contact,
+//!
+//! ```text
+//! u = u_f + W p
+//! ```
+//!
+//! and the contact problem asks for no more than `u_f`, `W p`, single entries of `W`, and that all follow once `p` is
+//! known. What a dam is made of besides concrete comes in here, behind these few questions.
+
+use super::bodies::Sides;
+use super::compliance::Compliance;
+use super::crack_forces::CrackForces;
+use super::dam::Dam;
+use super::dampers::{Dampers, Holding};
+use super::faces::Faces;
+use super::ledger::Ledger;
+use super::modal_stepper::{Drive, ModalStepper};
+use super::scheme::TimeStep;
+use super::simd::{Group, Lanes};
+
+/// Bodies, dashpots and water in a step.
+pub(super) struct LinearDam<'a> {
+    bodies: Sides<ModalStepper<'a>>,
+    dampers: Dampers<'a>,
+    /// What drives this step.
+    drive: Drive,
+    pub(super) step: TimeStep,
+}
+
+impl<'a> LinearDam<'a> {
+    /// The dam as it stands before the earthquake; it starts with the damping of cracks that stick.
+    pub(super) fn new(dam: &'a Dam, step: TimeStep) -> Self {
+        let still = dam.still.as_ref();
+        let lower = dam.bodies.lower.as_ref();
+        let bodies = Sides {
+            upper: ModalStepper::new(&dam.bodies.upper, still, 0, step),
+            lower: lower.map(|body| ModalStepper::new(body, still, 1, step)),
+        };
+        LinearDam {
+            dampers: Dampers::new(&bodies, dam.reservoir.as_ref(), step),
+            drive: Drive {
+                ground: [0.0; 2],
+                damping: 0,
+            },
+            bodies,
+            step,
+        }
+    }
+
+    /// Where the crack nodes are.
+    #[inline(always)]
+    pub(super) fn position(&self) -> Faces<'_> {
+        self.bodies.faces(|body| &body.position)
+    }
+
+    /// Their velocities.
+    #[inline(always)]
+    pub(super) fn velocity(&self) -> Faces<'_> {
+        self.bodies.faces(|body| &body.velocity)
+    }
+
+    /// Their velocities at the end of the step without contact, once what else acts in the cracks is known.
+    #[inline(always)]
+    pub(super) fn free(&self) -> Faces<'_> {
+        self.bodies.faces(|body| body.at_crack(&body.free))
+    }
+
+    /// Their velocities with the impulses of contact, as [`Self::answer`] finds them.
+    #[inline(always)]
+    pub(super) fn answered(&self) -> Faces<'_> {
+        self.bodies.faces(|body| body.at_crack(&body.answer))
+    }
+
+    /// The impulses on them.
+    #[inline(always)]
+    pub(super) fn impulse(&self) -> Faces<'_> {
+        self.bodies.faces(|body| &body.impulse)
+    }
+
+    /// The impulses of contact on them, to be written.
+    #[inline(always)]
+    pub(super) fn impulse_mut(&mut self) -> (&mut [f64], &mut [f64]) {
+        self.bodies.both_mut(|body| &mut body.impulse)
+    }
+
+    /// The state of damping of this step.
+    #[inline(always)]
+    pub(super) fn damping(&self) -> usize {
+        self.drive.damping
+    }
+
+    /// Entries of `W` without dashpots and water.
+    #[inline(always)]
+    pub(super) fn answers(&self) -> Sides<Compliance<'_>> {
+        self.bodies.map(|body| body.answers(self.drive.damping))
+    }
+
+    /// What dashpots and water hold back of it.
+    #[inline(always)]
+    pub(super) fn holding(&self) -> Holding<'_> {
+        self.dampers.holding(self.drive.damping)
+    }
+
+    /// Whether nothing moves or drives it.
+    #[inline(always)]
+    pub(super) fn rests(&self) -> bool {
+        self.bodies.iter().all(ModalStepper::rests) && self.dampers.rests(self.drive.ground)
+    }
+
+    /// Let the modes finish the present step, where there is one, and begin another driven so.
+    #[inline(always)]
+    pub(super) fn advance<W: Lanes>(&mut self, under_way: bool, next: Drive) {
+        let now = under_way.then_some(self.drive);
+        self.drive = next;
+        for body in self.bodies.iter_mut() {
+            body.advance::<W>(now, next, self.step);
+        }
+    }
+
+    /// Let what is in the cracks beside contact push the nodes of both faces.
+    #[inline(always)]
+    pub(super) fn push(&mut self, acting: &mut CrackForces) {
+        let mut above = std::mem::take(&mut self.bodies.upper.push);
+        let mut below = match &mut self.bodies.lower {
+            Some(body) => std::mem::take(&mut body.push),
+            None => Vec::new(),
+        };
+        acting.push(
+            self.position(),
+            self.velocity(),
+            self.step,
+            &mut above,
+            &mut below,
+        );
+        self.bodies.upper.push = above;
+        if let Some(lower) = &mut self.bodies.lower {
+            lower.push = below;
+        }
+    }
+
+    /// Find the velocities without contact: with what acts beside it, where anything does, less the forces that the start
+    /// has in the cracks, where it has been found, and with dashpots and water.
+    #[inline(always)]
+    pub(super) fn find_free<W: Lanes>(&mut self, acting: bool, still: bool) {
+        let damping = self.drive.damping;
+        for body in self.bodies.iter_mut() {
+            if still {
+                body.let_go(self.step.dt, !acting);
+            }
+            if acting || still {
+                body.push_crack::<W>(damping, !acting);
+            }
+        }
+        if !self.dampers.is_empty() {
+            self.dampers.begin::<W>(&mut self.bodies, self.drive);
+        }
+    }
+
+    /// Find the velocities with the impulses of contact.
+    #[inline(always)]
+    pub(super) fn answer<W: Lanes>(&mut self) {
+        self.dampers.answer::<W>(&mut self.bodies, self.drive.damping);
+    }
+
+    /// Move the crack nodes, whose impulses are final.
+    #[inline(always)]
+    pub(super) fn finish<W: Lanes>(&mut self) {
+        if !self.dampers.is_empty() {
+            self.dampers.finish::<W>(&mut self.bodies, self.drive);
+        }
+        for body in self.bodies.iter_mut() {
+            body.move_crack::<W>(self.step);
+        }
+    }
+
+    /// Hand the bodies all impulses of the step: those of contact, less what the start has in it, and the others.
+    #[inline(always)]
+    pub(super) fn join(&mut self, quiet: bool, pushed: bool) {
+        for body in self.bodies.iter_mut() {
+            if quiet {
+                body.impulse.fill(0.0);
+            } else if pushed {
+                body.join_push();
+            }
+        }
+    }
+
+    /// Amplitudes of all modes.
+    #[inline(always)]
+    pub(super) fn amplitudes(&self) -> Sides<Vec<Group>> {
+        self.bodies.map(ModalStepper::amplitudes)
+    }
+
+    /// Velocities of the water's modes.
+    pub(super) fn water(&self) -> &[f64] {
+        self.dampers.water()
+    }
+
+    /// Energy of the bodies.
+    pub(super) fn energy(&self) -> f64 {
+        let of = |body: &ModalStepper| body.body.energy(&body.amplitudes(), &body.v);
+        of(&self.bodies.upper) + self.bodies.lower.as_ref().map_or(0.0, of)
+    }
+
+    /// Add the works of bodies, dashpots and water to a ledger, and what they hold.
+    pub(super) fn book(&self, ledger: &mut Ledger) {
+        for body in self.bodies.iter() {
+            body.sums.book(ledger);
+        }
+        ledger.stored = self.energy() + ledger.springs;
+        self.dampers.book(ledger);
+    }
+}
