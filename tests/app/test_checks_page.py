@@ -91,6 +91,44 @@ def test_static_checks_follow_while_they_are_open(answer, picture):
     picture(answer, "answer-statics")
 
 
+def test_an_earthquake_by_its_response_spectrum(answer, picture):
+    checks = "[data-checks=statics]"
+    answer.click("text=Static checks of the same case")
+    answer.select_option("#statics-spectrum", "motion")
+    answer.wait_for_selector(f"{checks}:not(.stale) >> text=response spectrum downstream")
+    assert "first mode" in answer.inner_text(f"{checks} .facts")
+    of_motion = answer.inner_text(f"{checks} .content")
+    answer.select_option("#statics-spectrum", "design")
+    answer.wait_for_function(
+        "(was) => document.querySelector('[data-checks=statics] .content').innerText !== was", arg=of_motion
+    )
+    assert "EN 1998" in answer.inner_text(f"{checks} .facts")
+    picture(answer, "answer-spectrum")
+    answer.fill("[aria-label='Design spectrum']", "/etc/passwd")
+    answer.press("[aria-label='Design spectrum']", "Enter")
+    answer.wait_for_selector(f"{checks} .bad >> text=en1998")
+
+
+def test_the_crest_by_frequency_follows_while_it_is_open(answer, picture):
+    card = "[data-checks=crest]"
+    answer.click("text=Response of the crest by frequency")
+    answer.wait_for_selector(f"{card}:not(.stale) >> text=effective damping", timeout=180_000)
+    answer.wait_for_selector(f"{card} .main-svg")
+    rows = answer.inner_text(f"{card} tbody")
+    assert rows.count("elastic") == 3
+    assert "The case has no [rock]" in answer.inner_text(card)
+    answer.fill("[aria-label='Water level, exactly']", "60")
+    answer.wait_for_function("(was) => document.querySelector('[data-checks=crest] tbody').innerText !== was", arg=rows)
+    for width, name in ((1440, "laptop"), (390, "telephone")):
+        answer.set_viewport_size({"width": width, "height": 900})
+        answer.wait_for_function(
+            "(wide) => Math.abs(document.querySelector('[data-checks=crest] .main-svg').clientWidth - wide) < 30",
+            arg=answer.evaluate("document.querySelector('[data-checks=crest] .plot').clientWidth"),
+        )
+        assert answer.evaluate("document.documentElement.scrollWidth <= innerWidth"), name
+        picture(answer, f"answer-crest-{name}")
+
+
 def test_spread(answer, picture):
     answer.click("text=Spread: the same")
     answer.click("text=Run the spread")

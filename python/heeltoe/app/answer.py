@@ -4,15 +4,17 @@ it rests, and with evidence on a button."""
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry, number
 from heeltoe.app.jobs import Job, Work
 from heeltoe.app.sessions import Session
 from heeltoe.app.workers import WorkerLostError
+from heeltoe.errors.error import InputError
 
-_LOST = "The process that computes this model was ended, perhaps because memory ran out. It has been restarted."
+#: What a page is told where a process was killed, or was out of memory.
+LOST = "The process that computes this was ended, perhaps because memory ran out. It has been restarted."
 # Of all tabs.
 _RUNNING: set[asyncio.Task[None]] = set()
 
@@ -53,7 +55,7 @@ async def decoupled(desk: Desk, request: Asked) -> dict[str, Any]:
     try:
         payload = await desk.workers.beside(answer, session.case, changes, "decoupled", session.units)
     except WorkerLostError:
-        payload = {"absent": _LOST}
+        payload = {"absent": LOST}
     return {"of": "decoupled", **payload}
 
 
@@ -69,7 +71,7 @@ async def elastic(desk: Desk, request: Asked) -> dict[str, Any]:
     try:
         payload = await desk.workers.until_cancelled(work, session.case, changes, session.units)
     except WorkerLostError:
-        payload = {"waits": _LOST}
+        payload = {"waits": LOST}
     session.elastic = payload.get("left")
     return {"of": "elastic", **payload}
 
@@ -98,6 +100,18 @@ def start(desk: Desk, what: str, work: Work, *arguments: Any, parent: bool = Fal
     _RUNNING.add(task)
     task.add_done_callback(_RUNNING.discard)
     return job.payload()
+
+
+async def aside(desk: Desk, work: Callable[..., Any], *arguments: Any) -> Any:
+    """Compute what takes seconds in the process for that, which may be lost, or say what is wrong with the input."""
+    from heeltoe.app.live import refused
+
+    try:
+        return await desk.workers.aside(work, *arguments)
+    except WorkerLostError:
+        return {"error": {"field": "", "text": LOST, "problem": LOST, "remedy": ""}}
+    except InputError as error:
+        return refused(error)
 
 
 async def cancel(desk: Desk, request: Asked) -> dict[str, Any]:

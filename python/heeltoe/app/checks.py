@@ -1,31 +1,55 @@
-"""Actions beside the answer: the static checks of the same case, and how much its result depends on the shaking."""
+"""Actions beside the answer: the static checks of the same case, how its crest answers the ground by frequency, and how
+much its result depends on the shaking."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from heeltoe.app.answer import changes_of, start
-from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry
+from heeltoe.app.answer import aside, changes_of, start
+from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry, text
 from heeltoe.app.wording import in_words_of_the_page, meant
+from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
 
 if TYPE_CHECKING:
+    from heeltoe.models.flexible.surroundings.amplification import Amplification
     from heeltoe.models.statics.joints import Joints
     from heeltoe.models.statics.model import Statics
 
 _MODELS = ("rigid", "decoupled", "flexible")
+# What the response of a dam without a slip does not depend on, as far as sliders move it.
+_NOT_IN_RESPONSE: Any = {
+    "motion": True,
+    "statics": True,
+    "limits": True,
+    "analysis": True,
+    "uplift": True,
+    "crack": {"friction", "restitution", "bond"},
+}
+_RESPONSES: Kept[Amplification] = Kept(4)
 
 
 async def statics(desk: Desk, request: Asked) -> dict[str, Any]:
-    """Judge the dam of the sliders by its criteria, before and after the earthquake."""
+    """Judge the dam of the sliders by its criteria, before and after the earthquake, and by a response spectrum where
+    one is asked for."""
     session = desk.session
     changes = changes_of(session, request.get("values"))
     left = [job.result["left"] for job in session.jobs.values() if job.result and "left" in job.result]
     if session.elastic is not None:
         # With evidence it is the better one.
         left.insert(0, session.elastic)
+    spectrum = text(request, "spectrum").strip()
+    if spectrum:
+        return {"of": "statics", **await aside(desk, checked, session.case, changes, session.units, left, spectrum)}
     return {"of": "statics", **await desk.workers.quick(checked, session.case, changes, session.units, left)}
+
+
+async def crest(desk: Desk, request: Asked) -> dict[str, Any]:
+    """Return how the crest of the dam of the sliders answers the ground by frequency."""
+    session = desk.session
+    changes = changes_of(session, request.get("values"))
+    return {"of": "crest", **await aside(desk, crest_response, session.case, changes, session.units)}
 
 
 async def spread(desk: Desk, request: Asked) -> dict[str, Any]:
@@ -68,11 +92,14 @@ def _judged(case: Case, left: Sequence[Mapping[str, Any]]) -> Joints:
 
 
 def checked(
-    case: Case, changes: Mapping[str, Any], units: str, left: Sequence[Mapping[str, Any]] = ()
+    case: Case, changes: Mapping[str, Any], units: str, left: Sequence[Mapping[str, Any]] = (), spectrum: str = ""
 ) -> dict[str, Any]:
-    """Return the static checks, after the slips that the earthquake leaves; `left` has those of elastic runs."""
+    """Return the static checks, after the slips that the earthquake leaves; `left` has those of elastic runs. With the
+    name of a spectrum they have an earthquake by that, too; no file is looked for."""
     from heeltoe.app.live import refused
     from heeltoe.errors.error import InputError
+    from heeltoe.motion.targets import STANDARDS
+    from heeltoe.study.small.response_spectrum import OF_MOTION, with_response_spectrum
     from heeltoe.units.sentences import quantity
     from heeltoe.views.content.checks import answer_of
     from heeltoe.views.words.statics import basis, check_rows, failed, section_warnings, verdict_of
@@ -80,6 +107,10 @@ def checked(
     try:
         changed = case.with_(changes) if changes else case
         judged = _judged(changed, left)
+        if spectrum:
+            if spectrum != OF_MOTION and not spectrum.startswith(STANDARDS):
+                raise InputError("target-form", "spectrum", spectrum)
+            judged = with_response_spectrum(judged, spectrum)
     except InputError as error:
         return refused(error)
     several = len(judged.joints) > 1
@@ -97,6 +128,33 @@ def checked(
         "basis": basis(judged.governing.statics, units),
         "checks": rows,
         "warnings": [in_words_of_the_page(text) for text in section_warnings(judged.joints, units)],
+    }
+
+
+def crest_response(case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any]:
+    """Return the amplification of the crest by frequency for each rock and water, and the first peaks as a table."""
+    import numpy as np
+
+    from heeltoe.models.flexible.surroundings.amplification import crest_amplification
+    from heeltoe.views.animation.page import packed
+    from heeltoe.views.words.amplification import COLUMNS, peak_rows
+
+    changed = case.with_(changes) if changes else case
+    response = _RESPONSES.get(changed.model_dump_json(exclude=_NOT_IN_RESPONSE), lambda: crest_amplification(changed))
+    return {
+        "frequency": packed(response.frequencies, "float32"),
+        "curves": [
+            {
+                "rock": curve.rock,
+                "water": curve.water,
+                "amplification": packed(np.abs(curve.response.amplification), "float32"),
+            }
+            for curve in response.curves
+        ],
+        "columns": COLUMNS,
+        "rows": peak_rows(response),
+        "assumptions": response.sentences(units),
+        "damping": f"{100.0 * response.damping_ratio:.3g} %",
     }
 
 
@@ -125,4 +183,4 @@ def spread_of(
     }
 
 
-ACTIONS = {"statics": Entry(statics, newest=True), "spread": Entry(spread)}
+ACTIONS = {"statics": Entry(statics, newest=True), "crest": Entry(crest, newest=True), "spread": Entry(spread)}

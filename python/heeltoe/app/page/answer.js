@@ -1,6 +1,7 @@
 /** The page "Answer": sliders, and what the models make of them. */
 import { Card } from "./card.js";
 import { Spread, StaticChecks } from "./checks.js";
+import { CrestResponse } from "./crest.js";
 import { DamInMotion } from "./dam.js";
 import { byId, element } from "./dom.js";
 import { FlexibleRun } from "./flexible.js";
@@ -50,6 +51,7 @@ export function answerPage(talk) {
   const dam = new DamInMotion((time) => cursor(plot, time));
   const spread = new Spread(talk, () => values);
   const statics = new StaticChecks(talk, () => values);
+  const crest = new CrestResponse(talk, () => values);
   const ready = loadPlotly();
   new ResizeObserver(([{ contentRect }]) => {
     size.width = Math.floor(contentRect.width);
@@ -69,6 +71,7 @@ export function answerPage(talk) {
     flexible.moved();
     spread.moved();
     statics.follow();
+    crest.follow();
     // The blocks follow the hand.
     dam.prefer("");
   }
@@ -161,6 +164,9 @@ export function answerPage(talk) {
       flexible.begin(state.inelastic);
       for (const model of LIVE) cards[model].hide(!state.models.includes(model));
       spread.begin(state.models);
+      const elastic = state.models.includes("flexible");
+      statics.begin(elastic);
+      crest.begin(elastic);
       ask(performance.now());
     }
   });
@@ -169,7 +175,10 @@ export function answerPage(talk) {
   return {
     name: "answer",
     label: "Answer",
-    redraw: () => redraw(),
+    redraw() {
+      redraw();
+      crest.draw();
+    },
     /** @param {HTMLElement} root */
     mount(root) {
       for (const kind of KINDS) {
@@ -183,7 +192,7 @@ export function answerPage(talk) {
       const verdicts = element("div", { class: "cards" }, ...all.map((card) => card.root));
       const details = element("div", { class: "cards" }, ...all.map((card) => card.details));
       const over = element("div", {}, plot, key);
-      const more = element("div", { class: "cards" }, spread.root, statics.root);
+      const more = element("div", { class: "cards" }, spread.root, statics.root, crest.root);
       root.append(element("h2", { class: "unseen" }, "Answer"), element("div", { class: "answer" }, controls, element("div", {}, verdicts, element("div", { class: "over-time" }, over, dam.root), details, more)));
       return () => redraw();
     },

@@ -4,6 +4,8 @@ import { table } from "./table.js";
 
 const MODELS = /** @type {Record<string, string>} */ ({ rigid: "rigid block", decoupled: "rigid block on an elastic part", flexible: "elastic dam" });
 
+const SPECTRA = [["", "none"], ["motion", "that of the motion"], ["design", "a design spectrum"]];
+
 /** @param {string[]} texts */
 const items = (texts) => (texts.length ? [element("ul", { class: "warnings" }, ...texts.map((text) => element("li", {}, text)))] : []);
 
@@ -14,15 +16,31 @@ export class StaticChecks {
     this.talk = talk;
     this.values = values;
     this.content = element("div", { class: "content" }, element("p", { class: "faint" }, "computing"));
-    this.root = /** @type {HTMLDetailsElement} */ (element("details", { class: "card more", "data-checks": "statics", ontoggle: () => this.follow() }, element("summary", {}, "Static checks of the same case"), this.content));
+    this.spectrum = /** @type {HTMLSelectElement} */ (element("select", { id: "statics-spectrum", onchange: () => this.choose() }, ...SPECTRA.map(([value, text]) => element("option", { value }, text))));
+    this.design = /** @type {HTMLInputElement} */ (element("input", { type: "text", "aria-label": "Design spectrum", value: "en1998:0.3 g,B", onchange: () => this.follow(), hidden: true }));
+    const choice = element("div", { class: "in-line" }, element("label", { for: "statics-spectrum" }, "An earthquake by its response spectrum, too:"), this.spectrum, this.design);
+    this.root = /** @type {HTMLDetailsElement} */ (element("details", { class: "card more", "data-checks": "statics", ontoggle: () => this.follow() }, element("summary", {}, "Static checks of the same case"), choice, this.content));
     talk.on("statics", (found) => this.show(found));
+  }
+
+  /** @param {boolean} can Whether the dam has a modulus, and so a first mode. */
+  begin(can) {
+    if (!can) this.spectrum.value = "";
+    this.spectrum.disabled = !can;
+    this.choose();
+  }
+
+  choose() {
+    this.design.hidden = this.spectrum.value !== "design";
+    this.follow();
   }
 
   /** The sliders have moved, or it was opened. */
   follow() {
     if (!this.root.open) return;
     this.root.classList.add("stale");
-    this.asked = this.talk.ask("statics", { values: this.values() });
+    const spectrum = this.spectrum.value === "design" ? this.design.value : this.spectrum.value;
+    this.asked = this.talk.ask("statics", { values: this.values(), spectrum });
   }
 
   /** @param {any} found */

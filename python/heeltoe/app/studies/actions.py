@@ -9,15 +9,13 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from heeltoe.app.answer import start
+from heeltoe.app.answer import aside, start
 from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry, number, text
 from heeltoe.app.sessions import Session
 from heeltoe.app.transfers import offer
-from heeltoe.app.workers import WorkerLostError
 from heeltoe.errors.error import InputError
 
 _NUMBERS = count(1)
-_LOST = "The process that looks at studies was ended, perhaps because memory ran out. It has been restarted."
 
 
 @dataclass(eq=False)
@@ -58,7 +56,7 @@ async def look(desk: Desk, request: Asked) -> dict[str, Any]:
         fields = await desk.workers.quick(study_asked, request.get("study"), session)
     except InputError as error:
         return {"of": "study look", **refused(error)}
-    payload = await _aside(desk, work, fields, session.folder / "study-looked-at", desk.settings.most_runs)
+    payload = await aside(desk, work, fields, session.folder / "study-looked-at", desk.settings.most_runs)
     return {"of": "study look", **payload}
 
 
@@ -128,7 +126,7 @@ async def answers(desk: Desk, request: Asked) -> dict[str, Any]:
     made, units = _made(desk.session, request), desk.session.units
     payload = await desk.workers.quick(kept_answers, made.folder, units)
     if payload is None:
-        payload = await _aside(desk, work, made.folder, units)
+        payload = await aside(desk, work, made.folder, units)
     return {"of": "study answers", "number": made.number, **payload}
 
 
@@ -141,7 +139,7 @@ async def download(desk: Desk, request: Asked) -> dict[str, Any]:
         return offer(desk.session, made.folder / STUDY, STUDY)
     if what not in ("study", "csv", "pdf", "html"):
         raise BadRequestError("what is study, csv, pdf, html or file")
-    path = await _aside(desk, packed, made.folder, what, desk.session.units)
+    path = await aside(desk, packed, made.folder, what, desk.session.units)
     return (
         {"of": "study refused", "text": path["error"]["text"]} if isinstance(path, dict) else offer(desk.session, *path)
     )
@@ -161,18 +159,6 @@ def _listed(session: Session) -> dict[str, Any]:
             for study in session.studies.values()
         ]
     }
-
-
-async def _aside(desk: Desk, work: Any, *arguments: Any) -> Any:
-    """Compute in the process of the studies, which may be lost as any other."""
-    from heeltoe.app.live import refused
-
-    try:
-        return await desk.workers.aside(work, *arguments)
-    except WorkerLostError:
-        return {"error": {"field": "", "text": _LOST, "problem": _LOST, "remedy": ""}}
-    except InputError as error:
-        return refused(error)
 
 
 ACTIONS = {

@@ -86,24 +86,17 @@ def print_periods(
 
 def _print_amplification(amplification: Amplification, console: Console, units: str) -> None:
     """Print the first resonance of the crest on each rock and with each water."""
+    from heeltoe.views.words.amplification import COLUMNS, peak_rows
+
     console.print()
     table = quiet_table()
-    for name in ("rock", "water"):
-        table.add_column(name)
-    for name in ("resonance", "crest over ground", "effective damping"):
-        table.add_column(name, justify="right")
-    for curve in amplification.curves:
-        first = curve.response
-        table.add_row(
-            curve.rock,
-            curve.water,
-            "-" if first.resonance is None else f"{first.resonance:.3f} Hz",
-            "-" if first.peak is None else f"{first.peak:.1f}",
-            "-" if first.damping is None else f"{100.0 * first.damping:.1f} %",
-        )
+    for place, name in enumerate(COLUMNS):
+        table.add_column(name, justify="right" if place > 1 else "left")
+    for row in peak_rows(amplification):
+        table.add_row(*row)
     console.print(table)
     for sentence in amplification.sentences(units):
-        console.print(sentence)
+        console.print(sentence, markup=False)
 
 
 def _mesh_line(names: Sequence[str], elements: Sequence[int], nodes: Sequence[int]) -> str:

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from heeltoe.models.statics.checks import Check
 from heeltoe.models.statics.joints import Joint, Joints
 from heeltoe.models.statics.model import Statics
-from heeltoe.units.sentences import numbers, quantity
+from heeltoe.models.statics.spectral import SpectralDemand
+from heeltoe.units.sentences import numbers, quantity, written
 from heeltoe.units.write import length
 
 
@@ -34,9 +35,26 @@ def basis(statics: Statics, units: str) -> list[tuple[str, str]]:
         level = water[key]
         depth = none if level is None else f"{quantity(level, '.2f m', units)} of water"
         lines.append((label, f"{depth}, with cohesion" if bonded and key.startswith("sliding") else depth))
+    if statics.response_spectrum is not None:
+        lines.append(("response spectrum", _demand(statics.response_spectrum, units)))
     if statics.slip_m is not None:
         lines.append(("residual slip", f"{length(statics.slip_m, units)}: {statics.slip_source}"))
     return lines
+
+
+def _demand(demand: SpectralDemand, units: str) -> str:
+    """Say what an earthquake asks of a section by its spectrum."""
+    push = demand.push()
+    return written(
+        "{spectrum}; first mode of {period:.3f s} with {damping:.1f %} of damping; shear {shear:.4g kN/m}, moment "
+        "about the heel that of {arm:.3g m} of arm",
+        units,
+        spectrum=demand.spectrum,
+        period=demand.period_s,
+        damping=demand.damping_ratio,
+        shear=abs(push.horizontal),
+        arm=abs(push.moment / push.horizontal),
+    )
 
 
 def section_warnings(joints: Sequence[Joint], units: str) -> list[str]:

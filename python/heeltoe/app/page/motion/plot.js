@@ -1,5 +1,6 @@
 /** What is in a motion: facts and warnings as a card, histories, Husid plot and response spectrum as plots. */
 import { colour, element } from "../dom.js";
+import { axis, look } from "../plot/look.js";
 import { loadPlotly } from "../plot/plot.js";
 import { unpacked } from "../../scene.js";
 
@@ -22,14 +23,6 @@ export function shownMotion(motion) {
   );
   card.style.setProperty("--of", `var(--${COLOURS[motion.way]})`);
   return card;
-}
-
-function look() {
-  return { paper_bgcolor: colour("page"), plot_bgcolor: colour("page"), font: { color: colour("text"), family: "system-ui, sans-serif", size: 12 } };
-}
-
-function axis(/** @type {object} */ more) {
-  return { gridcolor: colour("rule"), zerolinecolor: colour("line"), linecolor: colour("line"), nticks: 6, ...more };
 }
 
 /**
