@@ -12,14 +12,12 @@ WORKFLOWS = {path.name: path.read_text(encoding="utf-8") for path in (ROOT / ".g
 
 @pytest.mark.parametrize("name", ["ci.yml", "release.yml"])
 def test_actions_are_pinned(name):
-    """By the hash of a commit, which nobody can move, and with its version beside it; by its whole version at least."""
+    """By the hash of a commit, which nobody can move, and with its version beside it."""
     used = re.findall(r"uses: (.+)", WORKFLOWS[name])
     jobs = yaml.safe_load(WORKFLOWS[name])["jobs"]
     assert len(used) == sum("uses" in step for job in jobs.values() for step in job["steps"])
-    version, action = r"v\d+\.\d+\.\d+", r"[\w.-]+/[\w.-]+"
-    pinned = rf"{action}@(?:{version}|[0-9a-f]{{40}}  # {version})"
+    pinned = r"[\w./-]+@[0-9a-f]{40}  # v\d+\.\d+\.\d+"
     assert [item for item in used if not re.fullmatch(pinned, item)] == []
-    assert sum("#" in item for item in used) >= len(used) - 1
 
 
 def test_wheels_are_built_with_the_tools_of_the_makefile_and_of_the_lock_file():
