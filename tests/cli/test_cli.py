@@ -302,8 +302,8 @@ def test_what_an_earlier_run_left_is_removed_and_told_and_nothing_else(tmp_path)
     unstable = options(["crack.friction=0.01", "crack.inclination=10 deg"])
     assert command("run", BLOCK, "--out", ".", cwd=tmp_path).returncode == 0
     result = command("run", BLOCK, *unstable, "--out", ".", cwd=tmp_path)
-    removed = [line.split()[1] for line in result.stdout.splitlines() if line.startswith("  removed ")]
-    assert removed == ["events.parquet", "histories.parquet"]
+    lines = [line.split() for line in result.stdout.splitlines()]
+    assert lines[lines.index(["removed", "."]) + 1] == ["parquet", "events,", "histories"]
     refused = command("run", BLOCK, "--csv", "--out", ".", cwd=tmp_path)
     assert refused.returncode == 2
     assert refused.stderr.startswith("heeltoe: --out: events.csv is there, and no earlier run listed it as its own; ")

@@ -147,16 +147,14 @@ def finish(
         written = [*written, write_text(str(json_), text + "\n", "--json")]
     words = console(stderr=json_ == "-")
     show(words)
-    say_written(written, words)
-    for path in removed:
-        if path.suffix != ".vtu":
-            say_file("removed", path, words)
+    say_files("wrote", written, words)
+    say_files("removed", removed, words)
     if json_ == "-":
         print_data(text)
 
 
-def say_written(paths: Sequence[Path], words: Console) -> None:
-    """Say which files were written: a file alone by its path, those of a folder by their kinds."""
+def say_files(done: str, paths: Sequence[Path], words: Console) -> None:
+    """Say what was done to files: a file alone by its path, those of a folder by their kinds."""
     from rich.table import Table
     from rich.text import Text
 
@@ -167,9 +165,9 @@ def say_written(paths: Sequence[Path], words: Console) -> None:
             folders.setdefault(path.parent, []).append(path)
     for folder, files in folders.items():
         if len(files) == 1:
-            say_file("wrote", files[0], words)
+            say_file(done, files[0], words)
             continue
-        say_file("wrote", folder, words)
+        say_file(done, folder, words)
         stems: dict[str, list[str]] = {}
         for path in files:
             stems.setdefault(path.stem, []).append(path.suffix[1:])

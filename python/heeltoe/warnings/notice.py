@@ -239,7 +239,7 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "surroundings-left-out": (
         "note",
         "rock",
-        "of {cases:d} made dams like this one {share:.2g %} slide less far on elastic rock and with sound in the "
+        "{share:.2g %} of {cases:d} computed dams like this one slide less far on elastic rock with sound in the "
         "water, half of all {times:.2g|to} times as far; here the rock is rigid and the water a mass, which the block "
         "rock and reservoir.compressible = true change",
     ),

@@ -192,8 +192,13 @@ class Screen:
 
 
 def _clipped(row: Text, width: int) -> Text:
-    """Return a line that ends with a word where the text goes on."""
-    return row if len(row) <= width else row[: row.plain.rfind(" ", 0, width - 1)] + Text(" …")
+    """Return a line that ends where a clause does, or with a word if no clause of half a line fits."""
+    if len(row) <= width:
+        return row
+    room = row.plain[: width - 2]
+    clause = max(room.rfind(mark) for mark in (": ", "; ", ", "))
+    end = clause if clause > width // 2 else room.rfind(" ")
+    return row[:end] + Text(" …")
 
 
 def print_warnings(warnings: Iterable[str], console: Console) -> None:
