@@ -4,6 +4,7 @@ known."""
 from __future__ import annotations
 
 import json
+import math
 import os
 import random
 import subprocess
@@ -14,10 +15,13 @@ from typing import Any
 import pyarrow.parquet as pq
 import pytest
 
+from heeltoe import read_case
+from heeltoe.app.live import answer
 from shared.attack_page import CASES, SEED
 from shared.attacked import Attack
 from shared.command import command
 from shared.every_field import Fields
+from shared.scenes import unpacked
 from shared.studies import GRID, study_file
 
 NUMBERS = (
@@ -147,6 +151,39 @@ def test_some_dams_obey_the_laws(law, tmp_path, record_property):
 def test_dams_obey_the_laws(law, tmp_path, record_property):
     first = SEED * 1_000_000 + 970_000
     attack(law, range(first, first + CASES // 10), tmp_path, record_property)
+
+
+def attack_the_app(seeds: range, place: Path, record_property: Any) -> None:
+    """The app says what the shell does, and draws the slip that this returns."""
+    strikes = Attack("laws: app and shell")
+    for seed in seeds:
+        draw = random.Random(seed)
+        model, fields = draw.choice(("rigid", "decoupled")), dam(draw, watched=WATCHED["rigid"])
+        (place / "case.json").write_text(json.dumps(fields))
+        reply = command("run", "case.json", "--model", model, "--json", "-", cwd=place)
+        if reply.returncode == 2:  # a chain has something below its crack
+            strikes.ends["refused"] += 1
+            continue
+        shell, app = json.loads(reply.stdout), answer(read_case(fields), {}, model, "si")
+        same = (app["verdict"], app["ok"]) == (shell["verdict"], shell["outcome"] == "ok")
+        if same and app["ok"]:
+            # The curve has numbers of four bytes.
+            slip = 1e-3 * float(unpacked(app["curves"]["slip"]["values"])[-1])
+            same = math.isclose(slip, shell["residual_slip_m"], rel_tol=1e-6, abs_tol=1e-9)
+        strikes.ends["defect" if not same else "accepted" if app["ok"] else "no result"] += 1
+        if not same:
+            strikes.defects.append(f"{seed}, {model}: {app['verdict']!r}, {shell['verdict']!r}")
+    strikes.report(record_property)
+
+
+def test_the_app_answers_some_dams_as_the_shell(tmp_path, record_property):
+    attack_the_app(range(37_000, 37_006), tmp_path, record_property)
+
+
+@pytest.mark.slow
+def test_the_app_answers_as_the_shell(tmp_path, record_property):
+    first = SEED * 1_000_000 + 970_000
+    attack_the_app(range(first, first + CASES // 10), tmp_path, record_property)
 
 
 # Studies
