@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import io
 import json
 import math
@@ -12,6 +13,7 @@ import sys
 import time
 import zipfile
 
+import numpy as np
 import pytest
 
 pytest.importorskip("starlette")
@@ -22,6 +24,9 @@ from heeltoe.app.server import application
 from heeltoe.app.sessions import Session
 from heeltoe.app.settings import Settings
 from heeltoe.app.transfers import offer
+from heeltoe.result.contract import HEADLINES
+from heeltoe.units.write import angle, length
+from shared.command import command
 
 HOME = "http://127.0.0.1:8642"
 
@@ -127,6 +132,48 @@ def test_the_shown_words_make_the_same_elastic_dam(ask, tab, tmp_path):
     wanted = {"model": "auto"}
     assert {"result.json", "rigid/result.json"} <= files_made(tab, wanted)
     same_elsewhere(ask, tab, tmp_path, wanted)
+
+
+def test_app_and_shell_have_the_same_numbers(ask, tab, tmp_path):
+    """What the page of the answer shows of a block, of an elastic dam and of the static checks with its slip is what
+    the command line computes from the case file, with the sliders where they are."""
+    brief = {"motion.duration": "4 s", "flexible.elements_across": "2", "flexible.evidence": "none"}
+    brief |= {"statics.criteria": "USBR", "limits.residual_slip": "1 mm"}
+    assert not tab.ask("edit case", "case", changes=brief)["errors"]
+    # The page shows what the block does before the elastic dam.
+    shown = {model: tab.ask(model, model, values={"crack.friction": 0.9}) for model in ("rigid", "elastic")}
+    checks = tab.ask("statics", "statics", values={"crack.friction": 0.9})
+    case = case_file(ask, tab, tmp_path) / "case.toml"
+
+    def shell(name, model):
+        reply = command(name, case, "--model", model, "--json", "-")
+        assert reply.returncode == 0, reply.stderr
+        return json.loads(reply.stdout)
+
+    for name, model in (("rigid", "rigid"), ("elastic", "flexible")):
+        page, result = shown[name], shell("run", model)
+        assert result["residual_slip_m"] > 0.01
+        numbers = {row["key"]: row["text"] for row in page["numbers"]}
+        for headline in HEADLINES:
+            value = headline.way * result[headline.key]
+            text = angle(value) if headline.kind == "rotation" else length(value)
+            assert numbers[headline.key] == (text if abs(value) >= headline.least else "0")
+        (limit,) = result["limits"]
+        assert page["headline"]["state"] == ("met" if limit["met"] else "failed")
+        assert page["headline"]["value"] == length(limit["value"])
+        assert page["verdict"] in result["verdict"] or page["verdict"].split(".")[0] in result["verdict"]
+        slip = np.frombuffer(base64.b64decode(page["curves"]["slip"]["values"]["data"]), dtype="<f4")
+        assert slip[-1] == np.float32(1e3 * result["residual_slip_m"])
+        if model == "flexible":
+            assert page["left"]["slips_m"] == {"0": result["residual_slip_m"]}
+    expected = shell("statics", "flexible")
+    rows = [(*row["cells"][:3], row["met"]) for row in checks["checks"]]
+    assert len(rows) == len(expected["checks"]) > 3
+    for (of, name, text, met), check in zip(rows, expected["checks"], strict=True):
+        assert (of, name, met) == (check["load_case"], check["name"], check["met"])
+        assert text == "-" if check["value"] is None else float(text.split()[0]) == round(check["value"], 2)
+    missed = sum(not check["met"] for check in expected["checks"])
+    assert checks["verdict"].startswith(f"{missed} of {len(rows)} checks fail")
 
 
 def test_a_file_is_served_once_as_a_file_and_to_its_tab_alone(ask, tab):

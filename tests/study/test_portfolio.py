@@ -12,6 +12,9 @@ from heeltoe.errors.error import InputError
 from heeltoe.result.contract import CRACKED
 from heeltoe.study.plan.plan import plan_of
 from heeltoe.study.run.batches import NUMBERS, run_part
+from heeltoe.views.content.dam_pages import dam_pages
+from heeltoe.views.content.study import study_answer, study_subject
+from heeltoe.views.figures.studies.ranks import ranks_figure
 from shared.command import command
 from shared.studies import study_file
 
@@ -175,3 +178,29 @@ def test_a_table_must_be_there_and_readable(tmp_path):
     with pytest.raises(InputError) as error:
         heeltoe.read_study(study_file(tmp_path, conflict, case=DAM))
     assert error.value.code == "fields-conflict"
+
+
+def test_one_motion_has_no_median(tmp_path):
+    study(tmp_path)
+    text = (tmp_path / "study.toml").read_text()
+    one = text.replace('folder = "quakes"', 'files = ["quakes/quake-a-000.txt"]')
+    assert one != text
+    (tmp_path / "study.toml").write_text(one.replace(', "1.2 g"', ""))
+    case = tmp_path / "case.toml"
+    case.write_text(case.read_text().replace('title = "Dams"', ""))
+    result = heeltoe.run_study(tmp_path / "study.toml", tmp_path / "out")
+    (answer,) = result.portfolio
+    assert answer["motions"] == 1
+    assert result.title == "portfolio of 3 dams"
+    numbers = answer["dams"][0]["residual_slip_m"]
+    assert numbers["largest"] > 0.0
+    assert [numbers[name] for name in ("mean", "median", "84%")] == [None, None, None]
+    slips = [dam["residual_slip_m"]["largest"] for dam in answer["dams"]]
+    assert slips == sorted(slips, reverse=True)
+    text = repr(study_answer(result, "si"))
+    assert "in one motion, which has no median" in text
+    assert "half stay below'" not in text
+    page = repr(dam_pages(study_subject(result, tmp_path, "si", "", None)))
+    assert "1 of 3 by the rigid model, in one motion: the residual slip is" in page
+    assert result.portfolio_table().num_rows == 3
+    assert ranks_figure(result).axes[0].get_xlabel() == "residual slip in the one motion [mm]"

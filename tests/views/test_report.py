@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from pypdf import PdfReader
 
 from heeltoe import InputError, read_case, rigid, with_spread
+from heeltoe.case.field_usage import readers
 from heeltoe.errors.sanitize import LONGEST, plain
 from heeltoe.result.write import json_text
 from heeltoe.views.content.drawings import caption
@@ -95,9 +96,13 @@ def test_a_report_holds_all_that_it_shall(block):
         assert words in reader.text
     for text in map(str, response.warnings):
         assert squeezed(text) in squeezed(reader.text)
-    # Every field of the case that has a value, whether given or not.
-    for path, value, _, _ in fields(case, case.model_dump(mode="json")):
+    # Every field of the case that has a value, whether given or not; of those that are not given, what is read.
+    models = {"statics", *(run.model for run in response.responses)}
+    for path, value, _, _ in fields(case, case.model_dump(mode="json"), given=True):
         assert value == "none" or path in reader.text
+    appendix = reader.text.partition("Appendix: defaults")[2]
+    for path, value, _, _ in fields(case, case.model_dump(mode="json"), given=False):
+        assert value == "none" or (path in appendix) == bool(readers(path) & models)
     assert "script" not in reader.tags
     assert all(link.startswith(("data:image/svg+xml;base64,", "#s")) for link in reader.links)
 

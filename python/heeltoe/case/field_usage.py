@@ -167,7 +167,7 @@ def _plain(path: str) -> str:
 
 @cache
 def readers(path: str) -> frozenset[str]:
-    path = re.sub(r"^cracks(?=\.|$)", "crack", path)
+    path = re.sub(r"^cracks(?=\.|$)", "crack", _plain(path))
     while path:
         if path in READ_BY:
             return READ_BY[path]

@@ -93,6 +93,7 @@ async def _laid(desk: Desk, request: Asked) -> Made:
     """
     from heeltoe.app.studies.draft import study_asked
     from heeltoe.app.studies.work import lay
+    from heeltoe.study.plan.file import untitled
 
     session = desk.session
     if len(session.studies) >= desk.settings.most_studies:
@@ -105,7 +106,10 @@ async def _laid(desk: Desk, request: Asked) -> Made:
     except InputError:
         await desk.workers.quick(partial(shutil.rmtree, ignore_errors=True), folder)
         raise
-    return Made(number, str(fields[1].get("title") or fields[0].get("title") or "untitled study"), folder, 0)
+    case, study, _ = fields
+    records = len(study.get("motions", {}).get("events", ())) or 1
+    title = study.get("title") or case.get("title") or untitled(study, records)
+    return Made(number, str(title), folder, 0)
 
 
 async def remove(desk: Desk, request: Asked) -> dict[str, Any]:

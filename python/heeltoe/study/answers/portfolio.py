@@ -25,11 +25,12 @@ def portfolio_of(walk: Walk) -> list[dict[str, Any]] | None:
     Returns
     -------
     list
-        Of each model its ``dams``, the worst first: ``name``, ``rank`` from one, ``exceeds`` with the share of the
-        motions in which each limit is exceeded, by ``limit value``, and mean, median, 84 % and largest of the residual
-        slip [m], None where they are not finite.
+        Of each model the count of its ``motions``, each at each of its strengths, and its ``dams``, the worst first:
+        ``name``, ``rank`` from one, ``exceeds`` with the share of the motions in which each limit is exceeded, by
+        ``limit value``, and mean, median, 84 % and largest of the residual slip [m], None where they are not finite.
+        One motion has a largest alone.
     """
-    names = walk.manifest.get("dams")
+    names: list[str] | None = walk.manifest.get("dams")
     if names is None:
         return None
     # Those of the curves, then those of the case.
@@ -43,6 +44,7 @@ def portfolio_of(walk: Walk) -> list[dict[str, Any]] | None:
         {
             "model": model,
             "limits": [{"limit": limit, "value": value} for limit, value in limits],
+            "motions": slips.shape[1],
             "dams": _ranked(
                 names,
                 slips[..., place],
@@ -85,7 +87,10 @@ def _ranked(names: list[str], slips: Floats, exceeds: list[Floats]) -> list[dict
             "name": names[dam],
             "dam": dam,
             "exceeds": [float(share[dam]) for share in exceeds],
-            "residual_slip_m": {name: _known(float(column[dam])) for name, column in numbers.items()},
+            "residual_slip_m": {
+                name: None if slips.shape[1] == 1 and name != "largest" else _known(float(column[dam]))
+                for name, column in numbers.items()
+            },
         }
         for rank, dam in enumerate(order.tolist())
     ]

@@ -27,6 +27,7 @@ from heeltoe.study.answers.likelihood import Tally
 from heeltoe.study.answers.portfolio import portfolio_of, ranks_table
 from heeltoe.study.answers.sensitivity import sobol_indices, tornado
 from heeltoe.study.answers.suite import suite_of
+from heeltoe.study.plan.file import untitled
 from heeltoe.study.run.aggregate import SHAKEN, Walk
 from heeltoe.study.run.store import RUNS, Store, read_manifest
 from heeltoe.units.parse import DIMENSIONS
@@ -56,10 +57,10 @@ class StudyResults(Shown):
 
     @property
     def title(self) -> str:
-        """Of the study."""
+        """Of the study; without a title what it varies."""
         count = len({motion["name"] for motion in self.manifest["motions"]})
-        suite = f"suite of {count} record{'s' * (count != 1)}"
-        return str(self.manifest["title"]) or (suite if self.manifest["study"].get("suite") else "untitled study")
+        dams = len(self.manifest["dams"] or ())
+        return str(self.manifest["title"]) or untitled(self.manifest["study"], count, dams)
 
     @property
     def complete(self) -> bool:

@@ -333,6 +333,18 @@ class Study(Shown, Fields):
                 yield InputError("study-motion-varies", f"vary.{path}")
 
 
+def untitled(study: Mapping[str, Any], records: int, dams: int = 0) -> str:
+    """Return what a study without a title is called, by its fields as a file has them: what it varies."""
+    if study.get("suite"):
+        return f"suite of {records} record{'s' * (records != 1)}"
+    if study.get("cases"):
+        return f"portfolio of {dams:,} dam{'s' * (dams != 1)}"
+    names = list(study.get("vary") or ())
+    if not names:
+        return f"study of {records} ground motion{'s' * (records != 1)}"
+    return f"study of {' and '.join(names) if len(names) < 3 else f'{len(names)} fields'}"
+
+
 def read_study(source: str | PathLike[str]) -> Study:
     """Read and check a study file, without what it names.
 

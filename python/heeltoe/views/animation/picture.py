@@ -8,15 +8,17 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgba_array
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch, Polygon, Rectangle
 from matplotlib.path import Path as Outline
+from matplotlib.text import Text
 
 from heeltoe.base.arrays import Floats
 from heeltoe.views.animation import look
 from heeltoe.views.animation.bodies import Part
-from heeltoe.views.animation.charts import Charts, animated
+from heeltoe.views.animation.charts import Charts, animated, dots
 from heeltoe.views.animation.frames import ARROW, CUT, Scene
 from heeltoe.views.figures.fonts import readable, wrapped
 
@@ -54,6 +56,7 @@ class Picture:
         self.moving: list[_View | Charts] = [*views, Charts(self.figure, scene)]
         self.canvas.draw()
         self.still = self.canvas.copy_from_bbox(self.figure.bbox)
+        self.words: dict[tuple[int, str], Any] = {}
 
     @property
     def size(self) -> tuple[int, int]:
@@ -64,11 +67,25 @@ class Picture:
     def draw(self, frame: int) -> memoryview:
         """Draw one moment and return its pixels, row by row from the top: red, green, blue and opacity."""
         self.canvas.restore_region(self.still)
+        renderer = self.canvas.get_renderer()
         for part in self.moving:
             for artist in part.at(frame):
-                self.figure.draw_artist(artist)
+                if isinstance(artist, Text):
+                    self._write(artist, renderer)
+                else:
+                    artist.draw(renderer)
         pixels: memoryview = self.canvas.buffer_rgba()
         return pixels
+
+    def _write(self, words: Text, renderer: Any) -> None:
+        """Draw words that stay where they are, on an empty place: what they look like is kept, as to draw them takes
+        a third of all the time."""
+        key = (id(words), words.get_text())
+        if key in self.words:
+            self.canvas.restore_region(self.words[key])
+        else:
+            words.draw(renderer)
+            self.words[key] = self.canvas.copy_from_bbox(words.get_window_extent(renderer).padded(2.0))
 
 
 def _heading(figure: Figure, scene: Scene) -> None:
@@ -191,11 +208,10 @@ class _View:
         bottom, top = scene.views[-1][2:]
         longest, width = ARROW * (top - bottom), (0.008 if few else 0.005) * (top - bottom)
         whole, cut = self._arrows(look.FORCE), self._arrows(look.FORCE_CUT)
-        dots = []
-        for colour in look.STATUS[: len(scene.statuses)]:
-            line = self.axes.plot([], [], "o", color=colour, markeredgecolor=look.EDGE, markeredgewidth=0.8)[0]
-            line.set_markersize(8.0 if few else 4.5)
-            dots.append(animated(line))
+        colours = to_rgba_array(look.STATUS[: len(scene.statuses)])
+        size = 8.0 if few else 4.5
+        nodes = dots(colours, size, np.empty((0, 2)), self.axes.transData, edgecolors=look.EDGE, linewidths=0.8)
+        animated(self.axes.add_collection(nodes, autolim=False))
 
         def move(frame: int, drawn: dict[int, Floats]) -> list[Any]:
             at = drawn[id(upper)][upper.crack]
@@ -205,9 +221,10 @@ class _View:
             forces = longest * forces * np.minimum(1.0, CUT / np.where(sizes > 0.0, sizes, 1.0))[:, None]
             whole.set_path(arrow_outlines(at[fits], forces[fits], width))
             cut.set_path(arrow_outlines(at[~fits], forces[~fits], width))
-            for status, line in enumerate(dots):
-                line.set_data(*at[scene.status[frame] == status].T)
-            return [whole, cut, *dots]
+            known = scene.status[frame] >= 0
+            nodes.set_offsets(at[known])
+            nodes.set_facecolor(colours[scene.status[frame][known]])
+            return [whole, nodes] if fits.all() else [whole, cut, nodes]
 
         self.overlays.append(move)
         self._legend(longest)

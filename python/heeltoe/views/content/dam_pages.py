@@ -94,6 +94,12 @@ def _ranks(subject: StudySubject, dam: int) -> list[str]:
     sentences = []
     for row in subject.results.portfolio or ():
         own = next(entry for entry in row["dams"] if entry["dam"] == dam)
+        of = f"{own['rank']} of {len(row['dams']):,} by the {row['model']} model"
+        if row["motions"] == 1:
+            slip = own["residual_slip_m"]["largest"]
+            ((text,),) = in_one_unit([[Amount(slip, zero="0")]], subject.units)
+            sentences.append(f"{of}, in one motion: {'it fails' if slip is None else f'the residual slip is {text}'}.")
+            continue
         shares = [
             f"{100.0 * share:.1f} % of the motions exceed the {limit_of(limit['limit'], limit['value'], subject.units)}"
             for limit, share in zip(row["limits"], own["exceeds"], strict=True)
@@ -102,7 +108,6 @@ def _ranks(subject: StudySubject, dam: int) -> list[str]:
         ((half, most, largest),) = in_one_unit([slips], subject.units)
         slid = f"the residual slip stays below {half} in half of the motions and below {most} in 84 %"
         end = f"; the largest is {largest}" if own["residual_slip_m"]["largest"] is not None else "; some runs fail"
-        of = f"{own['rank']} of {len(row['dams']):,} by the {row['model']} model"
         sentences.append(f"{of}: {'; '.join([*shares, slid])}{end}.")
     return sentences
 

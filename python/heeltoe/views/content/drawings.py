@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from heeltoe.views.content.subject import NAMES
-from heeltoe.views.content.tree import Beside, Block, FigureBlock
+from heeltoe.views.content.tree import Beside, Block, FigureBlock, glued
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -213,4 +213,6 @@ def drawing(name: str, figure: Figure, text: str, share: float | None = None) ->
     # Letters as outlines look the same wherever the report is read.
     with laid_out(figure), mpl.rc_context({"svg.fonttype": "path", "svg.hashsalt": "heeltoe"}):
         figure.savefig(file, format="svg", metadata={"Date": None})
-    return FigureBlock(name, text, file.getvalue(), (float(width), float(height)), float(width) / WIDTH, own in _HELD)
+    return FigureBlock(
+        name, glued(text), file.getvalue(), (float(width), float(height)), float(width) / WIDTH, own in _HELD
+    )

@@ -7,6 +7,7 @@ import json
 
 import numpy as np
 
+from heeltoe.case.field_usage import readers
 from heeltoe.case.model import Case
 from heeltoe.errors.sanitize import plain
 from heeltoe.motion.ground_motion import GroundMotion
@@ -18,15 +19,13 @@ from heeltoe.views.words.fields import fields
 from heeltoe.views.words.sheet import lines
 
 _SYSTEMS = {"si": "SI", "us": "US"}
-# Blocks that only one model looks at.
 _WIDE = 2.6
 """Width of the column that says what a revision changed, over that of each of the others."""
-_OWNERS = {"flexible": ("flexible",), "decoupled": ("decoupled",), "analysis": ("rigid", "decoupled")}
 
 
 def given_input(subject: Subject) -> Section:
     """Return the section with the drawing of the dam and all fields that the case gives."""
-    rows = _rows(subject, given=True)
+    rows = case_rows(subject.case, subject.units)
     text = (
         f"All that the case says, in {_SYSTEMS[subject.units]} units {subject.per_width}; x points downstream, z up. "
         "What it leaves to the program’s defaults is in the appendix; "
@@ -64,14 +63,22 @@ def _loads(subject: Subject) -> tuple[Block, ...]:
 
 def defaults(subject: Subject) -> Section:
     """Return the appendix with all fields at their defaults."""
-    rows = tuple(row[:2] for row in _rows(subject, given=False) if row[1] != "none")
+    models = {"statics", *(run.response.model for run in subject.runs)}
+    rows = tuple(
+        (Code(path), value)
+        for path, value, *_ in fields(
+            subject.case, subject.case.model_dump(mode="json"), units=subject.units, given=False
+        )
+        if value != "none" and readers(path) & models
+    )
     return Section(
         "Appendix: defaults",
         (
             paragraph(
-                "Fields that the case does not give, with the values that were used; what is not listed is none. ",
+                "Fields that the case does not give and that the models of this report or its static checks read, with "
+                "the values that were used; what is not listed is none. ",
                 Code("heeltoe explain FIELD"),
-                f" says what one means. {_unused(subject)}".rstrip(),
+                " says what one means.",
             ),
             Table(("field", "value"), rows, "Left to defaults.", "ll"),
         ),
@@ -137,21 +144,10 @@ def _command(subject: Subject) -> str:
     return f"heeltoe run CASE.toml --model {model}{spread}{units} --report"
 
 
-def _rows(subject: Subject, *, given: bool) -> tuple[tuple[Inline, ...], ...]:
-    return case_rows(subject.case, subject.units, given=given)
-
-
-def case_rows(case: Case, units: str, *, given: bool) -> tuple[tuple[Inline, ...], ...]:
-    """Return the fields of a case that are given, or those that are not: path, value, meaning."""
+def case_rows(case: Case, units: str) -> tuple[tuple[Inline, ...], ...]:
+    """Return the fields of a case that are given: path, value, meaning."""
     written = case.model_dump(mode="json")
     return tuple(
         (Code(path), value, meaning.replace("`", ""))
-        for path, value, _, meaning in fields(case, written, units=units, given=given)
+        for path, value, _, meaning in fields(case, written, units=units, given=True)
     )
-
-
-def _unused(subject: Subject) -> str:
-    """Say which blocks the models of this report do not look at."""
-    models = {run.response.model for run in subject.runs}
-    blocks = [f"[{block}]" for block, owners in _OWNERS.items() if not models & set(owners)]
-    return f"Fields of {' and '.join(blocks)} play no part in this report." if blocks else ""

@@ -165,7 +165,7 @@ def _answer(subject: _Subject) -> Section:
 
 
 def _input(case: Case, units: str) -> Section:
-    rows = case_rows(case, units, given=True)
+    rows = case_rows(case, units)
     system = "US" if units == "us" else "SI"
     text = f"All that the case says, in {system} units, per {'foot' if system == 'US' else 'metre'} of dam:"
     table = Table(("field", "value", "meaning"), rows, "Given by the case.", "lll", (3.8, 2.7, 5.7))

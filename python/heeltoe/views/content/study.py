@@ -385,6 +385,6 @@ def _rerun(subject: StudySubject) -> Section:
 
 
 def _base(subject: StudySubject) -> Section:
-    rows = case_rows(subject.case, subject.units, given=True)
+    rows = case_rows(subject.case, subject.units)
     table = Table(("field", "value", "meaning"), rows, "Given by the base case.", "lll", (3.8, 2.7, 5.7))
     return Section("Appendix: the base case", (table,))

@@ -345,21 +345,29 @@ def portfolio(subject: StudySubject) -> list[Block]:
     for row in subject.results.portfolio or ():
         worst, count = row["dams"][:SHOWN_DAMS], len(row["dams"])
         limits = [limit_of(limit["limit"], limit["value"], subject.units) for limit in row["limits"]]
-        cells = [
-            [Amount(dam["residual_slip_m"][name], zero="0") for name in ("median", "84%", "largest")] for dam in worst
-        ]
+        one = row["motions"] == 1
+        shown = ("largest",) if one else ("median", "84%", "largest")
+        cells = [[Amount(dam["residual_slip_m"][name], zero="0") for name in shown] for dam in worst]
         rows: list[tuple[Inline, ...]] = [
-            (str(dam["rank"]), dam["name"], *map(_percent, dam["exceeds"]), *texts)
+            (str(dam["rank"]), dam["name"], *(_exceeds(share, one=one) for share in dam["exceeds"]), *texts)
             for dam, texts in zip(worst, in_one_unit(cells, subject.units), strict=True)
         ]
-        head = ("rank", "dam", *(f"P({limit})" for limit in limits), "half stay below", "84 %", "largest")
-        by = f"by the share of the motions that exceed the {limits[0]}" if limits else "by the mean residual slip"
+        heads = [limit if one else f"P({limit})" for limit in limits]
+        head = ("rank", "dam", *heads, *(("residual slip",) if one else ("half stay below", "84 %", "largest")))
+        by = f"by the {'mean ' * (not one)}residual slip"
+        if limits:
+            by = f"{'by whether they exceed' if one else 'by the share of the motions that exceed'} the {limits[0]}"
         some = f"the {len(worst)} worst of {count:,} dams" if count > len(worst) else f"{count:,} dams"
-        caption = (
-            f"Ranks {by}, {row['model']} model: {some}; residual slips over the motions, by the worse sign of each."
-        )
+        over = "in one motion, which has no median" if one else "over the motions"
+        signs = "its worse sign" if one else "the worse sign of each"
+        caption = f"Ranks {by}, {row['model']} model: {some}; residual slips {over}, by {signs}."
         blocks.append(Table(head, tuple(rows), caption, "rl" + "r" * (len(head) - 2)))
     return blocks
+
+
+def _exceeds(share: float, *, one: bool) -> str:
+    """Write the share of the motions in which a limit is exceeded; of one motion whether it is."""
+    return _percent(share) if not one else "exceeded" if share else "kept"
 
 
 def portfolio_section(subject: StudySubject) -> Section | None:

@@ -135,6 +135,7 @@ OF_OTHERS: dict[str, dict[str, str]] = {
         "hazard[].at[].probability": "Probability that the limit is exceeded in such a motion.",
         "portfolio": "The dams of a table by their ranks, model by model; null without a table.",
         "portfolio[].model": "Of which model.",
+        "portfolio[].motions": "How many motions there are, each counted at each of its strengths.",
         "portfolio[].limits": "The limits by which dams are ranked.",
         "portfolio[].limits[].limit": "What is limited.",
         "portfolio[].limits[].value": "The limit, in SI.",

@@ -76,7 +76,7 @@ def _status_map(axes: Axes, history: CrackHistory, scale: Scale) -> list[str]:
         # Hundreds of thousands of rectangles would make a drawing of many megabytes.
         rasterized=True,
     )
-    _label_crack(axes, scale, "crack")
+    _label_crack(axes, scale)
     return [name for k, name in enumerate(names) if (status == k).any()]
 
 
@@ -116,7 +116,7 @@ def joint_figure(response: FlexibleResponse, units: str = "si") -> Figure:
         norm=BoundaryNorm(np.arange(len(_JOINT_STATES) + 1) - 0.5, len(_JOINT_STATES)),
         rasterized=True,
     )
-    _label_crack(joint, scale, "joint")
+    _label_crack(joint, scale)
     time_axis(joint, response)
     states_seen = [name for k, name in enumerate(_JOINT_STATES) if (states == k).any()]
     handles = [
@@ -219,7 +219,7 @@ def pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     beyond = "max" if pressure.max() > most else "neither"
     bar = figure.colorbar(image, ax=crack, extend=beyond, pad=0.01, aspect=18)
     bar.set_label(f"pressure [{scale.unit}]")
-    _label_crack(crack, length, "crack")
+    _label_crack(crack, length)
     strong_part(crack, response)
     handle = Patch(facecolor="white", edgecolor="#999999", hatch="////", label="open: no contact pressure")
     figure.legend(handles=[handle], loc="outside lower center")
@@ -248,8 +248,8 @@ def contact_pressure(history: CrackHistory) -> tuple[Floats, Floats]:
     return history.time[starts], np.add.reduceat(pressure, starts, axis=0) / counts[:, None]
 
 
-def _label_crack(axes: Axes, scale: Scale, name: str) -> None:
-    axes.set_ylabel(f"along the {name}\nfrom the heel [{scale.unit}]")
+def _label_crack(axes: Axes, scale: Scale) -> None:
+    axes.set_ylabel(f"from the heel\n[{scale.unit}]")
     axes.grid(visible=False)
 
 

@@ -127,6 +127,13 @@ def align_labels(axes: Sequence[Axes]) -> None:
         panel.yaxis.set_label_coords(0.0, 0.5, transform=panel.transAxes + beyond)
 
 
+def fit_time_label(axes: Axes) -> None:
+    """Break the words below a panel where they are longer than it is wide: others may stand beside it."""
+    label = axes.xaxis.label
+    room = 72.0 / axes.figure.dpi * float(axes.bbox.width) / (_LETTER * float(label.get_fontsize()))
+    label.set_text(textwrap.fill(label.get_text().replace("\n", " "), max(int(1.1 * room), 24)))
+
+
 def fit_words(figure: Figure) -> None:
     """Let the words of a figure fit: legends below it in as many columns as have room, longer lines broken, and what
     stands beside a panel shorter than the panel is high.
@@ -135,6 +142,7 @@ def fit_words(figure: Figure) -> None:
     positive.
     """
     for axes in figure.axes:
+        fit_time_label(axes)
         high = 72.0 * float(figure.get_figheight()) * axes.get_position().height
         label = axes.yaxis.label
         for shorter in (lambda text: text, _without_way, lambda text: _without_way(text).replace(" [", "\n[")):

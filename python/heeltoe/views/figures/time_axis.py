@@ -10,6 +10,7 @@ from heeltoe.motion.measures import husid_time
 from heeltoe.result.response import Response
 from heeltoe.result.rest import motion_end, rests_from
 from heeltoe.views.figures.panels import pieces
+from heeltoe.views.figures.style import fit_time_label
 
 # Up to where the ground shakes strongly: this share of its Arias intensity has come in (as in D5-75).
 _SHAKEN = 0.75
@@ -41,10 +42,9 @@ def time_axis(axes: Axes, *responses: Response) -> None:
         _mark(axes, moment)
         label = label if "motions" in label else f"{label}; further motions begin at the dotted lines"
     if cut:
-        # In a narrow panel a line has no room for both.
-        label += ";\n" if ";" in label else "; "
-        label += f"at rest from here to the end at {end:.4g} s"
+        label += f"; at rest from here to the end at {end:.4g} s"
     axes.set_xlabel(label)
+    fit_time_label(axes)
 
 
 def strong_part(axes: Axes, response: Response) -> None:

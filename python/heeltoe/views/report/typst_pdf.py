@@ -171,6 +171,7 @@ class _Writer:
 
     def __init__(self) -> None:
         self.figures = 0
+        self.placement = "auto"
 
     def write(self, blocks: tuple[Block, ...], level: int = 1) -> Iterator[str]:
         waiting = False
@@ -179,6 +180,8 @@ class _Writer:
                 # Figures that wait for a page with room for them come before the next section.
                 if level == 1 and waiting:
                     yield "#place.flush()"
+                if level == 1:
+                    self.placement = "auto"
                 waiting = any(_figures((block,)))
                 if block.page:
                     yield "#pagebreak(weak: true)"
@@ -186,16 +189,22 @@ class _Writer:
                 yield from self.write(block.blocks, level + 1)
             elif isinstance(block, FigureBlock):
                 # Text flows on until there is a page with room for it.
-                yield "#" + self._figure(block, "none" if block.held else "auto")
+                yield "#" + self._figure(block, "none" if block.held else self._next())
             elif isinstance(block, Beside):
                 columns = ", ".join(f"{figure.share:g}fr" for figure in block.figures)
                 figures = ", ".join(self._figure(figure, "none") for figure in block.figures)
                 yield (
-                    f"#place(auto, float: true, grid(columns: ({columns}), column-gutter: {_GAP_MM}mm, "
+                    f"#place({self._next()}, float: true, grid(columns: ({columns}), column-gutter: {_GAP_MM}mm, "
                     f"align: bottom, {figures}))"
                 )
             else:
                 yield _plain(block)
+
+    def _next(self) -> str:
+        """Return where the next figure goes: the first of a section where typst likes, so that it does not stand above
+        the heading of another one; others to the head of a page, as those at its foot leave a gap above them."""
+        placement, self.placement = self.placement, "top"
+        return placement
 
     def _figure(self, block: FigureBlock, placement: str) -> str:
         width, height = block.size

@@ -20,7 +20,7 @@ _SHOWN, _LONGEST = 25, 28
 @styled
 def ranks_figure(study: StudyResults, units: str = "si") -> Figure | None:
     """Draw the worst dams of the last model from above: slips on the left, on the right the share of the motions in
-    which the first limit is exceeded; None without a table of dams."""
+    which the first limit is exceeded, where there are several; None without a table of dams."""
     if not study.portfolio:
         return None
     row = study.portfolio[-1]
@@ -29,10 +29,10 @@ def ranks_figure(study: StudyResults, units: str = "si") -> Figure | None:
     rows = np.arange(len(dams))[::-1]
     layout = ConstrainedLayoutEngine(w_pad=0.12)
     figure = Figure(figsize=(WIDTH, 1.5 + 0.22 * max(len(dams), 5)), layout=layout)
-    limits = row["limits"]
-    panels = figure.subplots(
-        1, 2 if limits else 1, sharey=True, squeeze=False, width_ratios=[1.6, 1][: 2 if limits else 1]
-    )[0]
+    limits, one = row["limits"], row["motions"] == 1
+    # One motion has no share, and no median.
+    count = 2 if limits and not one else 1
+    panels = figure.subplots(1, count, sharey=True, squeeze=False, width_ratios=[1.6, 1][:count])[0]
     slips = panels[0]
     for at, dam in zip(rows.tolist(), dams, strict=True):
         middle, high, most = (dam["residual_slip_m"][name] for name in ("median", "84%", "largest"))
@@ -42,14 +42,21 @@ def ranks_figure(study: StudyResults, units: str = "si") -> Figure | None:
         if most is not None:
             slips.plot(scale * max(most, JOINT_METER_M), at, "|", color="#000000", markersize=8, markeredgewidth=1.6)
         else:
-            slips.annotate("fails in some", (0.01, at), xycoords=("axes fraction", "data"), fontsize=7, va="center")
+            slips.annotate(
+                "fails" if one else "fails in some",
+                (0.01, at),
+                xycoords=("axes fraction", "data"),
+                fontsize=7,
+                va="center",
+            )
     slips.set_yticks(rows, [f"{dam['rank']}  {plain(dam['name'])[:_LONGEST]}" for dam in dams], fontsize=8)
     slips.set_ylim(-0.7, len(dams) - 0.3)
     slips.set_xscale("log")
     slips.set_xlim(scale * JOINT_METER_M, None)
-    slips.set_xlabel(f"residual slip: half to 84 % (bar), largest (mark) [{unit}]")
+    what = "residual slip in the one motion" if one else "residual slip: half to 84 % (bar), largest (mark)"
+    slips.set_xlabel(f"{what} [{unit}]")
     slips.grid(visible=False, axis="y")
-    if limits:
+    if len(panels) > 1:
         shares = panels[1]
         shares.barh(rows, [100.0 * dam["exceeds"][0] for dam in dams], 0.6, color=COLOURS["rotation"])
         shares.set_xlim(0.0, 100.0)
