@@ -117,17 +117,11 @@ def _laid(request: Asked, folder: Path, limit: int) -> Plan:
 
 
 def _outlook(plan: Plan) -> str:
-    """Say what a study will be; runs that take long to try are estimated as a single one is."""
-    from heeltoe.models.flexible.run.expected import analysing, frame_step_of
-    from heeltoe.study.run.run import Outlook, outlook
+    """Say what a study will be."""
+    from heeltoe.study.run.run import quick_outlook
     from heeltoe.views.terminal.study import outlook_text
 
-    if "flexible" not in plan.study.model:
-        return outlook_text(outlook(plan, _CORES))
-    case = plan.case.without_evidence()
-    end = plan.earthquakes[0].run_end
-    cost = analysing(case, end, frame_step_of(end, None))
-    return outlook_text(Outlook(plan, cost.seconds / len(plan.study.model), _CORES))
+    return outlook_text(quick_outlook(plan, _CORES))
 
 
 def run(say: Callable[..., None], folder: Path, resume: bool, units: str) -> dict[str, Any]:
@@ -139,7 +133,8 @@ def run(say: Callable[..., None], folder: Path, resume: bool, units: str) -> dic
         done = f"{progress.done:,} of {progress.of:,} runs, {progress_text(progress)}"
         say(done, progress.done / progress.of)
 
-    say("reading the study")
+    fine = "; elastic dams are first run with their evidence, for mesh and step"
+    say("reading the study" + fine * ("flexible" in read_study(folder / STUDY).model))
     started = (folder / OUT / "study.json").exists()
     run_study(
         folder / STUDY,

@@ -32,9 +32,12 @@ def outlook_text(expected: Outlook) -> str:
     parts += [f"{models} models"] if models > 1 else []
     drawn = f"; of {len(plan.shakes)} motions, one each" if not plan.every and len(plan.shakes) > 1 else ""
     times = " x ".join(parts)
-    how_long = duration(expected.seconds)
-    about = how_long if how_long.startswith("less") else f"about {how_long}"
-    return f"{plan.count:,} runs ({times}{drawn}), {about} on {expected.cores} cores"
+    return f"{plan.count:,} runs ({times}{drawn}), {_about(expected.seconds)} on {expected.cores} cores"
+
+
+def _about(seconds: float) -> str:
+    text = duration(seconds)
+    return text if text.startswith("less") else f"about {text}"
 
 
 def print_outlook(expected: Outlook, console: Console) -> None:
@@ -45,7 +48,8 @@ def print_outlook(expected: Outlook, console: Console) -> None:
 def progress_text(progress: Progress) -> str:
     """Say how fast a study runs, and how long it still takes."""
     failed = f", {progress.failed:,} without a result" if progress.failed else ""
-    return f"{progress.rate:,.0f} runs/s, {duration(progress.left)} left{failed}"
+    rate = f"{progress.rate:,.0f} runs/s" if progress.rate >= 1.0 else f"{60.0 * progress.rate:.0f} runs/min"
+    return f"{rate}, {_about(progress.left)} left{failed}"
 
 
 def print_study(study: StudyResults, console: Console, units: str = "si", *, details: bool = False) -> None:
