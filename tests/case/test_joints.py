@@ -66,7 +66,7 @@ def test_changes_by_path_reach_the_joints():
 @pytest.mark.parametrize(
     ("changes", "code", "field"),
     [
-        ({"every": "0.5 m"}, "joints-many", "joints.every"),
+        ({"every": "0.2 m"}, "joints-many", "joints.every"),
         ({"lowest": "29 m"}, "joints-none", "joints.lowest"),
         ({"every": "10 parsnips"}, "unit-unknown", "joints.every"),
         ({"bond": BOND | {"cohesion": "0.1 MPa"}}, "bond-apex", "joints.bond.cohesion"),
@@ -98,5 +98,6 @@ def test_the_schema_knows_joints():
 
 
 def test_many_joints_are_said_to_take_long():
+    """Their contacts are solved together: five times the joints take about the square of that."""
     few, many = (cost_of(read_case(dam(every=lift))).seconds for lift in ("10 m", "2 m"))
-    assert many > 50.0 * few
+    assert 10.0 * few < many < 50.0 * few

@@ -25,8 +25,8 @@ JOINTS_MEANING = (
     "Lift joints at equal distances, all with the same bond, in place of `crack` and `cracks`: a file has them as one "
     "block, a case as the list of its cracks from the crest down."
 )
-#: More joints are no dam that a run of today gets through.
-MOST_JOINTS = 40
+#: More joints are a slip of the pen: lifts of 1.5 m in a dam of 150 m.
+MOST_JOINTS = 100
 # A joint nearer to the crest than this part of a lift leaves no lift above it.
 _LEAST_LIFT = 0.5
 # Levels that differ by less than this part of a lift are one.

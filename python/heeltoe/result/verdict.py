@@ -24,6 +24,8 @@ _IN_THE_AIR_S = 0.05
 _ROCKS_S = 0.02
 # More joints than these are told together.
 _SINGLY = 2
+# Of more joints or cracks than these the ones that crack or move most are named, and what the others do at most.
+_NAMED = 4
 # What a model takes the dam for.
 _AS = {"rigid": "As a rigid block", "decoupled": "As a rigid block on an elastic part below it"}
 
@@ -182,15 +184,23 @@ def _joints_in_order(bonds: Sequence[tuple[CrackResponse, BondState]], units: st
         (bond.cracked_through_s, crack.elevation) for crack, bond in bonds if bond.cracked_through_s is not None
     )
     if through:
-        places = _listed([f"{_level(level, units)} ({when:.2f} s)" for when, level in through])
-        sentences.append(f"Cracked through: {places}.")
+        places = [f"{_level(level, units)} ({when:.2f} s)" for when, level in through[:_NAMED]]
+        if len(through) > _NAMED:
+            places.append(f"{len(through) - _NAMED} more by {through[-1][0]:.2f} s")
+        sentences.append(f"Cracked through: {_listed(places)}.")
     parts = [
-        f"{_level(crack.elevation, units)} ({_of(bond.cracked_length_m, crack.crack_width_m, units)})"
-        for crack, bond in bonds
-        if bond.first_cracking_s is not None and bond.cracked_through_s is None
+        (crack, bond) for crack, bond in bonds if bond.first_cracking_s is not None and bond.cracked_through_s is None
     ]
     if parts:
-        sentences.append(f"Cracked in part: {_listed(parts)}.")
+        farthest = sorted(parts, key=lambda part: -part[1].cracked_length_m / part[0].crack_width_m)[:_NAMED]
+        places = [
+            f"{_level(crack.elevation, units)} ({_of(bond.cracked_length_m, crack.crack_width_m, units)})"
+            for crack, bond in parts
+            if any(crack is one for one, _ in farthest)
+        ]
+        if len(parts) > _NAMED:
+            places.append(f"{len(parts) - _NAMED} more less far")
+        sentences.append(f"Cracked in part: {_listed(places)}.")
     whole = len(bonds) - len(cracked)
     if whole:
         sentences.append(f"{'The other does' if whole == 1 else f'The other {whole} do'} not crack.")
@@ -356,11 +366,13 @@ def _other_cracks(response: Response, units: str, brief: bool) -> str:
         return ""
     smallest = JOINT_METER_M if response.elastic else LEAST_M
     sentences = []
-    for place, crack in enumerate(response.cracks):
-        if place == response.asked:
+    others = [crack for place, crack in enumerate(response.cracks) if place != response.asked]
+    told = others if len(others) <= _NAMED else sorted(others, key=_slides)[-_NAMED:]
+    for crack in others:
+        if not any(crack is one for one in told):
             continue
         slip, opening = crack.residual_slip_m, max(crack.opening_upstream_m, crack.opening_downstream_m)
-        peak = max(crack.peak_slip_downstream_m, -crack.peak_slip_upstream_m)
+        peak = _slides(crack)
         does = ["does not slide"]
         if abs(slip) >= smallest:
             does = [f"slides {length(abs(slip), units)} {_way(slip)}"]
@@ -376,7 +388,17 @@ def _other_cracks(response: Response, units: str, brief: bool) -> str:
             does.append(f"lifts off for {times.drifting:.2f} s")
         does = [*does[:-2], " and ".join(does[-2:])]
         sentences.append(f"At the crack at {_level(crack.elevation, units)} it {', '.join(does)}.")
+    if len(others) > len(told):
+        most = max(_slides(crack) for crack in others if not any(crack is one for one in told))
+        does_most = f"moves at most {length(most, units)}" if most >= smallest else "does not slide"
+        rest = len(others) - len(told)
+        sentences.append(f"At the other {'crack' if rest == 1 else f'{rest} cracks'} it {does_most}.")
     return " ".join(sentences)
+
+
+def _slides(crack: CrackResponse) -> float:
+    """Return how far a crack slips either way at most [m]."""
+    return max(crack.peak_slip_downstream_m, -crack.peak_slip_upstream_m)
 
 
 def _subject(response: Response, units: str) -> str:

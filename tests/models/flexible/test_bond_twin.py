@@ -8,7 +8,7 @@ import pytest
 from scipy.sparse import block_diag, coo_array
 from scipy.sparse.linalg import splu
 
-from heeltoe import flexible, read_case
+from heeltoe import flexible, read_case, statics
 from heeltoe.models.flexible.body.bond import node_lengths
 from heeltoe.models.flexible.body.elastic import dofs
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
@@ -261,3 +261,63 @@ def test_ten_seconds_of_a_record_crack_the_joint_of_a_program_with_all_unknowns(
     length = float(twin.joint.lengths[broken[-1]].sum())
     assert 0.0 < length < response.crack_width_m
     assert response.joint.cracked_length_m == pytest.approx(length, rel=0.05)
+
+
+#: Depth of the water [m], where the elastic dam is open up to, and the crack of the beam of ``heeltoe statics`` [m].
+RISING = ((36.0, 3.5, 1.72), (38.0, 6.1, 4.52), (40.0, 8.4, 7.32))
+
+
+def rising_case(depth, across):
+    """Return a dam whose joint bears no tension to speak of, with water up to above its crest."""
+    bond = {"tensile_strength": "1 Pa", "cohesion": "1 Pa", "fracture_energy": "1e5 N/m", "shear_energy": "1e5 N/m"}
+    return pushed_case().with_(
+        {
+            "section.base_width": "22 m",
+            "crack.bond": bond,
+            "reservoir": {"depth": f"{depth} m"},
+            "motion": {"points": [["0 s", "0 g"], ["0.01 s", "0.0001 g"], ["0.02 s", "0 g"]]},
+            "flexible.elements_across": across,
+        }
+    )
+
+
+def open_at_rest(case):
+    """Return the opening at the heel [m], and the nodes [m] between which the joint begins to press."""
+    dam = build_flexible_dam(case)
+    along = dam.bodies[0].mesh.nodes[dam.bodies[0].mesh.crack, 0]
+    pressing = np.flatnonzero(dam.crack_forces[0][1] > 1e-6 * dam.crack_forces[0][1].max())[0]
+    return flexible(case).histories["gap_heel_m"][0], tuple(along[pressing - 1 : pressing + 1] - along[0])
+
+
+def open_of_twin(case):
+    """Return the same of the program with all unknowns."""
+    twin = Twin(case)
+    assert twin.equilibrium(0.0)
+    gaps = twin.apart(twin.moved)[1]
+    tension = twin.joint.bears(*twin.apart(twin.moved))[0][1]
+    mesh = build_flexible_dam(case).bodies[0].mesh
+    along = mesh.nodes[mesh.crack, 0] - mesh.nodes[mesh.crack[0], 0]
+    pressing = np.flatnonzero(-tension > 1e-6 * np.abs(tension).max())[0]
+    return gaps[0], tuple(along[pressing - 1 : pressing + 1])
+
+
+@pytest.mark.parametrize(("depth", "opens", "beam"), RISING)
+def test_rising_water_opens_the_heel_as_in_a_static_program_and_farther_than_a_beam_cracks(depth, opens, beam):
+    case = rising_case(depth, 16)
+    heel, tip = open_at_rest(case)
+    twin_heel, twin_tip = open_of_twin(case)
+    assert heel == pytest.approx(twin_heel, rel=0.01)
+    assert tip == pytest.approx(twin_tip)
+    assert tip[0] < opens < tip[1]
+    # The stress at the heel is higher than that of a beam, whose sections stay plane.
+    (usual,) = (item for item in statics(case).cases if item.name == "usual")
+    assert (usual.cracked_from, usual.cracked_length_m) == ("heel", pytest.approx(beam, abs=0.01))
+    assert 0.8 < opens - beam < 2.1
+
+
+@pytest.mark.slow
+def test_rising_water_opens_the_heel_as_on_half_the_mesh_of_a_static_program():
+    heel, tip = open_at_rest(rising_case(38.0, 16))
+    twin_heel, twin_tip = open_of_twin(rising_case(38.0, 32))
+    assert heel == pytest.approx(twin_heel, rel=0.01)
+    assert sum(tip) / 2.0 == pytest.approx(sum(twin_tip) / 2.0, abs=0.01 * 22.7)

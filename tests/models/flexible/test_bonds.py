@@ -16,6 +16,7 @@ from heeltoe import InputError, flexible, read_case, run
 from heeltoe.models.flexible.body.bond import node_lengths, zone_mesh
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.body.step import longest_step
+from heeltoe.models.flexible.evidence.growth import growth_of
 from heeltoe.models.statics.after import ligament_of, statics_after
 from heeltoe.result.verdict import verdict
 from heeltoe.study.small.run_table import parse_axes, run_small
@@ -330,6 +331,49 @@ def test_joints_that_all_hold_are_one_sentence():
     fields["flexible"]["elements_across"] = 3
     fields["joints"] = {"every": "10 m", "friction": 1.0, "bond": STRONG}
     assert verdict(run(read_case(fields), "flexible")).startswith("None of the 3 joints cracks.")
+
+
+def test_of_many_joints_those_that_crack_most_are_named():
+    fields = dam()
+    del fields["crack"]
+    fields["flexible"]["elements_across"] = 2
+    fields["motion"]["sign"] = "recorded"
+    fields["joints"] = {"every": "3 m", "friction": 1.0, "bond": BOND | {"tensile_strength": "0.2 MPa"}}
+    case = read_case(fields)
+    response = run(case, "flexible")
+    assert len(response.cracks) == 10
+    cracked = [crack for crack in response.cracks if crack.joint.first_cracking_s is not None]
+    assert len(cracked) > 4
+    text = verdict(response, brief=True)
+    assert text.count("At the crack at") == 4
+    assert "At the other 5 cracks it " in text
+    for kind, many in (
+        ("Cracked through:", [crack for crack in cracked if crack.joint.cracked_through_s is not None]),
+        ("Cracked in part:", [crack for crack in cracked if crack.joint.cracked_through_s is None]),
+    ):
+        assert (kind in text) == bool(many)
+        said = text.partition(kind)[2].partition(". ")[0]
+        assert (f"{len(many) - 4} more " in said) == (len(many) > 4)
+    assert f"The other {10 - len(cracked)} do" in text or len(cracked) >= 9
+    console = Console(file=io.StringIO(), width=120)
+    print_response(response, console)
+    screen = console.file.getvalue()
+    rows = [line for line in screen.splitlines() if line.startswith(("flexible dam at", "4 others, at most"))]
+    assert len(rows) == 7
+    # One warning of the mesh for all of them, and none that takes ways of all cracks together to find.
+    assert sum(warning.code == "joint-coarse" for warning in response.warnings) <= 1
+
+
+def test_of_many_cracks_the_growth_is_that_of_the_one_that_leads_by_itself():
+    fields = dam()
+    del fields["crack"]
+    fields["flexible"]["elements_across"] = 3
+    fields["cracks"] = [{"elevation": f"{level} m", "friction": 0.5} for level in (20, 12, 6, 0)]
+    fields["reservoir"] = {"depth": "20 m"}
+    case = read_case(fields)
+    response = run(case, "flexible")
+    alone = build_flexible_dam(case.single_crack_cases[response.asked])
+    assert response.self_excitation["growth_1_s"] == growth_of(alone, [0.5])[0]
 
 
 def test_an_animation_shows_how_the_crack_grows():

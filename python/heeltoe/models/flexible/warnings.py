@@ -118,19 +118,23 @@ def _about_the_mesh(dam: FlexibleDam) -> Iterator[Notice]:
 
 
 def _about_the_joints(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
-    for place, alone in enumerate(case.single_crack_cases):
-        bond = alone.crack.bond
-        if bond is None:
-            continue
-        mesh = zone_mesh(bond, alone.concrete.modulus or 0.0, along_crack(dam.bodies[place], dam.sections[place]))
-        if mesh.is_coarse:
-            yield Notice(
-                "joint-coarse",
-                element_m=mesh.element,
-                zone_m=mesh.zone,
-                given_pa=bond.tensile_strength,
-                taken_pa=mesh.strength,
-            )
+    modulus = case.concrete.modulus or 0.0
+    meshes = [
+        (zone_mesh(alone.crack.bond, modulus, along_crack(dam.bodies[place], dam.sections[place])), alone.crack.bond)
+        for place, alone in enumerate(case.single_crack_cases)
+        if alone.crack.bond is not None
+    ]
+    coarse = [(mesh, bond) for mesh, bond in meshes if mesh.is_coarse]
+    if coarse:
+        # Of many joints the one that is farthest from what it needs.
+        mesh, bond = max(coarse, key=lambda pair: pair[0].element / pair[0].zone)
+        yield Notice(
+            "joint-coarse",
+            element_m=mesh.element,
+            zone_m=mesh.zone,
+            given_pa=bond.tensile_strength,
+            taken_pa=mesh.strength,
+        )
 
 
 def _about_the_start(case: Case, dam: FlexibleDam, safety: float | None) -> Iterator[Notice]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import Any
 
 from rich.console import Console
@@ -27,6 +28,8 @@ _MORE = "the ground motion, static loads, modes of motion, energy and convergenc
 _SOURCE = re.compile(r" \(Zhu 2004[^)]*\)")
 # What a sentence gives as the reason for the difference of two models, for which the report has room.
 _REASON = re.compile(r": [^:]*(?=\. Trust )")
+# So many cracks have a row of their own.
+_ROWS = 6
 _GRAVITIES = ("grave", "caution", "note")
 _SHOWN = (
     ("residual slip", "residual_slip_m", 1.0, "slip"),
@@ -97,12 +100,21 @@ def _table(response: Response, units: str) -> Table:
     for run in response.responses:
         if not run.started:
             continue
-        for crack in run.cracks:
+        shown = _shown(run.cracks)
+        for crack in shown:
             where = f"at {written('{at_m:g m}', units, at_m=crack.elevation)}" if run.several else ""
             amounts = [Amount(sign * crack[key], kind) for _, key, sign, kind in _SHOWN]
             bond = _bond(crack)
             cracked = [NOTHING if bond is None else length(bond.cracked_length_m, units)] if bonded else []
             cells.append([f"{NAMES.get(run.model, run.model)} {where}".strip(), *amounts, *cracked])
+        others = [crack for crack in run.cracks if not any(crack is one for one in shown)]
+        if others:
+            largest = [
+                Amount(max(sign * (crack[key] or 0.0) for crack in others), kind) for _, key, sign, kind in _SHOWN
+            ]
+            lengths = [bond.cracked_length_m for crack in others if (bond := _bond(crack)) is not None]
+            cracked = [length(max(lengths), units) if lengths else NOTHING] if bonded else []
+            cells.append([f"{len(others)} others, at most", *largest, *cracked])
     table = quiet_table()
     # So close that a line of 80 characters holds the names of all columns beside that of a model.
     table.padding = (0, 1, 0, 0)
@@ -114,6 +126,19 @@ def _table(response: Response, units: str) -> Table:
     for row in in_one_unit(cells, units):
         table.add_row(*row)
     return table
+
+
+def _shown(cracks: Sequence[Any]) -> Sequence[Any]:
+    """Return the cracks that have a row: of many those that slip and open most."""
+    if len(cracks) <= _ROWS:
+        return cracks
+
+    def moved(crack: Any) -> tuple[float, float]:
+        bond = _bond(crack)
+        return max(abs(crack[key] or 0.0) for _, key, _, _ in _SHOWN), bond.cracked_length_m if bond else 0.0
+
+    least = sorted(map(moved, cracks))[-_ROWS]
+    return [crack for crack in cracks if moved(crack) >= least][:_ROWS]
 
 
 def _bond(crack: Any) -> BondState | None:

@@ -23,9 +23,9 @@ _BY_LAW = 2.5
 # Times as much where bonds soften: 1.2 to 2 of it; seconds of a step with a body with waves, measured with
 # water of 100 m on one side.
 _BY_BOND, _WATERED = 2.0, 3e-6
-# Seconds of a step with several joints of which some soften, of the square and the cube of the forces on all of them:
-# each state of the contacts is solved anew. Measured with 2 to 6 joints of 4 and 8 elements, within a factor of two.
-_JOINTS, _JOINTS_SOLVED = 2.5e-8, 2.7e-10
+# Seconds of a step with several joints of which some soften, of the square of the forces on all of them. Measured with
+# 2 to 30 joints of 2 to 8 elements, within a factor of two.
+_JOINTS = 7e-9
 # Bytes of a step of the ground; copies of a frame.
 _GROUND, _COPIES = 100.0, 1.2
 # Runs that a result takes by its evidence, in single ones, without refinement.
@@ -67,7 +67,7 @@ def running(case: Case, end: float, frame_step: float, step: float | None = None
         seconds *= _BY_BOND
     if joints > 1:
         forces = joints * 2.0 * (2.0 * case.flexible.elements_across + 1.0)
-        seconds = max(seconds, steps * (_JOINTS * forces**2 + _JOINTS_SOLVED * forces**3))
+        seconds = max(seconds, steps * _JOINTS * forces**2)
     seconds += steps * _WATERED * wave_bodies(case)
     frame = 16.0 + sum(part.modes + 6.0 * part.nodes for part in parts)
     frames = min(steps, end / frame_step) * frame * NUMBER * _COPIES
