@@ -473,6 +473,8 @@ def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
     section = case.cut
     for alone, path in zip(case._cases_as_written(), case.crack_paths, strict=True):
         wrong = kinks_misfit(alone, path)
+        if wrong is None and case.further_cracks:
+            wrong = alone.crack.bond_misfit(f"{path}.")  # with the friction that it inherits
         if wrong is not None:
             yield True, partial(wrong.with_others, ())
     for place, anchor in enumerate(case.anchors):

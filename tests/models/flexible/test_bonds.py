@@ -122,6 +122,12 @@ def test_the_cohesion_reaches_the_end_of_the_line():
     with pytest.raises(InputError, match="cohesion") as wrong:
         read_case(dam(cohesion="0.1 MPa"))
     assert wrong.value.code == "bond-apex"
+    # The friction is that of the first crack.
+    weak = {"elevation": "15 m", "bond": BOND | {"cohesion": "0.1 MPa"}}
+    with pytest.raises(InputError) as wrong:
+        read_case(dam() | {"further_cracks": [weak]})
+    assert (wrong.value.code, wrong.value.field) == ("bond-apex", "further_cracks[0].bond.cohesion")
+    assert read_case(dam() | {"further_cracks": [weak | {"friction": 0.4}]}).further_cracks
 
 
 def test_long_elements_lower_the_strength_and_a_warning_says_so():

@@ -76,11 +76,18 @@ class CrackFields(Fields):
     @model_validator(mode="after")
     @gathered
     def _bond_within_the_line(self) -> Iterator[InputError]:
+        wrong = self.bond_misfit()
+        if wrong is not None:
+            yield wrong
+
+    def bond_misfit(self, crack: str = "") -> InputError | None:
+        """Return what is wrong with a bond beside the friction; friction that is inherited is not known here."""
         if self.bond is None or self.law is not None:
-            return
+            return None
         least = max(self.mu_static, self.mu_kinetic) * self.bond.tensile_strength
-        if self.bond.cohesion < least:
-            yield InputError("bond-apex", "bond.cohesion", f"{self.bond.cohesion:g} Pa", least=f"{least:g} Pa")
+        if self.bond.cohesion >= least:
+            return None
+        return InputError("bond-apex", f"{crack}bond.cohesion", f"{self.bond.cohesion:g} Pa", least=f"{least:g} Pa")
 
     @property
     def friction_is_inherited(self) -> bool:
