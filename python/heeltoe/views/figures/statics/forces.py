@@ -27,6 +27,8 @@ from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
 _HEIGHT, _PANEL = 7.2, 1.55
 # Of the size of what is shown: the longest arrow, the deepest pressure, the step between dimension lines.
 _LONGEST, _DEEPEST, _STEP = 0.30, 0.13, 0.075
+# Height of a letter of an arm that is written along it, with room [pt].
+_ROOMY = 5.5
 # A force of less than this part of the largest is no arrow that anyone could see; its line of the sheet has it.
 _LITTLE = 1e-3
 _ARM = {
@@ -72,7 +74,7 @@ def forces_figure(case: Case, load_case: LoadCase, units: str = "si") -> Figure:
     heights, widths = _arms(arrows, up=False), _arms(arrows, up=True)
     low, high = section.polygon.min(axis=0), section.polygon.max(axis=0)
     high[1] = max(high[1], section.base_elevation + (drawn.reservoir.depth if drawn.reservoir else 0.0))
-    left = 0.46 + _STEP * len(heights)
+    left = 0.52 + _STEP * len(heights)
     below = 0.10 + _DEEPEST + _STEP * len(widths)
     canvas.look_at(low - np.array([left, below]) * size, high + np.array([0.42, 0.1]) * size)
     axes.set_axis_off()
@@ -208,30 +210,34 @@ def _draw_arms(canvas: Canvas, section: CutSection, arms: tuple[list[tuple[float
     """Draw the arms of the horizontal forces at the left, those of the vertical ones below."""
     heights, widths = arms
     heel, size, length = np.array(section.heel), canvas.size, units.scale("length")
-    for place, (arm, _) in enumerate(heights, start=1):
-        away = np.array([-(0.40 + _STEP * place) * size, 0.0])
-        _dimension(canvas, heel + away, np.array([0.0, arm]), number(length(arm), 4))
+    for place, (arm, names) in enumerate(heights, start=1):
+        away = np.array([-(0.46 + _STEP * place) * size, 0.0])
+        _dimension(canvas, heel + away, np.array([0.0, arm]), f"{names} {number(length(arm), 4)} {length.unit}")
     lowest = (_DEEPEST + 0.05) * size + max(0.0, heel[1] - section.polygon[:, 1].min())
     for place, (arm, names) in enumerate(widths, start=1):
         away = np.array([0.0, -(lowest + _STEP * place * size)])
-        _dimension(canvas, heel + away, np.array([arm, 0.0]), f"{names} {number(length(arm), 4)}")
+        _dimension(canvas, heel + away, np.array([arm, 0.0]), f"{names} {number(length(arm), 4)} {length.unit}")
 
 
 def _dimension(canvas: Canvas, start: Floats, arm: Floats, text: str) -> None:
-    """Draw an arm as a line with its length beyond its far end, however short it is."""
+    """Draw an arm as a line with its length beyond its far end, however short it is; on a high one, as nothing may
+    stand above it, beside its middle."""
     ends = canvas.points(np.stack([start, start + arm]))
     canvas.axes.annotate("", ends[1], ends[0], arrowprops=_ARM, zorder=6)
     canvas.keep_off(np.stack([start, start + arm]))
     upright = bool(arm[1])
     last = ends[int(np.argmax(ends[:, 1 if upright else 0]))]
+    figure = canvas.axes.figure
+    high = 72.0 / figure.dpi * abs(float(np.diff(canvas.axes.transData.transform(ends)[:, 1])[0]))
+    inside = upright and high > _ROOMY * len(text)
     drawn = canvas.axes.annotate(
         text,
-        last,
-        xytext=(0.0, 4.0) if upright else (4.0, 0.0),
+        ends.mean(axis=0) if inside else last,
+        xytext=(0.0, 0.0) if inside else (0.0, 4.0) if upright else (4.0, 0.0),
         textcoords="offset points",
         rotation=90.0 if upright else 0.0,
         ha="center" if upright else "left",
-        va="bottom" if upright else "center",
+        va="bottom" if upright and not inside else "center",
         fontsize=7.5,
         color="#222222",
         bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.4},
