@@ -46,3 +46,17 @@ def test_page_one_names_anchors_and_drains():
     assert "anchors" in texts
     assert "drains" in texts
     assert "drains" not in [text.get_text() for text in summary_figure(example("typical-base"), ()).axes[0].texts]
+
+
+@mpl.rc_context(STYLE)
+def test_words_of_time_fit_below_a_narrow_panel_and_others_stay():
+    figure = Figure(figsize=(6.0, 3.0))
+    left, right = figure.subplots(1, 2)
+    left.set_xlabel("time [s]; ground motion until 115 s (dotted); further motions begin at the dotted lines")
+    right.set_xlabel("tension [MPa]\nlargest 3.15 MPa")
+    fit_words(figure)
+    assert right.get_xlabel() == "tension [MPa]\nlargest 3.15 MPa"
+    FigureCanvasAgg(figure).draw()
+    words = left.xaxis.label.get_window_extent()
+    assert words.width < 1.2 * left.get_window_extent().width
+    assert not words.overlaps(right.xaxis.label.get_window_extent())

@@ -91,7 +91,9 @@ class Chart:
                 )
                 if kind == next(iter(dict.fromkeys(row.kind for _, row in mine))):
                     ours = f"{series}, heeltoe" if series else "heeltoe"
-                    axes.plot(places, [row.ours for _, row in of_kind], dashes, color=colour, label=ours)
+                    # One point is no line.
+                    mark = "s" if len(places) == 1 else ""
+                    axes.plot(places, [row.ours for _, row in of_kind], dashes, color=colour, label=ours, marker=mark)
 
 
 Model = Literal["rigid", "flexible", "decoupled", "statics"]

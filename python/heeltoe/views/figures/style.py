@@ -128,8 +128,10 @@ def align_labels(axes: Sequence[Axes]) -> None:
 
 
 def fit_time_label(axes: Axes) -> None:
-    """Break the words below a panel where they are longer than it is wide: others may stand beside it."""
+    """Break the words of an axis of time where they are longer than it is wide: others may stand beside it."""
     label = axes.xaxis.label
+    if not label.get_text().startswith("time"):
+        return
     room = 72.0 / axes.figure.dpi * float(axes.bbox.width) / (_LETTER * float(label.get_fontsize()))
     label.set_text(textwrap.fill(label.get_text().replace("\n", " "), max(int(1.1 * room), 24)))
 
