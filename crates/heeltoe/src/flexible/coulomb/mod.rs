@@ -49,9 +49,15 @@ impl Report {
     }
 }
 
-/// Sets tried with all wrong contacts changed at once, and then with the worst alone, before sweeping.
-const AT_ONCE: u32 = 12;
-const ONE_BY_ONE: u32 = 60;
+/// How wrong contacts change before sweeping, and how many sets are tried so: whether the worst alone changes, and whether
+/// one that closes slips the way it moves. Sticking it may be torn off where slipping it is not; then it opens and closes
+/// by turns.
+const CHANGES: [(bool, bool, u32); 4] = [
+    (false, false, 12),
+    (true, false, 60),
+    (false, true, 12),
+    (true, true, 400),
+];
 /// What counts as a violation, relative to the largest term: well above rounding, far below what matters.
 const SLACK: f64 = 1e-11;
 
@@ -123,8 +129,8 @@ impl Solver {
     ) -> Report {
         let mut report = Report::default();
         let mut found = false;
-        for (worst_only, most) in [(false, AT_ONCE), (true, ONE_BY_ONE)] {
-            found = found || self.search::<W>(problem, crack, worst_only, most, &mut report);
+        for (worst_only, slips, most) in CHANGES {
+            found = found || self.search::<W>(problem, crack, (worst_only, slips), most, &mut report);
         }
         if !found {
             self.solved.clear();
@@ -146,7 +152,7 @@ impl Solver {
         &mut self,
         problem: &mut Problem,
         crack: &mut impl ContactOperator,
-        worst_only: bool,
+        change: (bool, bool),
         most: u32,
         report: &mut Report,
     ) -> bool {
@@ -156,7 +162,7 @@ impl Solver {
             if !self.impulses::<W>(problem, crack) {
                 return false;
             }
-            if !self.amend(problem, worst_only) {
+            if !self.amend(problem, change) {
                 return true;
             }
             if self.status == self.mark {
@@ -243,7 +249,7 @@ impl Solver {
 
     /// Change the state of the contacts that break their conditions, all or the worst; false where none does.
     #[inline(always)]
-    fn amend(&mut self, problem: &Problem, worst_only: bool) -> bool {
+    fn amend(&mut self, problem: &Problem, (worst_only, slips): (bool, bool)) -> bool {
         let m = self.status.len();
         let fastest = problem.b.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
         let largest = self.p.iter().fold(0.0_f64, |a, p| a.max(p.abs()));
@@ -257,7 +263,14 @@ impl Solver {
             let scale = problem.scale[m + contact];
             let limit = problem.mu_stick[contact] * p_n + problem.added(contact, false, p_t);
             let (violation, next) = match status {
-                Status::Open if u_n < -slack_u => (-u_n, Status::Stick),
+                Status::Open if u_n < -slack_u => {
+                    let way = match slips {
+                        true if u_t > 0.0 => Status::SlipDownstream,
+                        true => Status::SlipUpstream,
+                        false => Status::Stick,
+                    };
+                    (-u_n, way)
+                }
                 Status::Stick | Status::SlipDownstream | Status::SlipUpstream if p_n < -slack_p => {
                     (-p_n / scale, Status::Open)
                 }

@@ -177,10 +177,15 @@ def tied(dam: Dam, name: str) -> Sparse:
 
 def factor(operator: Sparse) -> Solve:
     """Return the function that solves a symmetric positive definite system."""
+    solve: Solve = factored(operator).solve
+    return solve
+
+
+def factored(operator: Sparse, permc_spec: str = "MMD_AT_PLUS_A", **options: Any) -> Any:
+    """Return the factors of one, as those of scipy.sparse.linalg.splu."""
     from scipy.sparse.linalg import splu
 
-    solve: Solve = splu(operator.tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve
-    return solve
+    return splu(operator.tocsc(), permc_spec=permc_spec, options={"SymmetricMode": True}, **options)
 
 
 def dofs(nodes: Integers) -> Integers:

@@ -9,11 +9,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
-from heeltoe.base.arrays import Floats
-from heeltoe.models.flexible.body.elastic import Body, Dam, Solve, Sparse, dofs, factor, side_by_side, tied
+from heeltoe.base.arrays import Floats, Integers
+from heeltoe.models.flexible.body.elastic import Body, Dam, Solve, Sparse, dofs, factor, factored, side_by_side, tied
 
 #: Modes kept at first; they are doubled until so much of the crack's compliance at most is lost.
 FIRST_KEPT = 50
@@ -78,14 +79,13 @@ class Basis:
         self._rigid = np.empty((self._free.size, 0)) if body.mesh.fixed.size else _rigid_shapes(body)
         following = [body.load_per_vertical] if body.load_per_vertical.any() else []
         moved = [body.mass @ np.tile(np.eye(2), (size // 2, 1))] if body.mesh.fixed.size else []
-        unit = _unit_forces(body)
-        self._unit = unit[self._free]
-        self._forces = np.column_stack([unit, body.load, *following, *moved])[self._free]
+        self._crack = np.searchsorted(self._free, dofs(body.mesh.crack))
+        self._loads = np.column_stack([body.load, *following, *moved])[self._free]
 
     def modes(self, keep: int | None = None) -> Modes:
         """Return as many vibration modes, all where no number is given or the static shapes make it as many."""
         rigid = self._rigid.shape[1]
-        truncated = keep is not None and keep + rigid + self._forces.shape[1] < self._free.size
+        truncated = keep is not None and keep + rigid + self._crack.size + self._loads.shape[1] < self._free.size
         if keep is None or not truncated:
             kept = self._free.size
             squares, vectors = self._all()
@@ -105,9 +105,9 @@ class Basis:
         if not modes.truncated:
             return 0.0
         square = circular**2
-        crack = self._unit.T @ modes.shapes[self._free]
+        order, direct = self._compliance(square)
+        crack = modes.shapes[self._free[order]]
         reduced = crack @ (crack / (modes.omega_squared + square)).T
-        direct = self._unit.T @ factor(self._stiffness + square * self._mass)(self._unit)
         # A smaller space is never more compliant.
         return float(scipy.linalg.eigvalsh(direct - reduced, direct)[-1])
 
@@ -120,15 +120,33 @@ class Basis:
         shape -= _projected(shape, self._rigid, self._mass)
         return 1e-6 * float(shape @ (self._stiffness @ shape) / (shape @ (self._mass @ shape)))
 
+    def _compliance(self, square: float) -> tuple[Integers, Floats]:
+        """Return the crack's unknowns (k,) in an order of their own, and their compliance (k, k) with so much mass.
+
+        Where the crack is eliminated last, its part of the factors is that of the inverse.
+        """
+        operator, count = (self._stiffness + square * self._mass).tocsr(), self._crack.size
+        place = self._factors.perm_c.copy()
+        place[self._crack] += self._free.size
+        order = np.argsort(place)
+        factors = factored(operator[order][:, order], permc_spec="NATURAL", diag_pivot_thresh=0.0)
+        schur = factors.L[-count:, -count:] @ factors.U[-count:, -count:]
+        return order[np.argsort(factors.perm_c)[-count:]], np.linalg.inv(schur.toarray())
+
     @cached_property
-    def _solve(self) -> Solve:
-        return factor(self._stiffness + self._shift * self._mass)
+    def _factors(self) -> Any:
+        return factored(self._stiffness + self._shift * self._mass)
 
     @cached_property
     def _static(self) -> Floats:
-        """Static shapes of all forces (n, f), the rigid motion taken out."""
-        static = self._solve(self._forces)
-        return static - _projected(static, self._rigid, self._mass)
+        """Static shapes of unit forces on the crack and of the loads (n, f), the rigid motion taken out."""
+        count = self._crack.size
+        forces = np.zeros((self._free.size, count + self._loads.shape[1]), order="F")
+        forces[self._crack, np.arange(count)] = 1.0
+        forces[:, count:] = self._loads
+        static: Floats = self._factors.solve(forces)
+        static -= _projected(static, self._rigid, self._mass)
+        return static
 
     def _all(self) -> tuple[Floats, Floats]:
         import scipy.linalg
@@ -147,7 +165,7 @@ class Basis:
     def _truncated(self, keep: int) -> tuple[Floats, Floats]:
         import scipy.linalg
 
-        found = lowest(self._stiffness, self._mass, keep + self._rigid.shape[1], self._shift, self._solve)
+        found = lowest(self._stiffness, self._mass, keep + self._rigid.shape[1], self._shift, self._factors.solve)
         squares, shapes = self._with_rigid(*found)
         static = self._static
         for _ in range(2):  # the second time takes away what rounding has left
@@ -285,13 +303,6 @@ def _rigid_shapes(body: Body) -> Floats:
         shapes[:, i] -= _projected(shapes[:, i], shapes[:, :i], body.mass)
         shapes[:, i] /= math.sqrt(shapes[:, i] @ (body.mass @ shapes[:, i]))
     return shapes
-
-
-def _unit_forces(body: Body) -> Floats:
-    places = dofs(body.mesh.crack)
-    forces = np.zeros((body.mesh.nodes.size, places.size))
-    forces[places, np.arange(places.size)] = 1.0
-    return forces
 
 
 def _projected(shapes: Floats, onto: Floats, mass: Sparse) -> Floats:
