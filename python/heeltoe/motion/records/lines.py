@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
+# Columns that touch, or an exponent of Fortran's.
+_GLUED = re.compile(r"[\d.][-+dD]")
 _SEPARATORS = str.maketrans({",": " ", ";": " ", "\t": " ", '"': None})
 
 
@@ -62,4 +64,6 @@ def is_data(line: str) -> bool:
 
 def unglued(line: str) -> str:
     """Part columns that touch (8F10.5, E15.7: a sign right behind a digit) and turn Fortran's D exponents into E."""
+    if _GLUED.search(line) is None:
+        return line
     return re.sub(r"(?<=[\d.])(?=[-+])", " ", re.sub(r"(?<=[\d.])[dD](?=[-+]?\d)", "e", line))

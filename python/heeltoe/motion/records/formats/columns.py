@@ -251,6 +251,8 @@ def _with_points(lines: list[str], name: str, first_line: int) -> list[str]:
     InputError
         Where a comma may mean one thing or another.
     """
+    if not any("," in line for line in lines):
+        return lines
     texts = [line.split("#")[0].replace('"', "") for line in lines]
     if not any(_has_decimal_comma(text) for text in texts):
         return lines
