@@ -56,6 +56,25 @@ def test_few_modes_with_static_shapes_tell_it(elevation, damping):
     assert growth_of(one, [1.2])[0] == pytest.approx(expected, rel=1e-3, abs=1e-3)
 
 
+def surrounded(friction=1.2, modulus="20 GPa", sound=True, elevation=0.0, **rock):
+    case = typical(friction, 4, elevation)
+    changes = {"rock": {"modulus": modulus} | rock, "reservoir.compressible": sound}
+    return build_flexible_dam(case.with_(changes))
+
+
+def test_rock_and_water_take_a_part_of_it():
+    assert growth_of(surrounded(modulus="20000 GPa", sound=False), [1.2])[0] == pytest.approx(
+        growth_of(build_flexible_dam(typical(1.2, 4)), [1.2])[0], rel=0.03
+    )
+    waves = surrounded()
+    # Microseconds are no vibration of a dam, in rock without mass either.
+    of_massless = growth_of(surrounded(massless=True, damping=0.0, sound=False), [1.2])[0]
+    assert 0.0 < growth_of(waves, [1.2])[0] < 0.7 * of_massless < 10.0
+    # Nothing is fed where nothing rubs, wherever the crack is.
+    assert growth_of(waves, [1e-9])[0] < 0.0
+    assert growth_of(surrounded(elevation=20.0), [1e-9])[0] < 0.0
+
+
 def two_cracks(friction=1.2, upper=1.2, damping=0.05):
     case = typical(friction, 8, ratio=damping)
     data = case.model_dump(mode="json", exclude_unset=True)

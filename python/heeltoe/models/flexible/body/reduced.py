@@ -150,6 +150,13 @@ class FlexibleDam(BondedDam):
         return self.lines[self.asked].give
 
     @property
+    def parts(self) -> tuple[ReducedBody, ...]:
+        """The bodies in their modes, from the crest down to the rock below the crack at the base."""
+        if self.rock is None:
+            return self.reduced
+        return (*self.reduced, _reduced_rock(self.rock, self.sections[-1], self.reduced[0]))
+
+    @property
     def periods(self) -> Floats:
         """Longest periods of the intact dam, water included [s]."""
         return self.damping.periods

@@ -2,7 +2,7 @@
 
 While all nodes of the crack are closed and slip one way, friction *mu p_n* follows the normal force, and what is left
 of the equations of motion is not symmetric: two vibrations can feed each other from the work of the loads (mode
-coupling, as in a brake that squeals)."""
+coupling, as in a brake that squeals). Waves in rock and water take a part of that work."""
 
 from __future__ import annotations
 
@@ -70,7 +70,8 @@ def growth_of(dam: FlexibleDam, friction: Sequence[float | None]) -> tuple[float
     """Return the fastest growth of a vibration of the dam as it slides, downstream or upstream.
 
     With the unknowns q of all parts and the forces p of the contacts, all closed: ``q'' + C q' + w^2 q = (S_n - s mu
-    S_t)^T p``, ``S_n q' = 0``; s is the direction of slip. A crack that sticks has ``S_t q' = 0``, too.
+    S_t)^T p``, ``S_n q' = 0``; s is the direction of slip. A crack that sticks has ``S_t q' = 0``, too. Elastic rock is
+    one of the parts; water with sound has its own unknowns, which C couples with those of the dam.
 
     Parameters
     ----------
@@ -87,6 +88,9 @@ def growth_of(dam: FlexibleDam, friction: Sequence[float | None]) -> tuple[float
         Of the vibration that grows so [s]; infinite where nothing swings.
     """
     square, damping, relative = _equations(dam)
+    # Rock without mass has vibrations of microseconds, which no step follows; concrete has none beyond its mesh.
+    on_rock = any(part.boundary.size for part in dam.parts)
+    fastest = math.sqrt(dam.reduced[0].omega_squared.max()) if on_rock else math.inf
     ways: Iterable[tuple[float, ...]] = product((1.0, -1.0), repeat=sum(value is not None for value in friction))
 
     def growth(way: tuple[float, ...]) -> tuple[float, float]:
@@ -95,7 +99,7 @@ def growth_of(dam: FlexibleDam, friction: Sequence[float | None]) -> tuple[float
         for coefficient, (along, across) in zip(friction, relative, strict=True):
             held += [across] if coefficient is not None else [along, across]
             pushed += [across - next(signs) * coefficient * along] if coefficient is not None else [along, across]
-        return _growth(square, damping, np.vstack(held), np.vstack(pushed))
+        return _growth(square, damping, np.vstack(held), np.vstack(pushed), fastest)
 
     return max(map(growth, ways), key=lambda rate_and_period: rate_and_period[0])
 
@@ -103,35 +107,48 @@ def growth_of(dam: FlexibleDam, friction: Sequence[float | None]) -> tuple[float
 def _equations(dam: FlexibleDam) -> tuple[Floats, Floats, list[tuple[Floats, Floats]]]:
     """Return squared frequencies (m,), damping (m, m) and the relative motions of each crack, see :func:`_relative`,
     of all parts together."""
-    parts = [_reduced(part) for part in dam.reduced]
-    rows = np.hstack([dampers for _, _, dampers, _ in parts])
-    damping = block_diag(*(free for _, free, _, _ in parts)) + rows.T @ (dam.damping.signs[:, None] * rows)
-    shapes = [shape for _, _, _, shape in parts]
+    parts = [_reduced(part) for part in dam.parts]
+    rows, wet = (np.hstack([part[place] for part in parts]) for place in (2, 3))
+    damping = block_diag(*(part[1] for part in parts)) + rows.T @ (dam.damping.signs[:, None] * rows)
+    square = np.concatenate([part[0] for part in parts])
+    shapes = [part[4] for part in parts]
     relative = [_relative(dam, shapes, place) for place in range(len(dam.lines))]
-    return np.concatenate([square for square, _, _, _ in parts]), damping, relative
+    water = dam.reservoir
+    if water is None:
+        return square, damping, relative
+    # It takes energy by its own damping alone: what couples it with the dam is skew.
+    damping = np.block([[damping, wet.T], [-wet, water.damping_floor + water.damping_far]])
+    dry = np.zeros((1, water.omega_squared.size))
+    relative = [
+        (np.hstack([along, np.repeat(dry, len(along), 0)]), np.hstack([across, np.repeat(dry, len(across), 0)]))
+        for along, across in relative
+    ]
+    return np.concatenate([square, water.omega_squared]), damping, relative
 
 
-def _growth(square: Floats, damping: Floats, held: Floats, pushed: Floats) -> tuple[float, float]:
-    """Return growth and period of what is `held` (c, m) at rest by forces that act along `pushed` (c, m)."""
+def _growth(square: Floats, damping: Floats, held: Floats, pushed: Floats, fastest: float) -> tuple[float, float]:
+    """Return growth and period of what is `held` (c, m) at rest by forces that act along `pushed` (c, m), of
+    vibrations up to a circular frequency."""
     free, left = _null(held), _null(pushed).T
     mass, drag, spring = left @ free, left @ damping @ free, left @ (square[:, None] * free)
     count = len(mass)
     rates = np.linalg.solve(mass, np.hstack([-spring, -drag]))
     values = np.linalg.eigvals(np.vstack([np.eye(count, 2 * count, count), rates]))
     # The zeros of the slide as a whole are no vibration.
-    swings = values[np.abs(values) > 1.0]
-    fastest = swings[np.argmax(swings.real)]
-    turn = abs(float(fastest.imag))
-    return float(fastest.real), 2.0 * math.pi / turn if turn > _SLOW else math.inf
+    swings = values[(np.abs(values) > 1.0) & (np.abs(values) < fastest)]
+    first = swings[np.argmax(swings.real)]
+    turn = abs(float(first.imag))
+    return float(first.real), 2.0 * math.pi / turn if turn > _SLOW else math.inf
 
 
-def _reduced(part: ReducedBody) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return squared frequencies, damping (m, m), dashpots and shapes (m, 2 k) of a part in fewer coordinates: its
-    lowest modes and the static answers to forces on the crack."""
+def _reduced(part: ReducedBody) -> tuple[Floats, Floats, Floats, Floats, Floats]:
+    """Return squared frequencies, damping (m, m), dashpots, rows of the water and shapes (m, 2 k) of a part in fewer
+    coordinates: its lowest modes and the static answers to forces on the crack. With rock, whose lowest modes are those
+    of a box that is much larger than the dam, it keeps its own."""
     order = np.argsort(part.omega_squared)
     low, high = order[:_MODES], order[_MODES:]
-    if high.size <= part.shapes.shape[1]:
-        return part.omega_squared, _damping(part), part.dampers, part.shapes
+    if part.boundary.size or high.size <= part.shapes.shape[1]:
+        return part.omega_squared, _damping(part), part.dampers, part.wet, part.shapes
     static = part.shapes[high] / part.omega_squared[high, None]
     basis = np.linalg.qr(static)[0]
     inner = basis.T @ (part.omega_squared[high, None] * basis)
@@ -143,6 +160,7 @@ def _reduced(part: ReducedBody) -> tuple[Floats, Floats, Floats, Floats]:
         np.concatenate([part.omega_squared[low], values]),
         congruent(_damping(part), kept),
         part.dampers @ kept,
+        part.wet @ kept,
         kept.T @ part.shapes,
     )
 
@@ -173,7 +191,7 @@ def _face(dam: FlexibleDam, shapes: list[Floats], part: int, nodes: slice) -> tu
     """Return where the nodes (k,) of a face of a part are along its crack [m], and how they move along and across it,
     (k, m) each."""
     along, across = np.split(shapes[part].T, 2)
-    position = dam.reduced[part].position
+    position = dam.parts[part].position
     return position[: position.size // 2][nodes], along[nodes], across[nodes]
 
 

@@ -12,7 +12,9 @@ rational Krylov space; Antoulas, Approximation of Large-Scale Dynamical Systems,
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,6 +30,8 @@ Sparse = Any
 Complexes = Any
 """A complex array."""
 
+# Each has factors of its own in memory.
+_THREADS = 4
 # Directions with less than this part of the energy of others are rounding.
 _NOTHING = 1e-13
 
@@ -77,13 +81,15 @@ def reduced_modes(
     static
         Shapes (N, j) that are kept whatever the answers are.
     """
-    answers = [body.response(rate, inputs) for rate in sampled]
+    # Side by side: factorising lets go of the interpreter, and each answer is the same on however many threads.
+    with ThreadPoolExecutor(min(_THREADS, os.cpu_count() or 1)) as pool:
+        answers = list(pool.map(lambda rate: body.response(rate, inputs), sampled))
+        seen = list(pool.map(lambda rate: inputs.T @ body.response(rate, inputs), between))
     columns = [real_columns(answer / size_of(answer, norm)) for answer in answers]
     snapshots = np.column_stack(columns) if columns else np.empty((inputs.shape[0], 0))
     first, least = (0, inputs.shape[1]) if static is None else (static.shape[1], static.shape[1])
     projected = Projected.of(body, main_shapes(norm, snapshots, static)[:, : first + most])
-    exact = {rate: inputs.T @ body.response(rate, inputs) for rate in between}
-    kept, error = enough_shapes(projected, inputs, exact, enough, least)
+    kept, error = enough_shapes(projected, inputs, dict(zip(between, seen, strict=True)), enough, least)
     return kept.modes(), error
 
 
