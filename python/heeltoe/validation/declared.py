@@ -92,8 +92,16 @@ class Chart:
                 if kind == next(iter(dict.fromkeys(row.kind for _, row in mine))):
                     ours = f"{series}, heeltoe" if series else "heeltoe"
                     # One point is no line.
-                    mark = "s" if len(places) == 1 else ""
-                    axes.plot(places, [row.ours for _, row in of_kind], dashes, color=colour, label=ours, marker=mark)
+                    mark = "_" if len(places) == 1 else ""
+                    axes.plot(
+                        places,
+                        [row.ours for _, row in of_kind],
+                        dashes,
+                        color=colour,
+                        label=ours,
+                        marker=mark,
+                        markersize=14,
+                    )
 
 
 Model = Literal["rigid", "flexible", "decoupled", "statics"]

@@ -38,6 +38,8 @@ _MOST = 32_768
 _TRIED = 200
 #: The same of elastic dams, and the seconds after which no other one is tried; so far apart they lie evenly.
 _TRIED_ELASTIC, _PATIENCE = 8, 5.0
+#: Runs of elastic dams that are tried while somebody waits are estimated to take less [s].
+_SHORT = 2.0
 #: Until worker processes run, on two idle cores [s].
 _START = 3.0
 #: How much slower than estimated runs of a dam are on this machine, as it is now.
@@ -159,7 +161,7 @@ def quick_outlook(plan: Plan, cores: int) -> Outlook:
         run_part(plan, 0, models)
         return (monotonic() - began) / first
 
-    speed = _SPEEDS.get(case.model_dump_json(exclude={"motion"}), slower) if first < _PATIENCE else 1.0
+    speed = _SPEEDS.get(case.model_dump_json(exclude={"motion"}), slower) if first < _SHORT else 1.0
     return _outlook(plan, speed * float(np.mean([costs[end] for end in ends])) / models, cores)
 
 
