@@ -22,7 +22,9 @@ from shared.random_features import random_case
 Answer = dict[str, Any]
 #: Keys that say how a case was written.
 WRITTEN = {"motion", "vertical_motion", "title", "references", "build", "warnings", "chosen", "verdict", "advice"}
-WRITTEN |= {"assumptions", "sentence", "note", "source", "signs", "iterations"}
+WRITTEN |= {"assumptions", "sentence", "note", "source", "signs"}
+#: And how it was solved.
+WRITTEN |= {"iterations", "integration_error_m"}
 ROUNDING = 1e-7
 
 

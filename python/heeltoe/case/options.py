@@ -80,7 +80,10 @@ class Flexible(Fields):
     def row_counts(self, *, below: bool = False) -> tuple[int, int]:
         """Return how many elements the rows far from the crack have, and how often these are halved at it: while those
         along it are a multiple of four, and no fewer than are wanted."""
-        across = (self.elements_across_below if below else None) or self.elements_across
+        return self.halved((self.elements_across_below if below else None) or self.elements_across)
+
+    def halved(self, across: int) -> tuple[int, int]:
+        """Return the same for a part with so many elements along its crack."""
         halvings = 0
         while self.elements_away and across % 4 == 0 and across >= 2 * self.elements_away:
             across, halvings = across // 2, halvings + 1

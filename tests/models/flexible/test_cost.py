@@ -17,6 +17,7 @@ from heeltoe.models.flexible.body import bonded, rock
 from heeltoe.models.flexible.body.cost import building, part_of, parts_of, surroundings_of
 from heeltoe.models.flexible.body.reduced import _build
 from heeltoe.models.flexible.body.reservoir import water_body
+from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import analysing, running
 from heeltoe.models.run import cost_of, earthquake
@@ -142,6 +143,13 @@ def test_memory(name, across, changes):
     measured, estimated = map(float, child.stdout.split())
     print(f"{name}, {across} across, {changes.keys()}: {measured / 1e6:.0f} MB, estimated {estimated / 1e6:.0f} MB")
     assert factor(measured, estimated) < 2.0
+
+
+@pytest.mark.parametrize(("across", "away"), [(11, 3), (12, 3), (16, 4)])
+def test_a_mesh_that_cannot_be_halved_is_estimated_as_it_is(across, away):
+    case = example("typical-height").with_({"flexible.elements_across": across, "flexible.elements_away": away})
+    for part, mesh in zip(parts_of(case), dam_mesh(case).parts, strict=True):
+        assert factor(part.freedoms, 2.0 * len(mesh.nodes)) < 2.0
 
 
 @pytest.mark.parametrize("depth", [10, 100])

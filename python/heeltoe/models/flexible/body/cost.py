@@ -94,8 +94,8 @@ def part_of(
 ) -> Part:
     """Return a part with so many nodes along its one or two cracks; with the program's own mesh if nothing else is
     said, for which `slenderness` is its height over its width."""
-    across = (nodes / cracks - 1) / 2.0
-    away = min(across, case.flexible.elements_away or across)
+    across = round((nodes / cracks - 1) / 2.0)
+    away, _ = case.flexible.halved(across)
     rows = min(ROWS, _FLAT * slenderness)
     own = 2.0 * (3.0 * rows * away**2 + 5.0 * away + cracks * _GRADED * (across - away))
     return Part(freedoms or own, nodes, case.flexible.modes or FIRST_KEPT)
