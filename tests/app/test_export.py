@@ -142,7 +142,7 @@ def test_app_and_shell_have_the_same_numbers(ask, tab, tmp_path):
     assert not tab.ask("edit case", "case", changes=brief)["errors"]
     # The page shows what the block does before the elastic dam.
     shown = {model: tab.ask(model, model, values={"crack.friction": 0.9}) for model in ("rigid", "elastic")}
-    checks = tab.ask("statics", "statics", values={"crack.friction": 0.9})
+    checks = tab.ask("statics", "statics", values={"crack.friction": 0.9}, spectrum="")
     case = case_file(ask, tab, tmp_path) / "case.toml"
 
     def shell(name, model):
