@@ -56,8 +56,8 @@ def measured_beam() -> Figure:
     """Return the notched beam of a test, beside the band that was measured."""
     mouth, least, most = zip(*MEASURED, strict=True)
     curves = (
-        (1.0, "-", "all of the energy"),
-        (FIRST_PART, "--", f"{100 * FIRST_PART:g} % of it, the first slope of concrete"),
+        (1.0, "--", "one line of softening"),
+        (FIRST_PART, "-", f"two lines, {100 * FIRST_PART:g} % of the energy in the first"),
     )
     with rc_context(STYLE):
         figure = Figure(figsize=(7.0, 4.0), layout="constrained")
@@ -65,8 +65,8 @@ def measured_beam() -> Figure:
         axes.fill_between(
             (0.0, *mouth), (0.0, *least), (0.0, *most), color="0.8", label="measured, cycles from below to above"
         )
-        for part, dash, name in curves:
-            opening, force = bend_beam(part * BEAM_ENERGY)
+        for first, dash, name in curves:
+            opening, force = bend_beam(BEAM_ENERGY, first)
             axes.plot(opening, force, linestyle=dash, linewidth=1.5, label=name)
         axes.set_xlim(0.0, 0.2)
         axes.set_ylim(bottom=0.0)

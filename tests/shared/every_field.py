@@ -223,6 +223,7 @@ BONDED: Fields = {
     "cohesion": "0.3 MPa",
     "fracture_energy": "300 N/m",
     "shear_energy": "100 N/m",
+    "initial_energy": "200 N/m",
     "dynamic_factor": 1.1,
 }
 HELPED |= {f"crack.bond.{name}": ({"crack.bond": BONDED}, None) for name in BONDED}

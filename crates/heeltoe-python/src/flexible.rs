@@ -153,7 +153,7 @@ pub struct CrackLine<'py> {
     lower: (usize, usize),
     friction: [f64; 2],
     law: Option<Bound<'py, FrictionLaw>>,
-    bond: Option<[f64; 5]>,
+    bond: Option<[f64; 6]>,
     give: (f64, f64),
     angles: [Vec<f64>; 2],
 }
@@ -167,11 +167,12 @@ impl CrackLine<'_> {
             law: self.law.as_ref().map(|law| law.get().0.clone()),
             bond: self
                 .bond
-                .map(|[tensile, cohesion, opening, shear, dynamic]| BondLaw {
+                .map(|[tensile, cohesion, opening, shear, dynamic, first]| BondLaw {
                     tensile,
                     cohesion,
                     energy: [opening, shear],
                     dynamic,
+                    first,
                 }),
             give: RockingThresholds {
                 rotation: self.give.0,

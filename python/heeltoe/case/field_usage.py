@@ -53,7 +53,10 @@ READ_BY: dict[str, frozenset[str]] = {
     "joints.bond": frozenset({"flexible"}),
     "crack.bond": _SHAKEN,
     # A rigid block bears its bond or not; it opens no crack that would take energy.
-    **dict.fromkeys((f"crack.bond.{name}" for name in ("fracture_energy", "shear_energy")), frozenset({"flexible"})),
+    **dict.fromkeys(
+        (f"crack.bond.{name}" for name in ("fracture_energy", "shear_energy", "initial_energy")),
+        frozenset({"flexible"}),
+    ),
     "further_cracks.bond": frozenset({"flexible"}),
     "rock": frozenset({"flexible"}),
     "reservoir.virtual_mass_rotates": _BLOCKS,

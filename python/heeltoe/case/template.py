@@ -86,6 +86,7 @@ restitution = 0.5                  # of a rocking block's impacts: 0 stays down,
 # cohesion = "1.2 MPa"             # at least friction times tensile_strength
 # fracture_energy = "100 N/m"      # to open it; mass concrete takes 100 to 300 N/m
 # shear_energy = "1000 N/m"        # to shear it off, beside friction
+# initial_energy = "40 N/m"        # of the first of two lines of softening; without it there is one
 # dynamic_factor = 1.0             # on both strengths during the earthquake
 
 # A friction law, in place of the coefficients (heeltoe law NAME draws one); each knows some of these fields:

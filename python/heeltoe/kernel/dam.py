@@ -43,8 +43,8 @@ class CrackLine:
     angles
         Of the segments of the upper and of the lower face to the line from heel to toe [rad]; none of a straight crack.
     bond
-        Of a bonded joint: tensile strength and cohesion [Pa], energies of opening and of shear [J/m2], and the factor
-        on both strengths during the earthquake.
+        Of a bonded joint: tensile strength and cohesion [Pa], energies of opening and of shear [J/m2], the factor on
+        both strengths during the earthquake, and the share of the energies that belongs to the first line of softening.
     """
 
     upper: tuple[int, int]
@@ -53,7 +53,7 @@ class CrackLine:
     give: tuple[float, float] = (0.0, 0.0)
     law: FrictionLaw | None = None
     angles: tuple[list[float], list[float]] = ([], [])
-    bond: tuple[float, float, float, float, float] | None = None
+    bond: tuple[float, float, float, float, float, float] | None = None
 
 
 def only_crack(

@@ -52,7 +52,7 @@ class Joint:
 
     def __init__(self, lengths, bond, stiffness):
         self.lengths, self.stiffness = lengths, stiffness
-        self.tensile, self.cohesion, opening, shear, _ = bond
+        self.tensile, self.cohesion, opening, shear, *_ = bond
         self.reach = 2.0 * opening / self.tensile, 2.0 * shear / self.cohesion
         self.history = np.zeros((3, lengths.size))
 

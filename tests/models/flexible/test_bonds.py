@@ -63,6 +63,9 @@ DAM: dict[str, Any] = {
 }
 
 
+CORNERS = ((0.0, 0.0), (26.0, 0.0), (6.0, 25.0), (5.0, 30.0), (0.0, 30.0))
+
+
 def dam(**bond: Any) -> dict[str, Any]:
     fields = copy.deepcopy(DAM)
     fields["crack"]["bond"] = BOND | bond
@@ -87,6 +90,43 @@ def test_a_joint_cracks_and_says_so():
     assert response.energy.fracture_j == pytest.approx(broken, rel=1e-9)
     entries = [text.get_text() for axes in energy_figure(response).axes for text in axes.get_yticklabels()]
     assert any("fracture" in entry for entry in entries) == (broken > 1e-3 * abs(response.energy.input_j))
+
+
+def test_two_lines_of_which_the_first_has_all_the_energy_are_one():
+    one, same, two = (
+        run(read_case(dam(**more)), "flexible")
+        for more in ({}, {"initial_energy": BOND["fracture_energy"]}, {"initial_energy": "80 N/m"})
+    )
+    for name, values in one.histories.items():
+        assert np.array_equal(values, same.histories[name]), name
+    assert two.energy.residual < 1e-9
+    # The first line is the steeper one: more softens, and what breaks takes all of its energy.
+    assert two.histories["softening_length_m"].max() > one.histories["softening_length_m"].max()
+    assert two.summary["joint"]["fracture_energy_j"] >= 0.99 * 200.0 * two.joint.cracked_length_m
+    assert two.joint.process_zone_m == pytest.approx(0.4 * one.joint.process_zone_m)
+    assert np.all(np.diff(two.crack.damage, axis=0) >= 0.0)
+
+
+def test_the_energy_of_the_first_line_is_a_part_of_all():
+    with pytest.raises(InputError, match="fracture_energy") as wrong:
+        read_case(dam(initial_energy="201 N/m"))
+    assert (wrong.value.code, wrong.value.field) == ("out-of-range", "crack.bond.initial_energy")
+
+
+@pytest.mark.parametrize("initial", [None, "80 N/m"])
+def test_the_image_of_a_dam_cracks_from_the_other_face(initial):
+    fields = dam(**({} if initial is None else {"initial_energy": initial}))
+    fields["motion"]["sign"] = "recorded"
+    fields["section"] = {"polygon": [[f"{x} m", f"{z} m"] for x, z in CORNERS]}
+    image = copy.deepcopy(fields)
+    image["section"]["polygon"] = [[f"{-x} m", f"{z} m"] for x, z in CORNERS[::-1]]
+    image["tailwater"] = image.pop("reservoir")
+    image["motion"]["points"] = [[t, f"{-float(a.split()[0])} g"] for t, a in PULSES]
+    own, other = (run(read_case(item), "flexible").joint for item in (fields, image))
+    assert own.cracked_length_m > 0.0
+    assert own.cracked_upstream_m == pytest.approx(other.cracked_downstream_m, abs=1e-9)
+    assert own.cracked_downstream_m == pytest.approx(other.cracked_upstream_m, abs=1e-9)
+    assert own.fracture_energy_j == pytest.approx(other.fracture_energy_j, rel=1e-6)
 
 
 def test_a_strength_beyond_reach_is_the_bonded_dam():

@@ -3,18 +3,20 @@
 //! Each node with the share `a` of its crack's length has the damage
 //!
 //! ```text
-//! lambda = max over time of sqrt((w / w_f)^2 + (s / s_f)^2),      w_f = 2 G_f / f_t,      s_f = 2 G_II / c
+//! lambda = max over time of sqrt((w / w_f)^2 + (s / s_f)^2),    w_f = G_f / (A f_t),    s_f = G_II / (A c)
 //! ```
 //!
 //! of its opening `w` and the path `s` of its slip, and bears beside contact the tension `T` and the cohesion `C`
 //!
 //! ```text
-//! T = a (f_t (1 - lambda) - k (w_max - w)) >= 0,      C = a c (1 - lambda),      p_n >= -T,   |p_t| <= C + mu p_n
+//! T = a (f_t phi - k (w_max - w)) >= 0,      C = a c phi,      p_n >= -T,   |p_t| <= C + mu p_n
 //! ```
 //!
+//! where `phi` falls from 1 to 0 over `lambda`: in one line, `1 - lambda` with the area `A = 1/2`, or in two lines that
+//! meet at a quarter of the strength, see [`super::crack_line::BondLaw::first`];
 //! intact at `lambda = 0`, broken from `lambda = 1` on; nothing heals. Opening breaks the bond by `G_f` for each square
 //! metre, slip by `G_II` beside friction, which acts throughout. `k` leads back to the origin when the node closes,
-//! `f_t (1 - lambda) / w_max`, but is no stiffer than the step can follow. The bond's part of the shear changes
+//! `f_t phi / w_max`, but is no stiffer than the step can follow. The bond's part of the shear changes
 //! elastically within `C - mu T`, by as stiff a spring, beside the friction `mu (p_n + T)`: so a node that opens loses
 //! no shear at once, and contact has a solution. In the search for rest the bond holds its share of the shear without such a
 //! give: that of the joint before anything opens, then what it was found to bear.
@@ -54,6 +56,8 @@ pub(super) struct Bond {
     /// Tension and cohesion that it bears intact (N), and way over which either is lost (m).
     strength: [f64; 2],
     reach: [f64; 2],
+    /// Damage and share of the strength where two lines of softening meet; the end of one.
+    knee: [f64; 2],
     damage: f64,
     /// Way of its slip and its largest gap so far (m).
     path: f64,
@@ -84,21 +88,30 @@ struct After {
 }
 
 impl Bond {
+    /// Share of the strengths that is left.
+    #[inline(always)]
+    fn left(&self, damage: f64) -> f64 {
+        let [place, share] = self.knee;
+        if damage <= place {
+            1.0 - damage * ((1.0 - share) / place)
+        } else {
+            share * (1.0 - damage) / (1.0 - place)
+        }
+    }
+
     /// Tension (N) at a gap, and the shear beside friction that goes with it; `widest` is the largest gap so far.
     #[inline(always)]
     fn bears(&self, damage: f64, gap: f64, widest: f64) -> [f64; 2] {
         let [tension, cohesion] = self.strength;
-        let left = tension * (1.0 - damage);
+        let share = self.left(damage);
+        let left = tension * share;
         let back = if self.stiffest[0] * widest > left {
             left / widest
         } else {
             self.stiffest[0]
         };
         let tension = (left - back * (widest - gap).max(0.0)).max(0.0);
-        [
-            tension,
-            (cohesion * (1.0 - damage) - self.friction * tension).max(0.0),
-        ]
+        [tension, (cohesion * share - self.friction * tension).max(0.0)]
     }
 
     /// What it bears as the step begins.
@@ -222,13 +235,14 @@ impl Bonds {
                 let strengths = [factor * law.tensile, factor * law.cohesion];
                 let mut place = 0.0;
                 for (k, &(length, _)) in shares.iter().enumerate().filter(|(_, share)| share.1) {
-                    let reach = |k: usize| 2.0 * law.energy[k] / strengths[k];
+                    let reach = |k: usize| law.reach(k, strengths[k]);
                     bonds.push(Bond {
                         contact: first + k,
                         length,
                         place: place + 0.5 * length,
                         strength: strengths.map(|strength| length * strength),
                         reach: [reach(0), reach(1)],
+                        knee: law.knee(),
                         damage: 0.0,
                         path: 0.0,
                         widest: 0.0,

@@ -22,6 +22,29 @@ pub struct BondLaw {
     pub energy: [f64; 2],
     /// Factor on both strengths during the earthquake.
     pub dynamic: f64,
+    /// Share of the energies below the first of two lines of softening, prolonged; 1 where there is but one line.
+    pub first: f64,
+}
+
+/// Share of the strength at which two lines of softening meet: that of concrete (Wittmann, Rokugo, Bruehwiler, Mihashi
+/// and Simonin, Materials and Structures 21 (1988), 21-32).
+const KNEE: f64 = 0.25;
+
+impl BondLaw {
+    /// Damage and share of the strength where the lines of softening meet; the end of a single one.
+    pub(super) fn knee(&self) -> [f64; 2] {
+        if self.first >= 1.0 {
+            return [1.0, 0.0];
+        }
+        let first = (1.0 - KNEE) * self.first;
+        [first * KNEE / (1.0 - first), KNEE]
+    }
+
+    /// Way (m) over which a tension (0) or a cohesion (1) is lost.
+    pub(super) fn reach(&self, k: usize, strength: f64) -> f64 {
+        let [place, share] = self.knee();
+        2.0 * self.energy[k] / ((place + share) * strength)
+    }
 }
 
 /// A crack.
@@ -49,17 +72,15 @@ impl Line {
             .is_some_and(|law| law.tensile > 0.0 || law.cohesion > 0.0)
     }
 
-    /// The slip that breaks its bond, `2 G_II / c` (m), or the opening that does where it has no cohesion; none without a
-    /// bond.
+    /// The slip that breaks its bond (m), or the opening that does where it has no cohesion; none without a bond.
     pub(super) fn lasting_slip(&self) -> f64 {
         let Some(law) = self.bond.filter(|_| self.bonded()) else {
             return 0.0;
         };
-        let way = |strength: f64, energy: f64| 2.0 * energy / strength;
         if law.cohesion > 0.0 {
-            way(law.cohesion, law.energy[1])
+            law.reach(1, law.cohesion)
         } else {
-            way(law.tensile, law.energy[0])
+            law.reach(0, law.tensile)
         }
     }
 

@@ -82,7 +82,7 @@ impl Dam {
                 return Err("a bonded joint has constant friction, and its nodes are watched once");
             }
             let strengths = [bond.tensile, bond.cohesion];
-            let others = [bond.energy[0], bond.energy[1], bond.dynamic];
+            let others = [bond.energy[0], bond.energy[1], bond.dynamic, bond.first];
             if !strengths.iter().all(|strength| *strength >= 0.0)
                 || !others.iter().all(|number| *number > 0.0)
                 || strengths.iter().chain(&others).any(|number| !number.is_finite())

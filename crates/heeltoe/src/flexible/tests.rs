@@ -374,6 +374,7 @@ fn a_bonded_node_meets_the_end_of_the_other_face_until_its_slip_has_broken_the_b
             cohesion,
             energy,
             dynamic: 1.0,
+            first: 1.0,
         })
     };
     // 2 G_II / c, or 2 G_f / f_t where there is no cohesion.

@@ -13,6 +13,7 @@ const BOND: BondLaw = BondLaw {
     cohesion: 2e4,
     energy: [100.0, 300.0],
     dynamic: 1.0,
+    first: 1.0,
 };
 /// A spring across that is ten times as stiff as the bond softens, and one along.
 const HELD: Pair = Pair {
@@ -80,6 +81,42 @@ fn a_node_that_is_pulled_follows_the_law_and_takes_its_energy() {
     assert!(crack.cracked.first[0] > 0.0 && crack.cracked.through >= crack.cracked.first[0]);
     assert!(crack.ledger.residual() < 1e-11, "{:?}", crack.ledger);
     assert!(crack.residual < 1e-9, "{}", crack.residual);
+}
+
+#[test]
+fn a_node_that_is_pulled_softens_along_two_lines_and_takes_its_energy() {
+    let two = BondLaw { first: 0.4, ..BOND };
+    let run = shake(&bonded(&HELD, two), &lines(&[0.0, -600.0], 40_000, 1.0, 1), 5e-5);
+    let crack = &run.cracks[0];
+    // Down to a quarter over 0.75 of 2 * 0.4 G_f / f_t, then to nothing: the area is G_f.
+    let (meet, end) = (
+        0.6 * two.energy[0] / two.tensile,
+        5.6 * two.energy[0] / two.tensile,
+    );
+    let tension = |gap: f64| {
+        let share = if gap < meet {
+            1.0 - 0.75 * gap / meet
+        } else {
+            0.25 * ((end - gap) / (end - meet)).max(0.0)
+        };
+        LENGTH * two.tensile * share
+    };
+    let (gaps, forces) = (gaps(&run), column(&run, "normal_force"));
+    let (mut softened, mut widest) = ([0; 2], 0.0_f64);
+    for k in 1..gaps.len() {
+        if gaps[k - 1] > 0.0 && gaps[k - 1] == widest && gaps[k] > widest && gaps[k] < end {
+            near(forces[k], -0.5 * (tension(gaps[k - 1]) + tension(gaps[k])), 1e-4);
+            softened[usize::from(gaps[k] > meet)] += 1;
+        }
+        widest = widest.max(gaps[k]);
+    }
+    assert!(softened.iter().all(|count| *count > 50), "{softened:?}");
+    near(
+        crack.cracked.energy,
+        LENGTH * two.energy[0],
+        0.002 * LENGTH * two.energy[0],
+    );
+    assert!(crack.ledger.residual() < 1e-11, "{:?}", crack.ledger);
 }
 
 #[test]
@@ -176,6 +213,7 @@ fn a_bond_that_is_broken_at_once_ends_as_a_crack() {
         cohesion: 1.0,
         energy: [1e-6; 2],
         dynamic: 1.0,
+        first: 1.0,
     };
     let pair = Pair {
         omega: [15.0, 20.0],
@@ -215,13 +253,16 @@ fn random_joints_close_their_books() {
         let tensile = 10.0_f64.powf(3.0 + 3.0 * share(1));
         let cohesion = tensile * (0.3 + 3.0 * share(2));
         let dynamic = 1.0 + share(5);
+        let first = if k % 2 == 0 { 1.0 } else { 0.3 + 0.6 * share(9) };
         // As tough as the step of 2 ms follows: dt^2 L f^2 / (2 G m) <= 1.
-        let tough = |strength: f64, more: f64| 4e-9 * (dynamic * strength).powi(2) * (1.0 + more) + 1.0;
+        let tough =
+            |strength: f64, more: f64| (4e-9 * (dynamic * strength).powi(2) * (1.0 + more) + 1.0) / first;
         let bond = BondLaw {
             tensile,
             cohesion,
             energy: [tough(tensile, share(3)), tough(cohesion, share(4))],
             dynamic,
+            first,
         };
         let pair = Pair {
             omega: [5.0 + 60.0 * share(6), 5.0 + 60.0 * share(7)],

@@ -19,8 +19,9 @@ from heeltoe.models.flexible.body.reduced import ReducedBody
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.validation.row import Row
 
-#: Strength of a joint [Pa], its cohesion, the energies of opening and of shear [J/m2], and the dynamic factor.
-BondNumbers = tuple[float, float, float, float, float]
+#: Strength of a joint [Pa], its cohesion, the energies of opening and of shear [J/m2], the dynamic factor, and the
+#: share of the energies that belongs to the first line of softening.
+BondNumbers = tuple[float, float, float, float, float, float]
 _MODULUS = 25e9
 #: A spring that holds what would float, and bears nothing to speak of.
 _HARDLY = 1e-5
@@ -199,7 +200,9 @@ def bonded_bar() -> Iterator[Row]:
     once. Either way its joint takes the fracture energy.
 
     A bar of length L, drawn by its ends, softens steadily while L < 2 E G_f / f_t^2, which is 5 m for 25 GPa, 1 MPa and
-    100 N/m; a longer one snaps at the elongation L f_t / E. Bars of 1 m and of 20 m.
+    100 N/m; a longer one snaps at the elongation L f_t / E. Bars of 1 m and of 20 m. Where the joint softens along two
+    lines, the first with 40 % of the energy, they meet at a quarter of the strength and the opening 0.6 G_f / f_t; the
+    second ends at 5.6 G_f / f_t.
     """
     strength, energy = 1e6, 100.0
     reach = 2.0 * energy / strength
@@ -213,6 +216,14 @@ def bonded_bar() -> Iterator[Row]:
             f"bar of 1 m: force at {part:g} of the last opening [N]", (1.0 - part) * strength, borne, 0.005, digits=3
         )
     yield Row("bar of 1 m: energy of the joint [J]", energy, moved.run.summary.energy_fracture, 1e-5)
+    moved, force = _draw_bar(1.0, strength, energy, seconds=5.0, step=5e-5, first=FIRST_PART, frames=5000)
+    opening = moved.apart((0.5, 1.0), 1, (0.5, 0.0)) - force / _MODULUS
+    for part, share in ((0.3, 0.625), (0.6, 0.25), (3.1, 0.125)):
+        borne = float(np.interp(part * energy / strength, opening, force))
+        yield Row(f"bar of 1 m, two lines: force at {part:g} G_f / f_t [N]", share * strength, borne, 0.005, digits=3)
+    yield Row(
+        "bar of 1 m, two lines: energy of the joint [J]", energy, moved.run.summary.energy_fracture, 0.01, digits=3
+    )
     length = 20.0
     moved, force = _draw_bar(length, strength, energy, seconds=10.0, step=1e-4)
     elongation = moved.apart((0.5, length), 1, (0.5, 0.0))
@@ -222,21 +233,23 @@ def bonded_bar() -> Iterator[Row]:
     yield Row("bar of 20 m: energy of the joint [J]", energy, moved.run.summary.energy_fracture, 0.01, digits=3)
 
 
-def _draw_bar(length: float, strength: float, energy: float, *, seconds: float, step: float) -> tuple[Moved, Floats]:
+def _draw_bar(
+    length: float, strength: float, energy: float, *, seconds: float, step: float, first: float = 1.0, frames: int = 400
+) -> tuple[Moved, Floats]:
     """Draw a bar of 1 m x `length` with a joint at half its length apart; return what it does, and the force [N]."""
     stiffness = 10.0 * _MODULUS
     # Of two edges of three nodes under a uniform stress.
     weights = (1 / 12, 4 / 12, 2 / 12, 4 / 12, 1 / 12)
-    furthest = 2.5 * energy / strength + 1.2 * strength * length / _MODULUS
+    furthest = (2.5 if first == 1.0 else 6.5) * energy / strength + 1.2 * strength * length / _MODULUS
     ends = [
         Spring(body, (k / 4, level), 1, weight * stiffness, drawn)
         for body, level, drawn in ((0, length, furthest), (1, 0.0, 0.0))
         for k, weight in enumerate(weights)
     ]
     held = [Spring(0, (0.5, length), 0, stiffness), Spring(1, (0.5, 0.0), 0, stiffness)]
-    bond = (strength, 2.0 * strength, energy, 10.0 * energy, 1.0)
+    bond = (strength, 2.0 * strength, energy, 10.0 * energy, 1.0, first)
     bar = make_specimen((1.0, length), (0.0, 1.0), bond, [*ends, *held], modulus=_MODULUS, across=2, poisson=0.0)
-    moved = bar.move(seconds, step, frames=400)
+    moved = bar.move(seconds, step, frames=frames)
     return moved, np.sum([moved.force(spring) for spring in ends[: len(weights)]], axis=0)
 
 
@@ -259,7 +272,7 @@ def bonded_cantilevers() -> Iterator[Row]:
         Spring(0, (length, 2.0 * height), 1, _HARDLY * _MODULUS),
     ]
     strength = 0.5e6
-    bond = (strength, 3.0 * strength, energy, 10.0 * energy, 1.0)
+    bond = (strength, 3.0 * strength, energy, 10.0 * energy, 1.0, 1.0)
     for across in (16, 32):
         pair = make_specimen(
             (length, 2.0 * height), (start, length), bond, [*ends, *held], modulus=_MODULUS, across=across
@@ -312,7 +325,7 @@ MEASURED = (
 )
 
 
-def bend_beam(energy: float, across: int = 16) -> tuple[Floats, Floats]:
+def bend_beam(energy: float, first: float = 1.0, across: int = 16) -> tuple[Floats, Floats]:
     """Bend the notched beam of the test, with a joint over the other half of its depth; return mouth opening [mm] and
     force [N], (f,) each."""
     # The joint is level in the program: the beam stands, its notch on the right.
@@ -328,7 +341,7 @@ def bend_beam(energy: float, across: int = 16) -> tuple[Floats, Floats]:
     beam = make_specimen(
         (DEPTH, SPAN),
         (0.0, DEPTH / 2),
-        (BEAM_STRENGTH, 3.0 * BEAM_STRENGTH, energy, 10.0 * energy, 1.0),
+        (BEAM_STRENGTH, 3.0 * BEAM_STRENGTH, energy, 10.0 * energy, 1.0, first),
         [*loaded, *held],
         modulus=modulus,
         across=across,
@@ -347,18 +360,17 @@ def notched_beam() -> Iterator[Row]:
 
     Depth and thickness 50 mm, span 125 mm, E 37 GPa, f_t 3.9 MPa, G_f 143.2 J/m2. The largest force of the cycles was
     1114 N, the least that was the largest of its cycle 933 N. Concrete softens steeply at first and slowly later; the
-    joint of heeltoe softens along one straight line, with the whole energy or with the 40 % of it that belong to the
-    first slope.
+    joint of heeltoe softens along one straight line, or along two, the first of which has 40 % of the energy.
     """
-    for part, why, explained in (
-        (1.0, "a straight line bears more than concrete, which softens steeply at first", 0.25),
-        (FIRST_PART, "the slope that the largest force goes by; the tail, which it leaves out, comes later", None),
+    for first, name, why, explained in (
+        (1.0, "one line", "a straight line bears more than concrete, which softens steeply at first", 0.25),
+        (FIRST_PART, "two lines", "", None),
     ):
-        opening, force = bend_beam(part * BEAM_ENERGY)
-        what = f"largest force with {100 * part:g} % of the energy [N]"
+        opening, force = bend_beam(BEAM_ENERGY, first)
+        what = f"largest force with {name} [N]"
         yield Row(what, MEASURED_PEAK, float(force.max()), 0.05, kind="book", remark=why, explained=explained, digits=3)
         slope = float(np.interp(0.004, opening, force)) / 0.004
-        if part == 1.0:
-            first = np.array(MEASURED)
-            wanted = float(np.interp(0.004, first[:, 0], first[:, 1:].mean(axis=1))) / 0.004
+        if first == 1.0:
+            measured = np.array(MEASURED)
+            wanted = float(np.interp(0.004, measured[:, 0], measured[:, 1:].mean(axis=1))) / 0.004
             yield Row("force per mouth opening at first [N/mm]", wanted, slope, 0.2, kind="book", digits=2)

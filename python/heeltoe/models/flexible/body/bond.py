@@ -8,7 +8,8 @@ Where the elements along the joint are longer than a third of it, the tensile st
 
     f = sqrt(E G_f / 3 h),
 
-so that the crack takes the energy that it should (Bazant and Oh 1983).
+so that the crack takes the energy that it should (Bazant and Oh 1983). Where the joint softens along two lines, G_f
+here is the energy of the first.
 """
 
 from __future__ import annotations
@@ -55,19 +56,20 @@ class ZoneMesh:
 def zone_mesh(bond: Bond, modulus: float, along: Floats) -> ZoneMesh:
     """Return how nodes at these places ``along`` a joint (k,) [m], three to an element, resolve its process zone."""
     strength = bond.dynamic_factor * bond.tensile_strength
-    zone = modulus * bond.fracture_energy / strength**2
+    energy = bond.first_share * bond.fracture_energy
+    zone = modulus * energy / strength**2
     element = float(np.diff(along[::2]).max())
-    lowered = math.sqrt(modulus * bond.fracture_energy / (ELEMENTS_IN_ZONE * element)) / bond.dynamic_factor
+    lowered = math.sqrt(modulus * energy / (ELEMENTS_IN_ZONE * element)) / bond.dynamic_factor
     return ZoneMesh(zone, element, min(bond.tensile_strength, lowered))
 
 
-def kernel_bond(alone: Case, along: Floats) -> tuple[float, float, float, float, float] | None:
+def kernel_bond(alone: Case, along: Floats) -> tuple[float, float, float, float, float, float] | None:
     """Return the bond of a crack as the kernel takes it, of the case with it ``alone``; None of a crack."""
     bond = alone.crack.bond
     if bond is None:
         return None
     strength = zone_mesh(bond, alone.concrete.modulus or 0.0, along).strength
-    return (strength, bond.cohesion, bond.fracture_energy, bond.shear_energy, bond.dynamic_factor)
+    return (strength, bond.cohesion, bond.fracture_energy, bond.shear_energy, bond.dynamic_factor, bond.first_share)
 
 
 def node_lengths(along: Floats) -> Floats:

@@ -60,14 +60,14 @@ def _bond_rate(dam: FlexibleDam, place: int, theta: float, step: float) -> float
     line = dam.lines[place]
     if line.bond is None:
         return 0.0
-    tensile, cohesion, opening, shear, factor = line.bond
+    tensile, cohesion, opening, shear, factor, first = line.bond
     above = dam.reduced[place]
     half, (_, count) = above.position.size // 2, line.upper
     top = half - count
     lengths = node_lengths(above.position[top:half])
     rate = 0.0
     for direction, (strength, energy) in enumerate(((cohesion, shear), (tensile, opening))):
-        root = np.sqrt(lengths * (factor * strength) ** 2 / (2.0 * energy))
+        root = np.sqrt(lengths * (factor * strength) ** 2 / (2.0 * first * energy))
         answer = np.zeros((count, count))
         bodies = [(above, top)]
         if line.lower[1] == count:
