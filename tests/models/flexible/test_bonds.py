@@ -338,6 +338,24 @@ def test_the_evidence_covers_the_cracked_length():
     assert lowered.uncertainty == pytest.approx(max(lowered.value, width - lowered.value))
 
 
+def test_what_has_softened_up_to_its_end_may_break():
+    """On half the mesh this joint is cracked through."""
+    bond = {
+        "tensile_strength": "0.65007 MPa",
+        "cohesion": "1.14908 MPa",
+        "fracture_energy": "209.2735 N/m",
+        "shear_energy": "1031.371 N/m",
+    }
+    fields = dam(**bond)
+    turns = [(0.0, 0.0), (0.1281, -0.1881), (0.17, -0.716), (0.3063, -0.3508), (0.5251, 0.1181), (0.5398, -0.8783)]
+    fields["motion"] = {"points": [[f"{t} s", f"{a} g"] for t, a in [*turns, (0.65, 0.0)]], "sign": "recorded"}
+    fields["flexible"] = {"elements_across": 12, "evidence": "step"}
+    response = run(read_case(fields), "flexible")
+    left = response.crack_width_m - response.joint.cracked_length_m
+    assert response.joint.softening_length_m == pytest.approx(left, abs=0.1)
+    assert 1.0 < left <= response.evidence.cracked_length_m.uncertainty
+
+
 def test_a_joint_that_cracks_through_is_as_long_as_it_is():
     # The dead load strains the faces, whose lengths add up to more than the crack is wide.
     response = run(

@@ -14,7 +14,7 @@ from heeltoe.kernel.dam import DamRun
 from heeltoe.models.flexible.body.cost import wave_bodies
 from heeltoe.models.flexible.body.reduced import FlexibleDam
 from heeltoe.models.flexible.evidence.evidence import BUDGET, FLOOR_M, Evidence, Worth, allowed
-from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
+from heeltoe.models.flexible.evidence.trials import SCALES, SOFTENING, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import FEWEST_ACROSS
 from heeltoe.result.contract import CRACKED, HEADLINES
@@ -259,6 +259,9 @@ class _Stand:
             width = dam.sections[crack].crack_width
             length = worth_of(CRACKED)
             least = 0.5 * width / self._options.elements_across
+            if length.run + float(run[SOFTENING][0]) > width - least:
+                # Nothing is intact that would stop it.
+                least = max(least, width - length.run)
             if self._lowered(crack, dam):
                 # A strength that depends on the mesh is no evidence of how far the joint cracks.
                 least = max(length.run, width - length.run)

@@ -18,6 +18,8 @@ from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import running, with_mesh
 from heeltoe.result.contract import CRACKED, HEADLINES, headlines
 
+#: Length of a joint that softens [m], beside the headline numbers.
+SOFTENING = "softening_length_m"
 #: Factors on the shaking: as it is, and up to 1 % either way.
 SCALES = (1.0, 0.99, 0.995, 1.005, 1.01)
 # Rock and water that reach farther do so this many times.
@@ -179,7 +181,8 @@ class Trials:
         rows = [self._numbers[level, scale][crack] for scale in scales]
         lines = headlines({item.column: np.array([row[item.column] for row in rows]) for item in HEADLINES})
         width = self.dam_of(level.mesh).dam.sections[crack].crack_width
-        return lines | {CRACKED: np.minimum([row["cracked_length"] for row in rows], width)}
+        softening = np.array([row["softening_length"] for row in rows])
+        return lines | {CRACKED: np.minimum([row["cracked_length"] for row in rows], width), SOFTENING: softening}
 
     def failed(self, level: Level, scales: Sequence[float]) -> int:
         """Return how many of these runs, all made before, end without a result."""
