@@ -328,8 +328,6 @@ RULES = (
     ),
     Rule("elastic rock", "penalty contact", (), _NOT_THERE),
     Rule("elastic rock", "options of the thesis", (), "the dam of the thesis stands on a rigid plane"),
-    Rule("elastic rock", "kinks off the straight line", (), _STRAIGHT),
-    Rule("elastic rock", "all nodes watched twice", (), "no state of rest is found for them"),
     Rule("three cracks", "", ("rigid",), "its blocks are two at most, one on the other"),
     Rule(
         "several cracks",

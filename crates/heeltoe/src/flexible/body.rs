@@ -163,6 +163,13 @@ impl ReducedBody {
         self.wet
     }
 
+    /// Whether the boundary takes energy of a mode, as that of the rock does.
+    pub(super) fn of_rock(&self, group: usize, lane: usize) -> bool {
+        let mode = group * LANES + lane;
+        let takes = |matrix: &Vec<Group>| matrix.as_flattened()[mode * (self.groups() * LANES + 1)] > 0.0;
+        self.boundary.as_ref().is_some_and(takes)
+    }
+
     /// Whether its boundary takes energy.
     pub fn radiates(&self) -> bool {
         self.boundary.is_some()

@@ -7,7 +7,9 @@
 //! ```
 //!
 //! with the conditions of contact and Coulomb on the motion of the step, as in [`super::coulomb`], until nothing moves
-//! any more. The small `s` holds a part that is free; it plays no part in the state that is found.
+//! any more. The small `s` holds a part that is free; it plays no part in the state that is found. It goes by the lowest
+//! frequency of the dam and holds its modes alone: by that of the rock, which is many times lower, a step would be so long
+//! that the softness of nodes that are watched twice, a share of it, lets them creep without end.
 
 use super::still::Still;
 use std::ops::Range;
@@ -25,7 +27,7 @@ use super::simd::{Group, Plain};
 use super::status::Status;
 use crate::stop::Stop;
 
-/// What holds a free part, as a share of the smallest squared frequency.
+/// What holds a free part, as a share of the smallest squared frequency of the dam.
 const HOLD: f64 = 1e-2;
 const STEPS: usize = 3000;
 /// Motions stand for velocities, forces for impulses.
@@ -48,8 +50,10 @@ struct Side<'a> {
 
 impl<'a> Side<'a> {
     fn new(body: &'a ReducedBody, hold: f64) -> Self {
-        let inverse = |w: &Group| -> Group { std::array::from_fn(|l| 1.0 / (w[l] + hold)) };
-        let d: Vec<Group> = body.omega_squared.iter().map(inverse).collect();
+        let inverse = |(group, w): (usize, &Group)| -> Group {
+            std::array::from_fn(|l| 1.0 / (w[l] + if body.of_rock(group, l) { 0.0 } else { hold }))
+        };
+        let d: Vec<Group> = body.omega_squared.iter().enumerate().map(inverse).collect();
         let columns = body.columns();
         Side {
             w: body.compliance(&d),
@@ -109,13 +113,14 @@ pub fn rest(mut dam: Dam, stop: Stop) -> Dam {
 
 /// Find the dam at rest; none where friction does not hold it.
 fn find(dam: &Dam, stop: Stop) -> Option<Still> {
-    let squares = dam
-        .bodies
-        .iter()
-        .flat_map(|body| body.omega_squared.as_flattened());
-    let lowest = squares
-        .filter(|w| **w > 0.0)
-        .fold(f64::INFINITY, |a, w| a.min(*w));
+    let own = |body: &ReducedBody| -> f64 {
+        let groups = body.omega_squared.iter().enumerate();
+        let squares = groups.flat_map(|(group, w)| w.iter().enumerate().map(move |(l, w)| (group, l, *w)));
+        squares
+            .filter(|(group, l, w)| *w > 0.0 && !body.of_rock(*group, *l))
+            .fold(f64::INFINITY, |a, (_, _, w)| a.min(w))
+    };
+    let lowest = dam.bodies.iter().map(own).fold(f64::INFINITY, f64::min);
     if !lowest.is_finite() {
         return None;
     }
