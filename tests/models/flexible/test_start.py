@@ -108,3 +108,11 @@ def test_a_dam_without_water_is_at_rest(across, friction):
     dam = build_flexible_dam(read_case(fields))
     assert dam.start.stands
     assert dam.start.slips[0] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_the_slip_to_the_state_at_rest_is_one_number_at_any_mesh():
+    """With so much friction a node may stick nowhere where it slips, which the search for the state must see."""
+    coarse, fine = (build_flexible_dam(typical(1.2, elements_across=across)).start for across in (8, 24))
+    assert coarse.stands
+    assert fine.stands
+    assert fine.slips[0] == pytest.approx(coarse.slips[0], rel=0.04)

@@ -126,6 +126,7 @@ fn find(dam: &Dam, stop: Stop) -> Option<Still> {
     }
     let mut sides = dam.bodies.map(|body| Side::new(body, HOLD * lowest));
     let mut crack = Crack::new(dam, 0, false);
+    crack.solver.thorough = true;
     let places = Place::all(&dam.cracks);
     let bonded = slips(&places, &sides);
     let stretched = dam

@@ -80,6 +80,9 @@ pub(super) struct Solver {
     /// Whether factors last although contacts have moved a little, and what they miss is corrected: a node that slips moves
     /// in every step, and where there are several cracks the factors of all are large.
     pub lasting: bool,
+    /// Whether all changes are tried before sweeping. In a step sweeps go on from the impulses of the one before, to the
+    /// solution next to them where friction allows several; where there is none before they may not come to an end.
+    pub thorough: bool,
     /// A set met before, to know a circle by.
     mark: Vec<Status>,
     /// The `b` that `p` and `u` are a solution for, where the next one may begin with them; else empty.
@@ -130,7 +133,9 @@ impl Solver {
         let mut report = Report::default();
         let mut found = false;
         for (worst_only, slips, most) in CHANGES {
-            found = found || self.search::<W>(problem, crack, (worst_only, slips), most, &mut report);
+            if !found && (self.thorough || !slips) {
+                found = self.search::<W>(problem, crack, (worst_only, slips), most, &mut report);
+            }
         }
         if !found {
             self.solved.clear();
