@@ -52,7 +52,7 @@ def test_a_record_is_called_as_its_sender_calls_it(tab):
     answer = tab("rigid", values={})
     assert CALLED in answer["shaking"]
     assert any(CALLED in warning["text"] for warning in answer["warnings"])
-    assert CALLED in json.dumps(tab("statics", values={})["basis"])
+    assert CALLED in json.dumps(tab("statics", values={}, spectrum="")["basis"])
     assert tab("study form")["choices"]["own"] == CALLED
     assert tab("case")["fields"]["motion"]["file"] == CALLED
 
