@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter
 
 from heeltoe.errors.sanitize import plain
 from heeltoe.study.answers.study_results import StudyResults
@@ -19,7 +19,7 @@ from heeltoe.views.figures.style import WIDTH, styled
 from heeltoe.views.words.studies import limits_of
 
 #: Events of a hazard that figure and table show, and the letters of a name.
-_SHOWN, _LONGEST = 12, 24
+_SHOWN, _LONGEST = 12, 28
 
 
 @styled
@@ -87,6 +87,9 @@ def _fractiles(axes: Axes, rows: Sequence[Mapping[str, Any]]) -> None:
             axes.plot([known["16%"], known["84%"]], [-place] * 2, color=colour, linewidth=5.0, solid_capstyle="butt")
         axes.plot(row["annual_probability"], -place, "o", color="#000000", markersize=4.5, zorder=3)
     axes.set_xscale("log")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
+    axes.xaxis.set_major_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))
+    axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_ylim(0.6 - len(rows), 0.6)
     axes.set_yticks([])
     axes.set_xlabel("probability a year (thin: 5 to 95 %, thick: 16 to 84 %)")
