@@ -12,6 +12,18 @@ from heeltoe.views.terminal.small import print_small
 from shared.dams import KOYNA, SHORT
 
 
+def test_warnings_that_differ_in_numbers_alone_are_one():
+    grid = run_small(KOYNA, SHORT, parse_axes(["motion.pga=0.4 g,0.5 g,0.6 g"]), rigid)
+    console = Console(file=io.StringIO(), width=100)
+    print_small(grid, console)
+    short = console.file.getvalue()
+    print_small(grid, console, details=True)
+    long = console.file.getvalue()[len(short) :]
+    assert "warning  0.4 g and 2 more, with other numbers: a rigid block leaves out" in short
+    assert "with other numbers" not in long
+    assert long.count("a rigid block leaves out the vibration") == 3
+
+
 def test_a_narrow_terminal_cuts_no_number():
     texts = ["crack.friction=0.1,1.0", "reservoir.depth=85 m,91.75 m", "uplift.pattern=none,triangular"]
     grid = run_small(KOYNA, SHORT, parse_axes(texts), rigid)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -105,8 +106,8 @@ def print_small(grid: SmallStudy, console: Console, units: str = "si", *, detail
     if several:
         console.print("cracks count from the crest down; the other columns are of the one that slips most", style="dim")
     if not details:
-        print_more(console, "slip by mode, rotations and impacts")
-    for text in _remarks(grid, units):
+        print_more(console, "slip by mode, impacts and all warnings")
+    for text in _remarks(grid, units, details=details):
         console.print(f"[yellow]warning[/yellow]  {safe(text)}")
     for text in _judged(grid):
         console.print(f"\n[bold]Verdict[/bold]  {text}")
@@ -154,15 +155,27 @@ def _parts(grid: SmallStudy, columns: tuple[_Column, ...], console: Console, uni
     return parts
 
 
-def _remarks(grid: SmallStudy, units: str) -> list[str]:
-    """Return all warnings, once each; what belongs to some of the runs says to which."""
-    runs: dict[str, list[str]] = {}
+def _remarks(grid: SmallStudy, units: str, *, details: bool) -> list[str]:
+    """Return all warnings once, with the runs they are of; in detail those of other numbers, too."""
+    remarks: dict[str | tuple[str, int], list[tuple[str, str]]] = {}
     for cell, response in zip(grid.cells, grid.responses, strict=True):
-        sentences = [] if response.ok else [f"{response.outcome}: {advice(response, units)}"]
-        sentences += [warning.text(units) for warning in response.warnings]
-        for text in dict.fromkeys(sentences):
-            runs.setdefault(text, []).append(", ".join(cell))
-    return [text if len(which) == len(grid.cells) else f"{'; '.join(which)}: {text}" for text, which in runs.items()]
+        failed = [] if response.ok else [f"{response.outcome}: {advice(response, units)}"]
+        own = [(text, text) for text in failed]
+        own += [(warning.code, warning.text(units)) for warning in response.warnings]
+        codes = Counter[str]()
+        for code, text in dict.fromkeys(own):
+            codes[code] += 1
+            remarks.setdefault(text if details else (code, codes[code]), []).append((", ".join(cell), text))
+    sentences = []
+    for known in remarks.values():
+        (run, text), count = known[0], len(known)
+        if len({text for _, text in known}) > 1:
+            sentences.append(f"{run} and {count - 1} more, with other numbers: {text}")
+        elif count == len(grid.cells):
+            sentences.append(text)
+        else:
+            sentences.append(f"{'; '.join(run for run, _ in known)}: {text}")
+    return sentences
 
 
 def _table(grid: SmallStudy, columns: tuple[_Column, ...], units: str) -> Table:
