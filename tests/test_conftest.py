@@ -60,3 +60,15 @@ def test_figures_of_other_seeds_are_added(tmp_path, monkeypatch):
     assert "| cases | 1,236 | 1,234 | 0 | 0 | 2 |" in text
     assert "| all | 1,236 |" in text
     assert "seeds 81, 82." in text
+
+
+@pytest.mark.parametrize("workers", [(), ("-n2",)])
+def test_what_an_attack_has_tried_is_added_once(tmp_path, monkeypatch, workers):
+    page = tmp_path / "attack.md"
+    write_page(page, [("cases", {"accepted": 5})])
+    body = "record_property('attack', ('cases', {'accepted': 3}))"
+    (tmp_path / "test_two.py").write_text(f"def test_a(record_property): {body}\ndef test_b(record_property): {body}\n")
+    monkeypatch.setenv("HEELTOE_ATTACK_PAGE", str(page))
+    monkeypatch.setenv("HEELTOE_ATTACK_ADD", "1")
+    pytest_run(tmp_path, "-k", "test", *workers)
+    assert "| cases | 11 | 11 |" in page.read_text()
