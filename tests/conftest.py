@@ -139,7 +139,7 @@ def _show_attacks(terminalreporter: pytest.TerminalReporter) -> None:
         columns = "".join(f"{counts.get(end, 0):>10d}" for end in ends)
         terminalreporter.write_line(f"{what:32s}{sum(counts.values()):>10d}{columns}")
     # Each process of several that test also comes here, with its own part.
-    alone = not os.environ.get("PYTEST_XDIST_WORKER")
+    alone = not hasattr(terminalreporter.config, "workerinput")
     if alone and (page := os.environ.get("HEELTOE_ATTACK_PAGE")):
         write_page(Path(page), rows, add=bool(os.environ.get("HEELTOE_ATTACK_ADD")))
 
