@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from heeltoe.models.flexible.body.reduced import _KEPT, build_flexible_dam, damp
 from heeltoe.models.flexible.body.rock import founded, rock_material
 from heeltoe.models.flexible.result.history import crack_table
 from heeltoe.models.flexible.run.expected import analysing
+from heeltoe.models.flexible.surroundings import water as water_module
 from heeltoe.models.flexible.surroundings.left_out import CLASSES
 from heeltoe.models.flexible.surroundings.response import base_nodes
 from heeltoe.models.flexible.surroundings.rock import full_rock
@@ -119,6 +121,38 @@ def test_rock_that_neither_damps_nor_lets_waves_go_takes_nothing_and_is_warned_o
         (notice,) = [notice for notice in response.warnings if notice.code == "rock-keeps-waves"]
         assert field in str(notice)
     assert not any(n.code == "rock-keeps-waves" for n in run(read_case(dam()), "flexible").warnings)
+
+
+@pytest.mark.parametrize(
+    "crack", [{"elevation": "0 m"}, {"elevation": "6 m"}], ids=["at the base", "bonded to the rock"]
+)
+def test_the_energy_of_dam_water_and_rock_is_constant_without_losses(crack, monkeypatch):
+    """Nothing slips, damps or leaves: once the ground rests, all that dam, water and rock hold stays there."""
+    usual = water_module.full_water
+
+    def without_far_end(*paths, **options):
+        full = usual(*paths, **options)
+        return replace(full, damping_far=0.0 * full.mass)
+
+    monkeypatch.setattr(water_module, "full_water", without_far_end)
+    _KEPT.clear()
+    points = [[time, f"{0.01 * float(value.split()[0])} g"] for time, value in [*PULSES, ["2 s", "0 g"]]]
+    fields = dam(
+        concrete={"modulus": "25 GPa", "damping": 0.0},
+        crack=crack | {"friction": 10.0},
+        reservoir={"depth": "26 m", "compressible": True, "floor_reflection": 1.0},
+        rock=ROCK | {"radiation": False, "damping": 0.0},
+        motion={"points": points},
+        flexible=DAM["flexible"] | {"theta": 0.5},
+    )
+    response = run(read_case(fields), "flexible")
+    _KEPT.clear()
+    energy, histories = response.energy, response.histories
+    assert energy.damping_j == energy.floor_j == energy.far_end_j == energy.numerical_j == 0.0
+    free = histories["time_s"] > 0.7
+    stored, input_ = (histories[name][free] for name in ("stored_energy_j", "input_energy_j"))
+    # What the static loads do as the dam swings is no loss.
+    assert np.ptp(stored - input_) < 1e-11 * np.ptp(stored)
 
 
 def test_a_larger_box_answers_the_same(monkeypatch):
