@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from heeltoe import decoupled, read_case, rigid
 from heeltoe.study.small.overturning import overturning_map
 from heeltoe.study.small.run_table import parse_axes, run_small
-from heeltoe.validation.blocks.joints import BEAM_ENERGY, FIRST_PART, MEASURED, bend_beam
+from heeltoe.validation.blocks.joints import BEAM_ENERGY, FIRST_PART, MEASURED, TAKEN_ENERGY, bend_beam
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.histories import response_figure
 from heeltoe.views.figures.overturning import overturning_figure
@@ -55,9 +55,11 @@ def real_cracks() -> Figure:
 def measured_beam() -> Figure:
     """Return the notched beam of a test, beside the band that was measured."""
     mouth, least, most = zip(*MEASURED, strict=True)
+    part = f"two lines, {100 * FIRST_PART:g} % in the first"
     curves = (
-        (1.0, "--", "one line of softening"),
-        (FIRST_PART, "-", f"two lines, {100 * FIRST_PART:g} % of the energy in the first"),
+        (BEAM_ENERGY, 1.0, "--", f"{BEAM_ENERGY:g} J/m², one line"),
+        (BEAM_ENERGY, FIRST_PART, "-", f"{BEAM_ENERGY:g} J/m², {part}"),
+        (TAKEN_ENERGY, FIRST_PART, "-.", f"{TAKEN_ENERGY:g} J/m², as the beam took; {part}"),
     )
     with rc_context(STYLE):
         figure = Figure(figsize=(7.0, 4.0), layout="constrained")
@@ -65,14 +67,14 @@ def measured_beam() -> Figure:
         axes.fill_between(
             (0.0, *mouth), (0.0, *least), (0.0, *most), color="0.8", label="measured, cycles from below to above"
         )
-        for first, dash, name in curves:
-            opening, force = bend_beam(BEAM_ENERGY, first)
+        for energy, first, dash, name in curves:
+            opening, force = bend_beam(energy, first)
             axes.plot(opening, force, linestyle=dash, linewidth=1.5, label=name)
         axes.set_xlim(0.0, 0.2)
         axes.set_ylim(bottom=0.0)
         axes.set_xlabel("mouth opening [mm]")
         axes.set_ylabel("force [N]")
-        axes.legend(loc="upper right")
+        figure.legend(loc="outside lower center", ncols=2)
     return figure
 
 
