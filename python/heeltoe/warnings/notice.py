@@ -236,6 +236,12 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "no waves leave the rock ({path} = {value}): vibrations of the dam hardly die out, and slips come out too "
         "large, for massless rock several times; set {path} = {other}",
     ),
+    "rock-coarse": (
+        "caution",
+        "rock.modulus",
+        "the rock is so soft, and its waves so short, that it answers with an error of up to {error:.2g %} below "
+        "{highest_hz:g Hz}; the uncertainty of the slip does not count that: look at a stiffer rock, too",
+    ),
     "surroundings-left-out": (
         "note",
         "rock",

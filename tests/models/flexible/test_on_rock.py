@@ -22,6 +22,7 @@ from heeltoe.models.flexible.body.reduced import _KEPT, build_flexible_dam, damp
 from heeltoe.models.flexible.body.rock import founded, rock_material
 from heeltoe.models.flexible.result.history import crack_table
 from heeltoe.models.flexible.run.expected import analysing
+from heeltoe.models.flexible.surroundings import rock as full_rock_module
 from heeltoe.models.flexible.surroundings import water as water_module
 from heeltoe.models.flexible.surroundings.left_out import CLASSES
 from heeltoe.models.flexible.surroundings.response import base_nodes
@@ -153,6 +154,19 @@ def test_the_energy_of_dam_water_and_rock_is_constant_without_losses(crack, monk
     stored, input_ = (histories[name][free] for name in ("stored_energy_j", "input_energy_j"))
     # What the static loads do as the dam swings is no loss.
     assert np.ptp(stored - input_) < 1e-11 * np.ptp(stored)
+
+
+@pytest.mark.parametrize("crack", [DAM["crack"], HIGH], ids=["cracked at the base", "bonded to the rock"])
+def test_rock_too_soft_for_its_shapes_is_warned_of(crack, monkeypatch):
+    monkeypatch.setattr(full_rock_module, "_MOST", 20)
+    kept = (_KEPT, rock_module._KEPT)
+    for cache in kept:
+        cache.clear()
+    response = run(read_case(dam(crack=crack)), "flexible")
+    for cache in kept:
+        cache.clear()
+    (notice,) = [notice for notice in response.warnings if notice.code == "rock-coarse"]
+    assert dict(notice.quantities)["error"] > full_rock_module.ENOUGH
 
 
 def test_a_larger_box_answers_the_same(monkeypatch):

@@ -19,6 +19,8 @@ from heeltoe.models.flexible.result.history import CrackHistory
 from heeltoe.models.flexible.result.tables import anchors_of
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.surroundings.left_out import left_out
+from heeltoe.models.flexible.surroundings.rock import ENOUGH as ENOUGH_OF_ROCK
+from heeltoe.models.flexible.surroundings.rock import HIGHEST
 from heeltoe.models.runner import about_the_anchors, largest_rotation, outcome_of
 from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
 from heeltoe.units.sentences import Sentence
@@ -95,7 +97,7 @@ def warnings_of(
         *_about_the_start(case, dam, safety),
         *_about_the_growth(growth, run.summaries[leads]),
         *_about_the_mesh(dam),
-        *_about_the_rock(case),
+        *_about_the_rock(case, dam),
         *(left_out(case, max(abs(row.slip) for row in run.summaries), peak) if outcome == "ok" else ()),
         *_about_the_joints(case, dam),
         *_about_the_concrete(case, dam),
@@ -104,7 +106,9 @@ def warnings_of(
     ]
 
 
-def _about_the_rock(case: Case) -> Iterator[Notice]:
+def _about_the_rock(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
+    if dam.rock_error > ENOUGH_OF_ROCK:
+        yield Notice("rock-coarse", error=dam.rock_error, highest_hz=HIGHEST)
     if case.rock is not None and case.rock.massless:
         yield Notice("rock-keeps-waves", path="rock.massless", value="true", other="false")
     elif case.rock is not None and not case.rock.radiation:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import splu
 
-from heeltoe.models.flexible.surroundings.rock import RockMaterial, full_rock, reduced_rock, smooth_tractions
+from heeltoe.models.flexible.surroundings.rock import ENOUGH, RockMaterial, full_rock, reduced_rock, smooth_tractions
 from shared.exact_rock import strip_compliance
 
 HALF = 40.0
@@ -62,6 +62,11 @@ def test_few_unknowns_answer_as_all_do(coarse, reduced, frequency):
     off = tractions.T @ reduced.compliance(omega, tractions) - exact
     size = np.sqrt(np.abs(np.diag(exact)))
     assert np.abs(off / np.outer(size, size)).max() < 0.03
+
+
+@pytest.mark.slow
+def test_soft_rock_has_as_many_shapes_as_it_needs():
+    assert reduced_rock(BASE, RockMaterial(3e9, 0.33, 2650.0)).error <= ENOUGH
 
 
 def test_each_node_keeps_its_static_flexibility(coarse, reduced):

@@ -122,6 +122,8 @@ class FlexibleDam(BondedDam):
         The compressible water before it, if there is any.
     rock
         The rock below the crack at its base, if it is elastic.
+    rock_error
+        Largest relative error of the answers of elastic rock; none on a rigid plane.
     """
 
     section: CutSection
@@ -138,6 +140,7 @@ class FlexibleDam(BondedDam):
     lines: tuple[CrackLine, ...]
     reservoir: WaterBody | None
     rock: RockBody | None
+    rock_error: float
 
     def __repr__(self) -> str:
         parts = zip(self.bodies, self.modes, strict=True)
@@ -236,6 +239,7 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
         lines=lines,
         reservoir=reservoir,
         rock=rock,
+        rock_error=max((part.error for part in (whole, rock) if part is not None), default=0.0),
     )
 
 

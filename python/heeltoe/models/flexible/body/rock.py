@@ -45,6 +45,8 @@ class RockBody:
         (m, 2 k) motion of the nodes of the surface, all downstream, then all upward.
     points
         (k, 2) where these are, x and z [m].
+    error
+        That of the rock in few unknowns, see there.
     beyond
         How many of them are beyond the heel, and beyond the toe.
     """
@@ -53,6 +55,7 @@ class RockBody:
     damping: Floats
     shapes: Floats
     points: Floats
+    error: float
     beyond: int = 2 * BEYOND
 
 
@@ -75,6 +78,8 @@ class Founded:
         Of all parts under the static loads, the cracks bonded, one after the other [m].
     settled
         (m,) state of the rock then.
+    error
+        As that of :class:`RockBody`.
     """
 
     modes: Modes
@@ -83,6 +88,7 @@ class Founded:
     rock: Floats
     displacements: Floats
     settled: Floats
+    error: float
 
 
 def founded(case: Case, bonded: BondedDam, *, larger: float = 1.0) -> Founded | None:
@@ -130,6 +136,7 @@ def founded(case: Case, bonded: BondedDam, *, larger: float = 1.0) -> Founded | 
         congruent(rock.damping, moved),
         np.concatenate(bonded.bent) + every @ settled,
         moved.T @ settled,
+        rock.error,
     )
 
 
@@ -165,7 +172,7 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
     reduced = _rock_below(points, case.rock, larger)
     count = reduced.omega_squared.size
     shapes = reduced.shapes.T.reshape(count, -1, 2).swapaxes(1, 2).reshape(count, -1)
-    return RockBody(reduced.omega_squared, reduced.damping, np.ascontiguousarray(shapes), points)
+    return RockBody(reduced.omega_squared, reduced.damping, np.ascontiguousarray(shapes), points, reduced.error)
 
 
 def _rock_below(points: Floats, rock: Rock, larger: float) -> ReducedRock:

@@ -62,7 +62,7 @@ _PATTERNS = 4
 _FADING = 1.0
 # Sampled frequencies and the lowest of them over the highest, the growth of the motions there over their frequency, and
 # shapes at most beside the static ones.
-_SAMPLED, _LOWEST, _GROWTH, _MOST = 16, 0.03, 0.03, 120
+_SAMPLED, _LOWEST, _GROWTH, _MOST = 16, 0.03, 0.03, 200
 # Mass of rock that has none, as a part of its own: far too little for any wave.
 _MASSLESS = 1e-6
 #: The relative error of the answers to smooth tractions that a reduction may leave.
