@@ -203,11 +203,11 @@ def page(lines: list[Line]) -> str:
         if mine:
             heads = ["program", "version", "settings", "step or tolerance", "largest error", "heeltoe's"]
             parts.append(_table(heads, [[line[column] for column in COLUMNS[1:]] for line in mine]) + "\n")
-        parts += [_said(peer) for peer in PEERS if next(iter(peer.solve)) == problem]
+        parts += [_peer_lines(peer) for peer in PEERS if next(iter(peer.solve)) == problem]
     return "\n".join(parts).rstrip("\n") + "\n"
 
 
-def _said(peer: Peer) -> str:
+def _peer_lines(peer: Peer) -> str:
     cannot = "\n".join(f"  - {item}" for item in peer.cannot)
     return (
         f"### {peer.name}\n\n{peer.what}\n\n- Licence: {peer.licence}\n- Needs: {peer.needs}\n"

@@ -43,7 +43,7 @@ def sent(server, name, content):
     [
         ("edit case", {}), ("edit case", {"changes": []}), ("edit case", {"changes": {"": 1}}),
         ("edit case", {"changes": {"a..b": 1}}), ("edit case", {"changes": {f"a{n}": 1 for n in range(100)}}),
-        ("put block", {"path": "__class__", "there": True}), ("put block", {"path": ""}),
+        ("put block", {"path": "__class__", "present": True}), ("put block", {"path": ""}),
         ("add item", {"path": "crack"}), ("add item", {"path": "motion.processing"}),
         ("add item", {"path": "aftershocks[0].processing"}), ("add item", {}),
         ("drag", {"handle": 1}),

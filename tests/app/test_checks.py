@@ -10,8 +10,8 @@ from shared.dams import example
 SHORT = ("motion.duration=4s", "statics.criteria=USACE")
 
 
-def slip_said(told):
-    return dict(told["basis"])["residual slip"]
+def slip_basis(answer):
+    return dict(answer["basis"])["residual slip"]
 
 
 def test_the_slip_is_that_of_the_elastic_dam_where_it_was_run():
@@ -23,10 +23,10 @@ def test_the_slip_is_that_of_the_elastic_dam_where_it_was_run():
             "slips_m": {"0": 0.1234},
         }
     ]
-    assert slip_said(checked(case, {}, "si", left)) == "123.4 mm: flexible model, a motion"
+    assert slip_basis(checked(case, {}, "si", left)) == "123.4 mm: flexible model, a motion"
     # The dam is another one by now.
-    assert "rigid model" in slip_said(checked(case, {"crack.friction": 0.9}, "si", left))
-    assert "rigid model" in slip_said(checked(case, {}, "si"))
+    assert "rigid model" in slip_basis(checked(case, {"crack.friction": 0.9}, "si", left))
+    assert "rigid model" in slip_basis(checked(case, {}, "si"))
 
 
 def test_every_section_is_checked():

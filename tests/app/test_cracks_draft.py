@@ -49,8 +49,8 @@ def test_each_law_begins_sound_and_goes_back_to_the_friction_that_it_had(session
     assert drawn["at"][0] == pytest.approx(curve.at[0] * drawn["at"][-1] / curve.at[-1], rel=1e-4)
     assert (drawn["friction"][0], drawn["friction"][-1]) == pytest.approx((curve.friction[0], curve.friction[-1]), 1e-4)
     assert drawn["dot"][1] == curve.at_rest
-    assert f"{curve.at_rest:.3g}" in drawn["said"]
-    assert "those of no dam" in drawn["said"]
+    assert f"{curve.at_rest:.3g}" in drawn["sentence"]
+    assert "those of no dam" in drawn["sentence"]
     put(session, "crack.law", there=False)
     assert session.case.crack.friction == pytest.approx(curve.at_rest, rel=6e-3)
     assert law(session.case, "si") is None
@@ -61,9 +61,9 @@ def test_what_two_laws_share_stays(session):
     edit(session, {"crack.law.slip": "33 mm", "crack.law.residual_friction": 0.7})
     case = choose(session, "cohesion")
     assert (case.crack.law.slip, case.crack.law.residual_friction, case.crack.law.peak_friction) == (0.033, 0.7, None)
-    assert "no dam: cohesion." in law(case, "si")["said"]
+    assert "no dam: cohesion." in law(case, "si")["sentence"]
     edit(session, {"crack.law.cohesion": "0.2 MPa"})
-    assert "no dam" not in law(session.case, "si")["said"]
+    assert "no dam" not in law(session.case, "si")["sentence"]
 
 
 def test_a_field_of_a_law_says_which_laws_know_it():

@@ -67,7 +67,7 @@ def tab(ask):
 def files_made(tab, wanted):
     """Have the files made, and return their names."""
     made = tab.ask("make", "job", **wanted)
-    assert made["state"] == "done", made["said"]
+    assert made["state"] == "done", made["status"]
     return {item["name"] for item in made["result"]["files"]}
 
 
@@ -178,7 +178,7 @@ def test_app_and_shell_have_the_same_numbers(ask, tab, tmp_path):
 
 def test_a_file_is_served_once_as_a_file_and_to_its_tab_alone(ask, tab):
     made = tab.ask("make", "job", model="rigid")
-    assert made["state"] == "done", made["said"]
+    assert made["state"] == "done", made["status"]
     link = tab.ask("fetch", "download", name="")["address"]
     assert ask.head(link).status_code == 404
     answer = ask.get(link)

@@ -101,7 +101,7 @@ def test_a_folder_of_records_is_taken(studies, tmp_path):
     (tmp_path / "quakes" / "notes.txt").write_text("none")
     studies.select_option("#study-source", "records")
     studies.set_input_files("#study-folder", tmp_path / "quakes")
-    studies.wait_for_selector("#study-folder-said >> text=/^2 of 3 files read; notes.txt/")
+    studies.wait_for_selector("#study-folder-status >> text=/^2 of 3 files read; notes.txt/")
     for name in ("one-000", "one-090"):
         assert studies.is_checked(f"label:has-text('{name}.txt') input")
     studies.fill("#study-scenario-magnitude", "6.5")

@@ -13,7 +13,7 @@ from heeltoe.app.case.draft import edit
 from heeltoe.app.desk import BadRequestError
 from heeltoe.app.open_case import begin
 from heeltoe.app.sessions import Session
-from heeltoe.app.studies.draft import choices, study_asked
+from heeltoe.app.studies.draft import choices, study_of_form
 from heeltoe.app.studies.work import OUT, answers, lay, look, run
 from heeltoe.errors.error import InputError
 from heeltoe.study.answers.study_results import open_study
@@ -38,9 +38,9 @@ def session(tmp_path):
 def test_a_record_that_was_sent_goes_with_the_study_under_a_harmless_name(session, tmp_path):
     form = {**FORM, "source": "records", "records": [EVIL], "motions.unit": "m/s^2"}
     form |= {"scale.measure": "pga", "scale.values": "0.1 g, 0.2 g"}
-    picture = look(study_asked(form, session), session.folder / "study-1", 100)
+    picture = look(study_of_form(form, session), session.folder / "study-1", 100)
     assert "2 runs" in picture["outlook"]
-    both = look(study_asked({**form, "both_signs": True}, session), session.folder / "study-0", 100)
+    both = look(study_of_form({**form, "both_signs": True}, session), session.folder / "study-0", 100)
     assert "4 runs" in both["outlook"]
     files = {path.name for path in (session.folder / "study-1").iterdir()}
     assert files == {"case.toml", "study.toml", "evil-script-.dat"}
@@ -53,7 +53,7 @@ def test_a_record_that_was_sent_goes_with_the_study_under_a_harmless_name(sessio
 def test_no_other_file_is_looked_for(session, name):
     for form in ({"records": [name]}, {"ordered": name}):
         with pytest.raises(InputError, match="motions"):
-            study_asked({**FORM, "source": "records", **form}, session)
+            study_of_form({**FORM, "source": "records", **form}, session)
 
 
 @pytest.mark.parametrize(
@@ -64,7 +64,7 @@ def test_no_other_file_is_looked_for(session, name):
 )  # fmt: skip
 def test_what_no_form_says_is_refused(session, form):
     with pytest.raises(BadRequestError):
-        study_asked({**FORM, **form} if isinstance(form, dict) else form, session)
+        study_of_form({**FORM, **form} if isinstance(form, dict) else form, session)
 
 
 @pytest.mark.parametrize(
@@ -77,7 +77,7 @@ def test_what_no_form_says_is_refused(session, form):
      ({"scale.measure": "sa", "scale.values": "0.1 g"}, "motions.scale.period")],
 )  # fmt: skip
 def test_errors_are_told_at_their_fields(session, form, field):
-    picture = look(study_asked({**FORM, **form}, session), session.folder / "study-2", 10_000)
+    picture = look(study_of_form({**FORM, **form}, session), session.folder / "study-2", 10_000)
     assert picture["error"]["field"] == field
 
 
@@ -86,27 +86,27 @@ def test_fields_are_drawn_together_and_intervals_have_their_confidence(session):
     vary = [{"path": "crack.friction", **row}, {"path": "uplift.intensity", **row, "from": "0.2", "to": "0.9"}]
     form = {**FORM, "method": "latin hypercube", "samples": "8", "vary": vary}
     form |= {"correlation": "crack.friction, uplift.intensity, 0.4;", "limit.opening": "10 mm"}
-    _, study, _ = asked = study_asked({**form, "fragility.confidence": "0.8"}, session)
+    _, study, _ = asked = study_of_form({**form, "fragility.confidence": "0.8"}, session)
     assert study["correlation"] == [["crack.friction", "uplift.intensity", 0.4]]
     assert study["fragility"]["confidence"] == 0.8
     assert "8 runs" in look(asked, session.folder / "study-3", 100)["outlook"]
     for wrong, field in (({"correlation": "crack.friction, x, 0.4"}, "correlation[0]"),
                          ({"correlation": "crack.friction"}, "correlation[0]"),
                          ({"fragility.confidence": "2"}, "fragility.confidence")):  # fmt: skip
-        picture = look(study_asked({**form, **wrong}, session), session.folder / "study-4", 100)
+        picture = look(study_of_form({**form, **wrong}, session), session.folder / "study-4", 100)
         assert picture["error"]["field"].startswith(field), wrong
 
 
 def test_plain_numbers_are_in_the_units_that_are_chosen(session):
     session.units = "us"
     row = {"path": "reservoir.depth", "kind": "list", "values": "300, 90 m"}
-    _, study, _ = study_asked({**FORM, "vary": [row]}, session)
+    _, study, _ = study_of_form({**FORM, "vary": [row]}, session)
     assert study["vary"] == {"reservoir.depth": ["300 ft", "90 m"]}
 
 
 def test_the_motion_of_the_case_takes_strengths(session):
     form = {**FORM, "scale.measure": "pga", "scale.values": "0.2 g", "both_signs": True}
-    _, study, _ = study_asked(form, session)
+    _, study, _ = study_of_form(form, session)
     assert study["motions"]["events"] == [{"horizontal": ["elcentro-1940-180-nga"]}]
     assert study["motions"]["both_signs"]
 
@@ -114,7 +114,7 @@ def test_the_motion_of_the_case_takes_strengths(session):
 def test_motions_are_ordered_by_magnitude_and_distance(session):
     order = {"scenario.magnitude": "6.5", "scenario.distance": "20 km", "scenario.count": "3"}
     form = {**FORM, "source": "records", "ordered": "synthetic:M7.0,30km,seed=4; synthetic:M7.0,30km,seed=5", **order}
-    _, study, _ = asked = study_asked(form, session)
+    _, study, _ = asked = study_of_form(form, session)
     names = [f"synthetic:M6.5,20km,seed={seed},scatter=yes" for seed in (1, 2, 3)]
     ordered = [{"horizontal": [f"synthetic:M7.0,30km,seed={seed}"]} for seed in (4, 5)]
     scenario = [{"horizontal": [name], "magnitude": 6.5, "distance": "20 km"} for name in names]
@@ -122,7 +122,7 @@ def test_motions_are_ordered_by_magnitude_and_distance(session):
     assert "5 runs" in look(asked, session.folder / "study-5", 100)["outlook"]
     for wrong, field in (("count", "0"), ("count", "x"), ("magnitude", ""), ("distance", "far"), ("distance", "9000")):
         with pytest.raises(InputError) as refused:
-            study_asked({**form, f"scenario.{wrong}": field}, session)
+            study_of_form({**form, f"scenario.{wrong}": field}, session)
         assert refused.value.field == ("scenario.count" if wrong == "count" else "scenario")
 
 
@@ -141,7 +141,7 @@ def test_a_suite_has_the_numbers_of_the_shell(session):
     # What only a study has is left out.
     form |= {"limit.opening": "10 mm", "vary": [{"path": "crack.friction", "kind": "list", "values": "1"}]}
     folder = session.folder / "suite"
-    lay(study_asked(form, session), folder, 100)
+    lay(study_of_form(form, session), folder, 100)
     run(lambda *_: None, folder, False, "si")
     app = open_study(folder / OUT)
     shell = run_suite(
@@ -169,12 +169,12 @@ def test_the_motions_of_a_case_are_its_suite(session):
     own = choices(session)["suite"]
     assert (own["of"], own["suite.judge"], own["scale.measure"], own["scale.values"], own["scale.period"]) == (
         2, "mean", "sa", "0.5 g", "T1")  # fmt: skip
-    _, study, _ = study_asked({**FORM, "method": "suite", "suite.judge": "mean", "both_signs": True}, session)
+    _, study, _ = study_of_form({**FORM, "method": "suite", "suite.judge": "mean", "both_signs": True}, session)
     assert study["motions"]["events"] == [{"horizontal": [name]} for name in names]
     assert study["suite"] == {"judge": "mean"}
     for form, field in (({"suite.target": "/etc/passwd"}, "suite.target"), ({"motions.match": "x"}, "motions.match")):
         with pytest.raises(InputError) as refused:
-            study_asked({**FORM, "method": "suite", **form}, session)
+            study_of_form({**FORM, "method": "suite", **form}, session)
         assert refused.value.field == field
 
 
@@ -187,7 +187,7 @@ def test_every_choice_is_a_field_of_a_study(session):
 
 def test_no_record_at_all_is_said_in_words(session):
     with pytest.raises(InputError) as refused:
-        study_asked({**FORM, "method": "suite", "source": "records", "records": []}, session)
+        study_of_form({**FORM, "method": "suite", "source": "records", "records": []}, session)
     assert (refused.value.code, refused.value.field) == ("study-motions", "motions")
 
 
@@ -196,14 +196,14 @@ def test_unit_and_time_step_are_asked_for_at_once(session):
     session.sent["bare.txt"] = "bare"
     form = {**FORM, "method": "suite", "source": "records", "records": ["bare.txt"]}
 
-    def said(**more):
-        return look(study_asked({**form, **more}, session), session.folder / "study-6", 100)
+    def outlook(**more):
+        return look(study_of_form({**form, **more}, session), session.folder / "study-6", 100)
 
-    both = said()["error"]
+    both = outlook()["error"]
     assert (both["field"], "neither its unit nor its time step" in both["problem"]) == ("motions.unit", True)
-    assert said(**{"motions.time_step": "0.01 s"})["error"]["field"] == "motions.unit"
-    assert said(**{"motions.unit": "m/s^2"})["error"]["field"] == "motions.time_step"
-    assert "1 run" in said(**{"motions.unit": "m/s^2", "motions.time_step": "0.01 s"})["outlook"]
+    assert outlook(**{"motions.time_step": "0.01 s"})["error"]["field"] == "motions.unit"
+    assert outlook(**{"motions.unit": "m/s^2"})["error"]["field"] == "motions.time_step"
+    assert "1 run" in outlook(**{"motions.unit": "m/s^2", "motions.time_step": "0.01 s"})["outlook"]
 
 
 def test_errors_come_back_from_other_processes():

@@ -38,21 +38,21 @@ def test_a_study_of_elastic_dams_is_cancelled_and_gone_on_with(tmp_path, capfd):
     ):
 
         def heard(fits):
-            while not fits(told := tab.receive_json()):
-                assert told["of"] not in ("bad request", "refused", "study refused"), told
-            return told
+            while not fits(message := tab.receive_json()):
+                assert message["of"] not in ("bad request", "refused", "study refused"), message
+            return message
 
         tab.send_json({"do": "edit case", "changes": COARSE})
         tab.send_json({"do": "study look", "study": STUDY})
-        assert heard(lambda told: told["of"] == "study look")["outlook"].startswith("30 runs")
+        assert heard(lambda message: message["of"] == "study look")["outlook"].startswith("30 runs")
         before = processes()
         tab.send_json({"do": "study run", "study": STUDY})
-        running = heard(lambda told: told["of"] == "job" and "of 30 runs" in told["said"])
-        done = int(running["said"].split()[0])
+        running = heard(lambda message: message["of"] == "job" and "of 30 runs" in message["status"])
+        done = int(running["status"].split()[0])
         assert 0 < done < 30
         assert len(processes() - before) > 2  # the workers of the study among them
         tab.send_json({"do": "cancel", "number": running["number"]})
-        heard(lambda told: told["of"] == "job" and told["state"] == "cancelled")
+        heard(lambda message: message["of"] == "job" and message["state"] == "cancelled")
         deadline = time.monotonic() + 30.0
         while processes() - before and time.monotonic() < deadline:
             time.sleep(0.2)
@@ -62,16 +62,16 @@ def test_a_study_of_elastic_dams_is_cancelled_and_gone_on_with(tmp_path, capfd):
         assert not list(tmp_path.rglob(".workers-*"))
 
         tab.send_json({"do": "study form"})
-        number = heard(lambda told: told["of"] == "study form")["studies"][0]["number"]
+        number = heard(lambda message: message["of"] == "study form")["studies"][0]["number"]
         tab.send_json({"do": "study answers", "number": number})
-        assert not heard(lambda told: told["of"] == "study answers")["complete"]
+        assert not heard(lambda message: message["of"] == "study answers")["complete"]
         tab.send_json({"do": "study run", "number": number})
-        first = heard(lambda told: told["of"] == "job" and "of 30 runs" in told["said"])
-        assert int(first["said"].split()[0]) > done
-        ended = heard(lambda told: told["of"] == "job" and told["state"] not in ("running", "cancelled"))
-        assert ended["state"] == "done", ended["said"]
+        first = heard(lambda message: message["of"] == "job" and "of 30 runs" in message["status"])
+        assert int(first["status"].split()[0]) > done
+        ended = heard(lambda message: message["of"] == "job" and message["state"] not in ("running", "cancelled"))
+        assert ended["state"] == "done", ended["status"]
         tab.send_json({"do": "study answers", "number": number})
-        assert heard(lambda told: told["of"] == "study answers")["complete"]
+        assert heard(lambda message: message["of"] == "study answers")["complete"]
 
 
 @pytest.mark.slow
@@ -84,13 +84,13 @@ def test_ctrl_c_ends_a_study_and_all_its_processes():
             with client.connect(f"{home.replace('http', 'ws')}/talk", origin=home) as tab:
 
                 def hear(fits):
-                    while not fits(told := json.loads(tab.recv(timeout=60))):
-                        assert told["of"] not in ("bad request", "refused", "study refused"), told
+                    while not fits(message := json.loads(tab.recv(timeout=60))):
+                        assert message["of"] not in ("bad request", "refused", "study refused"), message
 
                 tab.send(json.dumps({"do": "flexible", "values": {}}))
                 tab.send(json.dumps({"do": "edit case", "changes": COARSE}))
                 tab.send(json.dumps({"do": "study run", "study": STUDY}))
-                hear(lambda told: told["of"] == "job" and "of 30 runs" in told["said"])
+                hear(lambda message: message["of"] == "job" and "of 30 runs" in message["status"])
                 begun = psutil.Process(app.pid).children(recursive=True)
                 assert len(begun) > 4
                 began = time.monotonic()

@@ -28,7 +28,7 @@ def test_a_suite_is_chosen_run_and_answered(page, picture, heard_well):
     page.wait_for_function("() => /^6 runs/.test(document.querySelector('.outlook').textContent)")
     page.click("text=Run the study")
     page.wait_for_selector("figure[data-figure=suite-spectra] img")
-    assert "residual slip, the mean of the records" in page.inner_text(".said-of .headline")
+    assert "residual slip, the mean of the records" in page.inner_text(".study-answers .headline")
     text = page.inner_text(".document")
     assert "Of 3 records, each by its worse sign, pacoima-1971-164-nga" in text
     assert all(name in text for name in ("worse sign", "84 % stay below", "largest", "elcentro-1940-180-nga"))

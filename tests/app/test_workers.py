@@ -30,7 +30,7 @@ def followed(job, *, when, do):
 
 
 def running(message):
-    return message["said"].startswith("running the flexible model")
+    return message["status"].startswith("running the flexible model")
 
 
 def a_run(*changes):
@@ -52,7 +52,7 @@ def test_a_cancelled_run_ends():
 def test_a_killed_run_is_told():
     messages = followed(a_run(), when=running, do=lambda job: os.kill(job.process_id, signal.SIGKILL))
     assert messages[-1]["state"] == "lost"
-    assert "SIGKILL" in messages[-1]["said"]
+    assert "SIGKILL" in messages[-1]["status"]
 
 
 def test_what_is_refused_is_told_in_its_words():
@@ -60,7 +60,7 @@ def test_what_is_refused_is_told_in_its_words():
         a_run("analysis.time_limit=1s", "flexible.elements_across=100"), when=lambda message: False, do=None
     )
     assert messages[-1]["state"] == "refused"
-    assert "analysis.time_limit" in messages[-1]["said"]
+    assert "analysis.time_limit" in messages[-1]["status"]
 
 
 def test_a_killed_process_beside_is_replaced():

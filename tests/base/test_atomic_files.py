@@ -115,16 +115,16 @@ def test_a_directory_without_permission_is_refused_before(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("error", "told"), [(OSError(28, "full"), InputError), (KeyboardInterrupt(), KeyboardInterrupt)]
+    ("error", "raised"), [(OSError(28, "full"), InputError), (KeyboardInterrupt(), KeyboardInterrupt)]
 )
-def test_a_failure_leaves_the_file_before(tmp_path, error, told):
+def test_a_failure_leaves_the_file_before(tmp_path, error, raised):
     def fail(path):
         with written(path) as fresh:
             fresh.write_text("half")
             raise error
 
     (tmp_path / "file").write_text("before")
-    with pytest.raises(told):
+    with pytest.raises(raised):
         fail(tmp_path / "file")
     assert found(tmp_path) == {"file": "before"}
 

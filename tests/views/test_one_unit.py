@@ -18,7 +18,7 @@ from heeltoe.views.report.html import html
 from heeltoe.views.terminal.study import print_study
 from heeltoe.views.words.fields import fields
 from heeltoe.views.words.numbers import Amount, Numbers, in_one_unit
-from heeltoe.views.words.studies import limits_of, values_said
+from heeltoe.views.words.studies import limits_of, values_phrase
 from shared.studies import BLOCK, study_file
 
 SI = re.compile(r"\d ?\[?(?:m|mm|kN|MN|kPa|MPa|GPa|kg|m/s)(?:[ ,;.)\]/]|$)", re.MULTILINE)
@@ -128,8 +128,8 @@ def test_limits_and_values_of_a_table():
     limits = [("residual_slip", 0.01), ("peak_slip", 1.5), ("rotation", 0.01)]
     assert list(limits_of(limits).values()) == ["residual slip 0.01 m", "peak slip 1.5 m", "rotation 0.01 rad"]
     assert limits_of(limits[:1])[limits[0]] == "residual slip 10 mm"
-    assert values_said(["0.3 m", "1.2 m"]) == "0.3 m, 1.2 m"
-    assert values_said({"distribution": "uniform", "from_": "0.2 m", "to": "3 m"}, "us") == (
+    assert values_phrase(["0.3 m", "1.2 m"]) == "0.3 m, 1.2 m"
+    assert values_phrase({"distribution": "uniform", "from_": "0.2 m", "to": "3 m"}, "us") == (
         "uniform, from 0.6562 ft to 9.843 ft"
     )
 

@@ -7,7 +7,7 @@ import pytest
 from heeltoe.case.combinations import unsupported_features
 from heeltoe.case.project import Project
 from heeltoe.units.write import digits
-from heeltoe.views.content.one_unit import one_unit_each
+from heeltoe.views.content.one_unit import with_one_unit
 from heeltoe.views.content.tree import Document, Table, glued
 from heeltoe.views.report.html import html
 from heeltoe.views.report.typst_pdf import source
@@ -77,7 +77,7 @@ def test_a_quantity_has_one_unit_in_a_table():
     numbers = Numbers({"a_m": 1.571, "b_m": 0.0032, "c_m": 0.0, "d_n": 2e3})
     rows = tuple((name, numbers(name)) for name in ("a_m", "b_m", "c_m", "d_n"))
     assert [cell.text.split()[-1] for _, cell in rows] == ["m", "mm", "mm", "kN/m"]
-    (table,) = one_unit_each((Table(("", "value"), rows),), numbers)
+    (table,) = with_one_unit((Table(("", "value"), rows),), numbers)
     assert [cell.text for _, cell in table.rows] == ["1.571 m", "0.00320 m", "0 m", "2 kN/m"]
 
 

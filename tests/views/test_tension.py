@@ -9,7 +9,7 @@ import pytest
 
 from heeltoe import flexible, read_case
 from heeltoe.result.numbers import TensionByMesh
-from heeltoe.result.tension import cracks_said, place_said
+from heeltoe.result.tension import place_phrase, tension_sentence
 from heeltoe.result.verdict import verdict
 from heeltoe.views.figures.all import all_figures
 from heeltoe.views.figures.stress.tension import tension_figure
@@ -46,12 +46,15 @@ def test_it_is_said_with_place_moment_and_strength(judged):
 def test_the_verdict_names_it_where_the_concrete_does_not_bear_it(judged):
     tension = judged.tension
     message = verdict(judged)
-    assert f"Its tension of {tension['stress_pa'] / 1e6:.3g} MPa {place_said(tension)}" in message
+    assert f"Its tension of {tension['stress_pa'] / 1e6:.3g} MPa {place_phrase(tension)}" in message
     assert "more than the 0.75 MPa that the concrete bears: that nothing else cracks does not hold." in message
     assert "psi" in verdict(judged, "us")
     strong = replace(tension, strength=replace(tension.strength, exceeds=False))
     assert (
-        cracks_said(strong, "si") == cracks_said(replace(tension, strength=None), "si") == cracks_said(None, "si") == ""
+        tension_sentence(strong, "si")
+        == tension_sentence(replace(tension, strength=None), "si")
+        == tension_sentence(None, "si")
+        == ""
     )
 
 

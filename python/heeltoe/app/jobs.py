@@ -44,7 +44,7 @@ class Job:
         self.number = next(_NUMBERS)
         self.what = what
         self.state = "running"
-        self.said = "starting"
+        self.status = "starting"
         self.share: float | None = None
         self.result: dict[str, Any] | None = None
         self._began = monotonic()
@@ -64,12 +64,12 @@ class Job:
         """Return what a page shows of it."""
         seconds = (self._ended or monotonic()) - self._began
         payload = {"of": "job", "number": self.number, "what": self.what, "state": self.state, "seconds": seconds}
-        return payload | {"said": self.said, "share": self.share, "result": self.result}
+        return payload | {"status": self.status, "share": self.share, "result": self.result}
 
     def cancel(self) -> None:
         """End it, where it has not ended."""
         if self.state == "running":
-            self.state, self.said = "cancelled", "cancelled"
+            self.state, self.status = "cancelled", "cancelled"
             self._process.terminate()
 
     def end(self) -> None:
@@ -108,7 +108,7 @@ class Job:
         self._here.close()
         self._ended = monotonic()
         if self.state == "running":
-            self.state, self.said = "lost", _lost(self._process.exitcode)
+            self.state, self.status = "lost", _lost(self._process.exitcode)
         if self.state != state:
             await tell(self.payload())
 
@@ -123,9 +123,9 @@ class Job:
         if self.state != "running":
             return
         if kind == "says":
-            self.said, self.share = content
+            self.status, self.share = content
         else:
-            self.state, self.said, self.result = kind, "" if kind == "done" else content, None
+            self.state, self.status, self.result = kind, "" if kind == "done" else content, None
             if kind == "done":
                 self.result = content
 

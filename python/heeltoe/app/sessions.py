@@ -134,12 +134,12 @@ class Sessions:
 
     def __init__(self, settings: Settings) -> None:
         self._settings = settings
-        self._found: dict[str, Session] = {}
+        self._sessions: dict[str, Session] = {}
 
     def get(self, name: str) -> Session | None:
         """Return the session of this name, where there is one."""
         self._forget()
-        session = self._found.get(name)
+        session = self._sessions.get(name)
         if session is not None:
             session.used = monotonic()
         return session
@@ -158,7 +158,7 @@ class Sessions:
         """
         session = self.get(name)
         goes_on = session is not None and (again or not session.open)
-        if not goes_on and sum(session.open for session in self._found.values()) >= self._settings.most_open:
+        if not goes_on and sum(session.open for session in self._sessions.values()) >= self._settings.most_open:
             limit = self._settings.most_open
             raise TooManyError(f"{limit} tabs are open, which is as many as can be: close one, and this page goes on.")
         if session is None and not name:
@@ -178,18 +178,18 @@ class Sessions:
 
     def take(self, key: str) -> Offer | None:
         """Return what is behind a link, once."""
-        return next((session.offers.pop(key) for session in self._found.values() if key in session.offers), None)
+        return next((session.offers.pop(key) for session in self._sessions.values() if key in session.offers), None)
 
     @property
     def uploaded(self) -> int:
         """How much all tabs have sent [bytes]."""
-        return sum(session.uploaded for session in self._found.values())
+        return sum(session.uploaded for session in self._sessions.values())
 
     def close(self) -> None:
         """Forget all."""
-        for session in self._found.values():
+        for session in self._sessions.values():
             session.close()
-        self._found.clear()
+        self._sessions.clear()
 
     def _new(self, like: Session | None) -> Session:
         name = secrets.token_urlsafe(24)
@@ -198,16 +198,18 @@ class Sessions:
         session = Session(name, folder)
         if like is not None:
             session.begin_as(like)
-        self._found[name] = session
+        self._sessions[name] = session
         self._forget()
         return session
 
     def _forget(self) -> None:
         now = monotonic()
-        closed = sorted((session for session in self._found.values() if not (session.open or session.runs)), key=_used)
+        closed = sorted(
+            (session for session in self._sessions.values() if not (session.open or session.runs)), key=_used
+        )
         for session in closed:
-            if len(self._found) > self._settings.most_sessions or now - session.used > self._settings.idle_s:
-                self._found.pop(session.name).close()
+            if len(self._sessions) > self._settings.most_sessions or now - session.used > self._settings.idle_s:
+                self._sessions.pop(session.name).close()
 
 
 def _used(session: Session) -> float:

@@ -25,28 +25,28 @@ class Kept(Generic[T]):
         self._capacity = capacity
         self._lock = Lock()
         # From the one asked for longest ago to the newest.
-        self._found: dict[Hashable, Future[T]] = {}
+        self._entries: dict[Hashable, Future[T]] = {}
 
     def clear(self) -> None:
         """Forget all."""
         with self._lock:
-            self._found.clear()
+            self._entries.clear()
 
     def get(self, key: Hashable, build: Callable[[], T]) -> T:
         """Return what belongs to a key, built if it is not there."""
         with self._lock:
-            entry = self._found.pop(key, None)
+            entry = self._entries.pop(key, None)
             future = entry or Future()
-            self._found[key] = future
-            if len(self._found) > self._capacity:
-                del self._found[next(iter(self._found))]
+            self._entries[key] = future
+            if len(self._entries) > self._capacity:
+                del self._entries[next(iter(self._entries))]
         if entry is None:
             try:
                 future.set_result(build())
             except BaseException as error:
                 with self._lock:
-                    if self._found.get(key) is future:
-                        del self._found[key]
+                    if self._entries.get(key) is future:
+                        del self._entries[key]
                 future.set_exception(error)
                 raise
         return future.result()

@@ -111,7 +111,7 @@ def _inner(block: dict[str, Any], name: str, path: str) -> Any:
     item = _ITEM.fullmatch(name)
     if item is None:
         return block.setdefault(name, {})
-    item_block = _found(block, name)
+    item_block = _item_block(block, name)
     if item_block is None:
         items = block.get(item[1])
         count = len(items) if isinstance(items, list) else 0
@@ -120,7 +120,7 @@ def _inner(block: dict[str, Any], name: str, path: str) -> Any:
     return item_block
 
 
-def _found(block: dict[str, Any], name: str) -> Any:
+def _item_block(block: dict[str, Any], name: str) -> Any:
     """Return what is called so in a block, ``crack``, or so in a list of it, ``further_cracks[0]``; None without it."""
     item = _ITEM.fullmatch(name)
     if item is None:
@@ -206,6 +206,6 @@ def _value(text: str) -> Any:
 def _remove(fields: dict[str, Any], path: Sequence[str]) -> None:
     block: Any = fields
     for name in path[:-1]:
-        block = _found(block, name) if isinstance(block, dict) else None
+        block = _item_block(block, name) if isinstance(block, dict) else None
     if isinstance(block, dict):
         block.pop(path[-1], None)

@@ -121,7 +121,7 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
         ``"rigid"``, ``"decoupled"``, ``"flexible"``, ``"statics"``: those whose results stand side by side. What one
         of them reads is read.
     """
-    values = dict(_given(case))
+    values = dict(_written_values(case))
     # Between the motions of a sequence a dam is judged by the static checks.
     users = {*models, "statics"} if case.aftershocks else set(models)
     # What the static checks alone read says what `heeltoe statics` shall do, and is none too many beside a run.
@@ -148,17 +148,17 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
     return tuple(notices)
 
 
-def _given(block: Fields, above: str = "") -> Iterator[tuple[str, Any]]:
+def _written_values(block: Fields, above: str = "") -> Iterator[tuple[str, Any]]:
     """Walk the fields that the user has given: their paths and values."""
     for name in type(block).model_fields:
         if name not in block.model_fields_set:
             continue
         value, path = getattr(block, name), above + name
         if isinstance(value, Fields):
-            yield from _given(value, f"{path}.")
+            yield from _written_values(value, f"{path}.")
         elif isinstance(value, tuple) and value and isinstance(value[0], Fields):
             for place, item in enumerate(value):
-                yield from _given(item, f"{path}[{place}].")
+                yield from _written_values(item, f"{path}[{place}].")
         elif value is not None:
             yield path, value
 

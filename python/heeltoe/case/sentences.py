@@ -143,10 +143,10 @@ def _translated(detail: ErrorDetails, model: type[BaseModel]) -> InputError:
     if kind == "literal_error":
         return InputError("not-a-choice", path, shown(value), choices=_quoted(context["expected"]))
     if kind in ("union_tag_not_found", "union_tag_invalid"):
-        told_by = f"{path}.{context['discriminator'].strip(chr(39))}"
+        tag = f"{path}.{context['discriminator'].strip(chr(39))}"
         if kind == "union_tag_not_found":
-            return InputError("missing-field", told_by, example=_tag_example(location, model))
-        return InputError("not-a-choice", told_by, shown(context["tag"]), choices=_quoted(context["expected_tags"]))
+            return InputError("missing-field", tag, example=_tag_example(location, model))
+        return InputError("not-a-choice", tag, shown(context["tag"]), choices=_quoted(context["expected_tags"]))
     if kind in ("greater_than", "greater_than_equal", "less_than", "less_than_equal"):
         bound = next(f"{_BOUNDS[key]} {limit:g}" for key, limit in context.items() if key in _BOUNDS)
         # The limits are SI numbers, and zero is zero in any unit.

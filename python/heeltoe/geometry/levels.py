@@ -32,7 +32,7 @@ def cut_levels(whole: shapely.Polygon, elevations: Floats, inclination: float = 
     """
     low = np.where(elevations > on_line(whole), elevations, 0.0)
     rising = None if inclination else _rising(whole)
-    return _each(whole, low, inclination) if rising is None else _clipped(whole, rising, low)
+    return _cut_all(whole, low, inclination) if rising is None else _clipped(whole, rising, low)
 
 
 def _rising(whole: shapely.Polygon) -> CutSection | None:
@@ -68,7 +68,7 @@ def _above(face: Floats, levels: Floats, slack: float) -> Floats:
     return np.stack([x, np.maximum(z, levels)], axis=1)
 
 
-def _each(whole: shapely.Polygon, elevations: Floats, inclination: float) -> CutSection:
+def _cut_all(whole: shapely.Polygon, elevations: Floats, inclination: float) -> CutSection:
     """Cut at each elevation by itself, the first that is given first."""
     values, first, which = np.unique(elevations, return_index=True, return_inverse=True)
     order = np.argsort(first)

@@ -55,16 +55,20 @@ def meaning(dam: Response, block: Response, units: str = "si") -> str:
         return _agreement(block)
     slips = [headline for headline in apart if headline.kind == "slip"]
     if not slips:
-        return f"They slide alike, but differ in the {_told(apart[0], dam, block, units)}. Trust the flexible model."
+        return (
+            f"They slide alike, but differ in the {_numbers_of(apart[0], dam, block, units)}. Trust the flexible model."
+        )
     far, near = (abs(response.residual_slip_m) for response in (dam, block))
     if slips[0].key != "residual_slip_m":
-        return f"They end alike, but differ in the {_told(slips[0], dam, block, units)}. Trust the flexible model."
+        return (
+            f"They end alike, but differ in the {_numbers_of(slips[0], dam, block, units)}. Trust the flexible model."
+        )
     if max(far, near) < _LITTLE:
         text = f"Both say that the dam slides by less than {_LITTLE_IN_WORDS[units]} in the end"
         others = [headline for headline in apart if headline.key != "residual_slip_m"]
         if not others:
             return f"{text}."
-        return f"{text}, but they differ in the {_told(others[0], dam, block, units)}. Trust the flexible model."
+        return f"{text}, but they differ in the {_numbers_of(others[0], dam, block, units)}. Trust the flexible model."
     return _slips_differ(dam, block, units)
 
 
@@ -83,7 +87,7 @@ def _agreement(block: Response) -> str:
     return f"{text}: the dam is so stiff against this shaking that a rigid block says what it does."
 
 
-def _told(of: Quantity, dam: Response, block: Response, units: str) -> str:
+def _numbers_of(of: Quantity, dam: Response, block: Response, units: str) -> str:
     """Return a number of both: what the elastic dam does against what the block does."""
     # Adding zero makes a negative zero a plain one.
     values = [of.way * of.of(response) + 0.0 for response in (dam, block)]

@@ -79,7 +79,7 @@ def stages(response: Response, parts: Sequence[Part]) -> Iterator[Stage]:
         before = left
 
 
-def sequence_said(stages: Sequence[Stage], units: str) -> str:
+def sequence_sentence(stages: Sequence[Stage], units: str) -> str:
     """Say which motion of a sequence moves the dam by how much."""
     smallest = LEAST_M
     texts = [

@@ -13,14 +13,14 @@ _SAID = {
 }
 
 
-def place_said(stress: StressPlace) -> str:
+def place_phrase(stress: StressPlace) -> str:
     """Say where a largest stress is, its height apart."""
     part = _SAID.get(stress.part, f"the part {stress.part} the crack")
     face = "" if stress.place == "base" else " face"
     return f"inside {part}" if stress.place == "inside" else f"at the {stress.place}{face} of {part}"
 
 
-def cracks_said(tension: Tension | None, units: str) -> str:
+def tension_sentence(tension: Tension | None, units: str) -> str:
     """Say that the concrete does not bear its largest tension; nothing where it does, or where nobody knows."""
     strength = None if tension is None else tension.strength
     if tension is None or strength is None or not strength.exceeds:
@@ -30,7 +30,7 @@ def cracks_said(tension: Tension | None, units: str) -> str:
         "{dynamic_pa:.3g MPa} that the concrete bears: that nothing else cracks does not hold.",
         units,
         stress_pa=tension.stress_pa,
-        where=place_said(tension),
+        where=place_phrase(tension),
         z_m=tension.z_m,
         time_s=tension.time_s,
         dynamic_pa=strength.dynamic_pa,

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
 from heeltoe.result.rest import comes_to_rest, last_of, motion_end, rests_from
-from heeltoe.result.sequence import sequence_said
-from heeltoe.result.tension import cracks_said
+from heeltoe.result.sequence import sequence_sentence
+from heeltoe.result.tension import tension_sentence
 from heeltoe.units.sentences import written
 from heeltoe.units.write import angle, length, lengths, measured, speed
 
@@ -49,12 +49,12 @@ def verdict(response: Response, units: str = "si", *, brief: bool = False) -> st
         ]
     elif response.elastic:
         sentences = [
-            joint_said(response, units),
+            joint_sentence(response, units),
             _elastic_slip(response, units),
             _elastic_rocking(response) if brief else _openings(response, units),
             _other_cracks(response, units, brief),
             _elastic_end(response, units, brief),
-            cracks_said(getattr(response, "tension", None), units),
+            tension_sentence(getattr(response, "tension", None), units),
         ]
     else:
         sentences = [
@@ -64,7 +64,7 @@ def verdict(response: Response, units: str = "si", *, brief: bool = False) -> st
             _other_cracks(response, units, brief),
             _end(response),
         ]
-    sentences += [sequence_said(response.sequence, units), _signs(response, units), _limits(response, units)]
+    sentences += [sequence_sentence(response.sequence, units), _signs(response, units), _limits(response, units)]
     return " ".join(sentence for sentence in sentences if sentence)
 
 
@@ -158,7 +158,7 @@ def _slip(response: Response, units: str) -> str:
     return text + _on_the_way(slip, down, up, LEAST_M, units) + "."
 
 
-def joint_said(response: Response, units: str = "si") -> str:
+def joint_sentence(response: Response, units: str = "si") -> str:
     """Say whether the joints of an elastic dam crack, from where, and what is left; nothing of a crack."""
     if not response.several:
         return _joint(response, "The joint", units)
@@ -367,9 +367,9 @@ def _other_cracks(response: Response, units: str, brief: bool) -> str:
     smallest = JOINT_METER_M if response.elastic else LEAST_M
     sentences = []
     others = [crack for place, crack in enumerate(response.cracks) if place != response.asked]
-    told = others if len(others) <= _NAMED else sorted(others, key=_slides)[-_NAMED:]
+    named = others if len(others) <= _NAMED else sorted(others, key=_slides)[-_NAMED:]
     for crack in others:
-        if not any(crack is one for one in told):
+        if not any(crack is one for one in named):
             continue
         slip, opening = crack.residual_slip_m, max(crack.opening_upstream_m, crack.opening_downstream_m)
         peak = _slides(crack)
@@ -388,10 +388,10 @@ def _other_cracks(response: Response, units: str, brief: bool) -> str:
             does.append(f"lifts off for {times.drifting:.2f} s")
         does = [*does[:-2], " and ".join(does[-2:])]
         sentences.append(f"At the crack at {_level(crack.elevation, units)} it {', '.join(does)}.")
-    if len(others) > len(told):
-        most = max(_slides(crack) for crack in others if not any(crack is one for one in told))
+    if len(others) > len(named):
+        most = max(_slides(crack) for crack in others if not any(crack is one for one in named))
         does_most = f"moves at most {length(most, units)}" if most >= smallest else "does not slide"
-        rest = len(others) - len(told)
+        rest = len(others) - len(named)
         sentences.append(f"At the other {'crack' if rest == 1 else f'{rest} cracks'} it {does_most}.")
     return " ".join(sentences)
 

@@ -44,7 +44,7 @@ async def put(desk: Desk, request: Asked) -> dict[str, Any]:
     from heeltoe.app.case.draft import edit as change
     from heeltoe.app.case.fields import blocks
 
-    path, session, present = text(request, "path"), desk.session, request.get("there") is True
+    path, session, present = text(request, "path"), desk.session, request.get("present") is True
     if path not in {block.path for block in blocks() if block.path}:
         raise BadRequestError(f"a case has no block {path}")
     return await _done(desk, lambda: change(session, block(session.case, session.units, path, wanted=present)))
@@ -160,7 +160,7 @@ async def _done(desk: Desk, do: Callable[[], None]) -> dict[str, Any]:
         before, moved = session.case, session.moved
         do()
         changed = session.case is not before or session.moved != moved
-        return _told(session), state(session) if changed else None
+        return _case_message(session), state(session) if changed else None
 
     message, changed = await desk.workers.quick(done)
     if changed is not None:
@@ -169,7 +169,7 @@ async def _done(desk: Desk, do: Callable[[], None]) -> dict[str, Any]:
     return payload
 
 
-def _told(session: Session) -> dict[str, Any]:
+def _case_message(session: Session) -> dict[str, Any]:
     from heeltoe.app.case.draft import case_of, draft_of, fields_of, valued
     from heeltoe.app.case.drawing import drawing
     from heeltoe.app.case.handles import handle_data, handles

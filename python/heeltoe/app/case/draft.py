@@ -56,9 +56,9 @@ def draft_of(session: Session) -> Draft:
     """Return the draft of a tab; where its case was changed elsewhere, with what is another there."""
     draft = session.draft
     if draft is None:
-        draft = session.draft = Draft(_said(session, session.case), case=session.case)
+        draft = session.draft = Draft(_written_fields(session, session.case), case=session.case)
     elif draft.case is not session.case:
-        before, now = _said(session, draft.case), _said(session, session.case)
+        before, now = _written_fields(session, draft.case), _written_fields(session, session.case)
         fields = {name: value for name, value in draft.fields.items() if name in now or name not in before}
         fields |= {name: value for name, value in now.items() if value != before.get(name)}
         _remember(draft, None)
@@ -67,7 +67,7 @@ def draft_of(session: Session) -> Draft:
     return draft
 
 
-def _said(session: Session, case: Case | None) -> dict[str, Any]:
+def _written_fields(session: Session, case: Case | None) -> dict[str, Any]:
     return as_sent(session, case.model_dump(mode="json", exclude_unset=True)) if case else {}
 
 
@@ -96,7 +96,7 @@ def fields_in_force(session: Session) -> dict[str, Any]:
     fields, errors = fields_of(session)
     if not errors:
         return fields
-    return _said(session, case_of(session))
+    return _written_fields(session, case_of(session))
 
 
 def start(session: Session, fields: Mapping[str, Any]) -> None:

@@ -188,7 +188,7 @@ def _walk(here: Schema, schema: Schema, path: str, *, optional: bool, meaning: s
                 own.append(field)
         else:
             may_miss = any(option.get("type") == "null" for option in entry.get("anyOf", ()))
-            others.append(_walk(inner, schema, at, optional=may_miss, meaning=_said(entry)))
+            others.append(_walk(inner, schema, at, optional=may_miss, meaning=_description(entry)))
     yield Block(path, _label(path), meaning, optional, tuple(own))
     for inner_blocks in others:
         yield from inner_blocks
@@ -229,7 +229,7 @@ def _field(entry: Schema, schema: Schema, path: str, *, needed: bool) -> Field:
     choices = tuple(map(str, meant.get("enum", (meant["const"],) if "const" in meant else ())))
     default = entry.get("default")
     return Field(
-        path, _label(path), _said(entry), kind, quantity, choices, _default(default, quantity),
+        path, _label(path), _description(entry), kind, quantity, choices, _default(default, quantity),
         str(next(iter(meant.get("examples", ())), "")), needed, inner, kinds, _only(path),
     )  # fmt: skip
 
@@ -281,7 +281,7 @@ def _label(path: str) -> str:
     return _LABELS.get(name) or name.replace("_", " ").capitalize()
 
 
-def _said(entry: Schema) -> str:
+def _description(entry: Schema) -> str:
     return " ".join(str(entry.get("description", "")).replace("`", "").split())
 
 

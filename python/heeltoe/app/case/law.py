@@ -38,7 +38,7 @@ def _drawn(curve: LawCurve, units: str, samples: list[str]) -> dict[str, Any]:
         "at": [float(f"{value:.5g}") for value in scale(curve.at[kept])],
         "friction": [float(f"{value:.5g}") for value in curve.friction[kept]],
         "dot": [float(scale(curve.normal_stress_pa)) if curve.over == "normal stress" else 0.0, curve.at_rest],
-        "said": sentence,
+        "sentence": sentence,
     }
 
 

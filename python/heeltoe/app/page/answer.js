@@ -111,8 +111,8 @@ export function answerPage(talk) {
     clearTimeout(speaking);
     speaking = setTimeout(() => {
       const better = flexible.isNew() && answers.flexible ? ["flexible"] : [];
-      const said = [...better, ...LIVE].map((model) => answers[model] && answers[model].verdict).filter(Boolean);
-      byId("spoken").textContent = said.join(" ");
+      const verdicts = [...better, ...LIVE].map((model) => answers[model] && answers[model].verdict).filter(Boolean);
+      byId("spoken").textContent = verdicts.join(" ");
     }, SPOKEN_AFTER_MS);
   }
 

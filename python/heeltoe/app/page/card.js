@@ -73,12 +73,12 @@ export class Card {
 
   /** @param {any} answer */
   show(answer) {
-    const said = answer.absent || (answer.error && answer.error.text) || answer.verdict;
+    const sentence = answer.absent || (answer.error && answer.error.text) || answer.verdict;
     const kind = answer.absent ? "faint" : answer.ok ? "verdict" : "verdict bad";
     const count = answer.warnings ? answer.warnings.length : 0;
     const caveat = count ? [element("p", { class: "caveat" }, `${count} warning${count > 1 ? "s" : ""} below`)] : [];
     const headline = answer.headline && !answer.absent && !answer.error ? [headlineOf(answer.headline)] : [];
-    this.verdict.replaceChildren(...headline, element("p", { class: kind }, said), ...caveat);
+    this.verdict.replaceChildren(...headline, element("p", { class: kind }, sentence), ...caveat);
     this.content.replaceChildren(...(answer.numbers ? [numbers(answer), slips(answer), ...further(answer)] : []), ...(answer.beside ? [element("p", {}, answer.beside)] : []), ...(answer.warnings ? warnings(answer) : []));
     this.hide(false);
   }

@@ -20,7 +20,7 @@ export class StaticChecks {
     this.design = /** @type {HTMLInputElement} */ (element("input", { type: "text", "aria-label": "Design spectrum", value: "en1998:0.3 g,B", onchange: () => this.follow(), hidden: true }));
     const choice = element("div", { class: "in-line" }, element("label", { for: "statics-spectrum" }, "An earthquake by its response spectrum, too:"), this.spectrum, this.design);
     this.root = /** @type {HTMLDetailsElement} */ (element("details", { class: "card more", "data-checks": "statics", ontoggle: () => this.follow() }, element("summary", {}, "Static checks of the same case"), choice, this.content));
-    talk.on("statics", (found) => this.show(found));
+    talk.on("statics", (answer) => this.show(answer));
   }
 
   /** @param {boolean} can Whether the dam has a modulus, and so a first mode. */
@@ -43,20 +43,20 @@ export class StaticChecks {
     this.asked = this.talk.ask("statics", { values: this.values(), spectrum });
   }
 
-  /** @param {any} found */
-  show(found) {
-    this.root.classList.toggle("stale", found.serial !== this.asked);
-    if (found.error) {
-      this.content.replaceChildren(element("p", { class: "bad" }, found.error.text));
+  /** @param {any} answer */
+  show(answer) {
+    this.root.classList.toggle("stale", answer.serial !== this.asked);
+    if (answer.error) {
+      this.content.replaceChildren(element("p", { class: "bad" }, answer.error.text));
       return;
     }
-    const rows = found.checks.map((/** @type {any} */ { cells, met }) => element("tr", {}, ...cells.map((/** @type {string} */ cell) => element("td", {}, cell)), element("td", { class: met ? "" : "bad" }, met ? "met" : "fails")));
-    const basis = found.basis.map((/** @type {[string, string]} */ [label, text]) => element("tr", {}, element("th", { scope: "row" }, label), element("td", {}, text)));
+    const rows = answer.checks.map((/** @type {any} */ { cells, met }) => element("tr", {}, ...cells.map((/** @type {string} */ cell) => element("td", {}, cell)), element("td", { class: met ? "" : "bad" }, met ? "met" : "fails")));
+    const basis = answer.basis.map((/** @type {[string, string]} */ [label, text]) => element("tr", {}, element("th", { scope: "row" }, label), element("td", {}, text)));
     this.content.replaceChildren(
-      element("p", { class: found.ok ? "" : "bad" }, found.failed.length ? `${found.verdict.replace(/\.$/, "")}: ${found.failed.join("; ")}.` : found.verdict),
+      element("p", { class: answer.ok ? "" : "bad" }, answer.failed.length ? `${answer.verdict.replace(/\.$/, "")}: ${answer.failed.join("; ")}.` : answer.verdict),
       table("Checks", ["load case", "check", "is", "required", ""], rows),
       element("table", { class: "numbers facts", "aria-label": "What the checks rest on" }, element("tbody", {}, ...basis)),
-      ...items(found.warnings),
+      ...items(answer.warnings),
     );
   }
 }
@@ -71,20 +71,20 @@ export class Spread {
     this.start = element("button", { type: "button", onclick: () => talk.ask("spread", { values: values(), model: this.model.value }) }, "Run the spread");
     this.cancel = element("button", { type: "button", hidden: true, onclick: () => talk.ask("cancel", { number: this.number }) }, "Cancel the spread");
     this.bar = /** @type {HTMLProgressElement} */ (element("progress", { hidden: true, "aria-label": "The spread is computed" }));
-    this.said = element("p", { class: "faint", role: "status" });
+    this.status = element("p", { class: "faint", role: "status" });
     this.content = element("div", { class: "content" });
-    this.root = element("details", { class: "card more", "data-checks": "spread" }, element("summary", {}, "Spread: the same run with slightly weaker and stronger shaking"), element("div", { class: "in-line" }, element("label", { for: "spread-model" }, "of the"), this.model, this.start, this.cancel), this.bar, this.said, this.content);
+    this.root = element("details", { class: "card more", "data-checks": "spread" }, element("summary", {}, "Spread: the same run with slightly weaker and stronger shaking"), element("div", { class: "in-line" }, element("label", { for: "spread-model" }, "of the"), this.model, this.start, this.cancel), this.bar, this.status, this.content);
     talk.on("job", (job) => this.take(job));
     talk.on("job refused", ({ what, text }) => {
       if (what !== "spread") return;
-      this.said.textContent = text;
+      this.status.textContent = text;
     });
   }
 
   /** @param {string[]} models Those that the case has the data for. */
   begin(models) {
     this.content.replaceChildren();
-    this.said.textContent = "";
+    this.status.textContent = "";
     this.model.replaceChildren(...models.map((model) => element("option", { value: model }, MODELS[model])));
   }
 
@@ -92,7 +92,7 @@ export class Spread {
   moved() {
     if (this.content.hasChildNodes()) {
       this.root.classList.add("stale");
-      this.said.textContent = "of the sliders as they were";
+      this.status.textContent = "of the sliders as they were";
     }
   }
 
@@ -103,11 +103,11 @@ export class Spread {
     const running = job.state === "running";
     this.cancel.hidden = this.bar.hidden = !running;
     this.start.toggleAttribute("disabled", running);
-    this.said.textContent = running ? `${job.said} (${Math.round(job.seconds)} s)` : job.said;
+    this.status.textContent = running ? `${job.status} (${Math.round(job.seconds)} s)` : job.status;
     if (job.state !== "done") return;
-    const { rows, columns, said, warnings } = job.result;
+    const { rows, columns, sentence, warnings } = job.result;
     this.root.classList.remove("stale");
-    this.said.textContent = `${MODELS[job.result.model]}: ${said}`;
+    this.status.textContent = `${MODELS[job.result.model]}: ${sentence}`;
     const lines = rows.map((/** @type {string[]} */ [label, ...cells]) => element("tr", {}, element("th", { scope: "row" }, label), ...cells.map((cell) => element("td", {}, cell))));
     this.content.replaceChildren(...(rows.length ? [table("Spread", ["", ...columns], lines)] : []), ...items(warnings));
   }

@@ -55,11 +55,11 @@ export class DamInMotion {
 
   /** @param {{model: string, answer: any}[]} shown Models with what they have said last, the better ones last. */
   show(shown) {
-    const there = shown.filter(({ answer }) => answer.dam);
-    this.root.hidden = there.length === 0;
-    this.shown = there;
-    if (!there.length) return;
-    const names = there.map(({ model }) => model);
+    const dams = shown.filter(({ answer }) => answer.dam);
+    this.root.hidden = dams.length === 0;
+    this.shown = dams;
+    if (!dams.length) return;
+    const names = dams.map(({ model }) => model);
     if (names.join() !== [...this.model.options].map((option) => option.value).join()) {
       const before = this.model.value;
       this.model.replaceChildren(...names.map((name) => element("option", { value: name }, NAMES[name])));
@@ -69,7 +69,7 @@ export class DamInMotion {
       this.model.value = this.wanted;
       this.wanted = "";
     }
-    this.end = Math.max(...there.map(({ answer }) => answer.curves.end));
+    this.end = Math.max(...dams.map(({ answer }) => answer.curves.end));
     this.scrub.max = String(this.end);
     // Until somebody has chosen a moment it is the end: what the earthquake leaves.
     if (!this.touched || this.time > this.end) this.time = this.end;

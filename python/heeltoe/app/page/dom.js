@@ -35,9 +35,9 @@ export function svg(tag, attributes, ...content) {
  * @returns {HTMLElement}
  */
 export function byId(id) {
-  const found = document.getElementById(id);
-  if (!found) throw new Error(`there is no ${id} in the page`);
-  return found;
+  const node = document.getElementById(id);
+  if (!node) throw new Error(`there is no ${id} in the page`);
+  return node;
 }
 
 /**

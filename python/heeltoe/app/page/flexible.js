@@ -32,15 +32,15 @@ export class FlexibleRun {
     this.card.hide(true);
     this.start = element("button", { type: "button", class: "main", onclick: () => this.run() }, "Run the elastic dam with evidence");
     this.cancel = element("button", { type: "button", hidden: true, onclick: () => talk.ask("cancel", { number: this.number }) }, "Cancel");
-    this.said = element("p", { class: "faint status", role: "status" });
+    this.status = element("p", { class: "faint status", role: "status" });
     this.bar = element("progress", { hidden: true, "aria-label": "The elastic dam is computed" });
     this.about = element("p", { class: "faint status" }, EVIDENCE);
-    this.root = element("div", { class: "slider" }, this.start, this.cancel, this.bar, this.said, this.about);
+    this.root = element("div", { class: "slider" }, this.start, this.cancel, this.bar, this.status, this.about);
     talk.on("elastic", (answer) => this.hear(answer));
     talk.on("job", (job) => this.take(job));
     talk.on("job refused", ({ what, text }) => {
       if (what !== "flexible") return;
-      this.said.textContent = text;
+      this.status.textContent = text;
     });
   }
 
@@ -52,7 +52,7 @@ export class FlexibleRun {
     this.card.hide(!this.can);
     this.start.toggleAttribute("disabled", !this.can);
     this.start.hidden = this.about.hidden = !this.can;
-    this.said.textContent = why;
+    this.status.textContent = why;
   }
 
   run() {
@@ -80,7 +80,7 @@ export class FlexibleRun {
     this.serial = 0;
     // That with evidence was there sooner.
     if (this.sure && this.shown === this.position) return;
-    this.said.textContent = answer.absent || "";
+    this.status.textContent = answer.absent || "";
     if (answer.absent || answer.waits || answer.error) {
       this.shown = -1;
       // What cannot be has no card; what waits for its button says so where its number will be.
@@ -114,9 +114,9 @@ export class FlexibleRun {
     const running = job.state === "running";
     this.cancel.hidden = this.bar.hidden = !running;
     this.start.toggleAttribute("disabled", running);
-    this.said.textContent = running ? `${job.said} (${Math.round(job.seconds)} s)` : job.said;
+    this.status.textContent = running ? `${job.status} (${Math.round(job.seconds)} s)` : job.status;
     if (job.state !== "done") return;
     if (this.asked === this.position) this.show(job.result, this.asked, true);
-    else this.said.textContent = "The sliders have moved since: the run with evidence was of where they were.";
+    else this.status.textContent = "The sliders have moved since: the run with evidence was of where they were.";
   }
 }

@@ -100,8 +100,8 @@ export class Talk {
    */
   async upload(file) {
     const answer = await fetch("/upload", { method: "POST", body: file, headers: { "x-session": this.session } });
-    const said = await answer.json();
-    if (!answer.ok) throw new Error(said.error);
-    return said;
+    const content = await answer.json();
+    if (!answer.ok) throw new Error(content.error);
+    return content;
   }
 }

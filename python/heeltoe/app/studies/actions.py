@@ -48,12 +48,12 @@ async def form(desk: Desk, request: Asked) -> dict[str, Any]:
 async def look(desk: Desk, request: Asked) -> dict[str, Any]:
     """Return how many runs the study of the form has, and about how long they take; or what is wrong with it."""
     from heeltoe.app.live import refused
-    from heeltoe.app.studies.draft import study_asked
+    from heeltoe.app.studies.draft import study_of_form
     from heeltoe.app.studies.work import look as work
 
     session = desk.session
     try:
-        fields = await desk.workers.quick(study_asked, request.get("study"), session)
+        fields = await desk.workers.quick(study_of_form, request.get("study"), session)
     except InputError as error:
         return {"of": "study look", **refused(error)}
     payload = await aside(desk, work, fields, session.folder / "study-looked-at", desk.settings.most_runs)
@@ -91,14 +91,14 @@ async def _laid(desk: Desk, request: Asked) -> Made:
     InputError
         Where it cannot run, or there are too many.
     """
-    from heeltoe.app.studies.draft import study_asked
+    from heeltoe.app.studies.draft import study_of_form
     from heeltoe.app.studies.work import lay
     from heeltoe.study.plan.file import untitled
 
     session = desk.session
     if len(session.studies) >= desk.settings.most_studies:
         raise InputError("study-many", "studies", len(session.studies) + 1, most=desk.settings.most_studies)
-    fields = await desk.workers.quick(study_asked, request.get("study"), session)
+    fields = await desk.workers.quick(study_of_form, request.get("study"), session)
     number = next(_NUMBERS)
     folder = session.folder / f"study-{number}"
     try:

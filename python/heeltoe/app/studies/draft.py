@@ -117,7 +117,7 @@ def _is_vertical(name: str) -> bool:
     return bool(_VERTICAL.fullmatch(_parts(name)[1]))
 
 
-def study_asked(request: object, session: Session) -> tuple[dict[str, Any], dict[str, Any], dict[str, Path]]:
+def study_of_form(request: object, session: Session) -> tuple[dict[str, Any], dict[str, Any], dict[str, Path]]:
     """Return the case of a tab and the study of its form, both as files have them, and the files that it has sent.
 
     Raises
@@ -162,8 +162,8 @@ def _varied(form: Mapping[str, Any], units: str) -> dict[str, Any]:
         content["fragility"] = {
             "limits": {name: values for name, values in limits.items() if values},
             "measure": _text(form, "fragility.measure") or "pga",
-            **_given(form, "fragility.period", "period"),
-            **{name: _numeric(text) for name, text in _given(form, "fragility.confidence", "confidence").items()},
+            **_filled(form, "fragility.period", "period"),
+            **{name: _numeric(text) for name, text in _filled(form, "fragility.confidence", "confidence").items()},
         }
     return content
 
@@ -288,7 +288,7 @@ def _own(session: Session, *, suite: bool) -> tuple[list[dict[str, Any]], list[s
 def _spectrum(form: Mapping[str, Any], path: str) -> dict[str, str]:
     """Return a target spectrum of a standard; no file is looked for."""
     name = path.rpartition(".")[2]
-    spectrum = _given(form, path, name)
+    spectrum = _filled(form, path, name)
     if spectrum and not spectrum[name].startswith(STANDARDS):
         raise InputError("target-form", path, spectrum[name])
     return spectrum
@@ -313,10 +313,10 @@ def _scale(form: Mapping[str, Any]) -> dict[str, Any]:
     low, high = _text(form, "scale.from").strip(), _text(form, "scale.to").strip()
     drawn = {"from": _numeric(low), "to": _numeric(high)} if _text(form, "scale.kind") == "drawn" else None
     values = drawn or [_numeric(value) for value in _split(_text(form, "scale.values"))]
-    return {"measure": measure, "values": values, **_given(form, "scale.period", "period")}
+    return {"measure": measure, "values": values, **_filled(form, "scale.period", "period")}
 
 
-def _given(form: Mapping[str, Any], name: str, called: str) -> dict[str, str]:
+def _filled(form: Mapping[str, Any], name: str, called: str) -> dict[str, str]:
     text = _text(form, name).strip()
     return {called: text} if text else {}
 

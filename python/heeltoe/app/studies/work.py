@@ -159,7 +159,7 @@ def answers(folder: Path, units: str) -> dict[str, Any]:
     except InputError as error:
         return refused(error)
     headlines = _headlines(results.suite, units)
-    payload = {"complete": results.complete, "headlines": headlines, **told_document(study_document(subject))}
+    payload = {"complete": results.complete, "headlines": headlines, **document_payload(study_document(subject))}
     if results.complete:
         text = json.dumps(payload, allow_nan=False)
         fresh = folder / f"answers-{units}.fresh"
@@ -260,7 +260,7 @@ def _csv(results: Any, folder: Path) -> Path:
     return path
 
 
-def told_document(document: Document) -> dict[str, Any]:
+def document_payload(document: Document) -> dict[str, Any]:
     """Return a document; what a page does not show, as references and appendices, is left out."""
     return {"title": document.title, "subtitle": document.subtitle, "blocks": _blocks(document.blocks)}
 

@@ -16,7 +16,7 @@ from heeltoe.mechanics.friction import coefficients, law_of
 from heeltoe.result.numbers import BlockFrictionLaw, Roughness
 
 
-def law_found(case: Case, block: Block, run: BlockRun) -> BlockFrictionLaw | None:
+def law_result(case: Case, block: Block, run: BlockRun) -> BlockFrictionLaw | None:
     """Return what the law has come to: how far the crack has slipped, and its friction under the static loads before
     and after that; None of constant coefficients."""
     if case.crack.law is None or run.worn is None:
@@ -52,7 +52,7 @@ def law_histories(case: Case, block: Block, run: BlockRun) -> dict[str, Floats]:
     return {"slip_path_m": worn.path, "friction_strength_n": block.width * strength}
 
 
-def roughness_found(crack: Crack, run: BlockRun) -> Roughness | None:
+def roughness_result(crack: Crack, run: BlockRun) -> Roughness | None:
     """Return what the asperities have come to: dilation, angle and friction along the mean plane before and after; None
     of a crack that is not rough."""
     rough = crack.roughness

@@ -16,7 +16,7 @@ from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, static_state
 from heeltoe.mechanics.references import cited
 from heeltoe.models.rigid.bond import BondedBlock, bonded_block, held_histories
-from heeltoe.models.rigid.slip_history import law_found, law_histories, roughness_found, roughness_histories
+from heeltoe.models.rigid.slip_history import law_histories, law_result, roughness_histories, roughness_result
 from heeltoe.result.contract import HEADLINES, headlines, slip_by_mode, time_by_mode
 from heeltoe.result.crest import crest_histories, crest_motion
 from heeltoe.result.numbers import AnchorForce, BlockNumbers
@@ -102,8 +102,8 @@ def numbers_of(
         rotation=case.analysis.rotation,
         uplift_during_shaking=case.uplift.during_shaking,
         drainage_by_motion=list(drainage) or None,
-        friction_law=None if case.crack.law is None else law_found(case, block, run),
-        roughness=roughness_found(case.crack, run),
+        friction_law=None if case.crack.law is None else law_result(case, block, run),
+        roughness=roughness_result(case.crack, run),
         bond=None if bonded is None else bonded.numbers,
         overturned_about=about if run.outcome == "overturned" else None,
         anchors=anchors_of(case, run),

@@ -199,10 +199,10 @@ def post_seismic(case: Case, slip: float, source: str, ligament: tuple[float, fl
     else:
         assert ligament is not None
         text = (
-            "{told}; the joint holds over {left_m:.3f m} of its {width_m:.3f m}; there alone count the static cohesion "
-            "and tensile strength of crack.bond"
+            "{words}; the joint holds over {left_m:.3f m} of its {width_m:.3f m}; there alone count the static "
+            "cohesion and tensile strength of crack.bond"
         )
-        assumptions.append(Sentence.of(text, told=words, left_m=ligament[1] - ligament[0], width_m=width))
+        assumptions.append(Sentence.of(text, words=words, left_m=ligament[1] - ligament[0], width_m=width))
     if size:
         text = (
             "the block stands on {left_m:.3f m} of its {width_m:.3f m}, whether or not the ground goes on beyond the "

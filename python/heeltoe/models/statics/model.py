@@ -193,7 +193,7 @@ def statics(
             warnings += _about_anchors_after(case, slip, source, after.load_case)
         if source == _UNKNOWN:
             warnings.append(Notice("slip-unknown"))
-    warnings += _said_of(case, cases)
+    warnings += _warnings_of_cases(case, cases)
     references = dict.fromkeys(check.source for check in checks if check.required is not None)
     if choice.pseudo_static and water_above_crack(case, case.reservoir):
         references[REFERENCES["water"]] = None
@@ -239,7 +239,7 @@ def _peak(case: Case, usual: LoadCase) -> float:
     return case.crack.apparent_friction if case.crack.law is None else usual.friction
 
 
-def _said_of(case: Case, cases: Sequence[LoadCase]) -> list[Notice]:
+def _warnings_of_cases(case: Case, cases: Sequence[LoadCase]) -> list[Notice]:
     """Return what is to be said of the choices beside the load cases, the usual one first."""
     choice, notices, usual = case.statics, list(_of_pieces(cases)), cases[0]
     if usual.cracked_length_m:

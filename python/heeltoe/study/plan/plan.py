@@ -380,7 +380,7 @@ class Plan:
             hashes["the table of dams"] = _hash([list(self.dams), columns])
         for shake in self.shakes:
             way = ", turned round" if shake.turned else ""
-            hashes[f"the motion {shake.name}{way}"] = _hash(_told(shake))
+            hashes[f"the motion {shake.name}{way}"] = _hash(_shake_content(shake))
         return hashes
 
     @property
@@ -541,7 +541,7 @@ def _hash(content: Any) -> str:
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
-def _told(shake: Shake) -> list[Any]:
+def _shake_content(shake: Shake) -> list[Any]:
     def digest(values: Floats) -> str:
         return hashlib.sha256(np.ascontiguousarray(values).tobytes()).hexdigest()
 

@@ -11,7 +11,7 @@ class Problems:
     """Keeps the errors that are raised in its ``with`` blocks, and goes on behind them."""
 
     def __init__(self) -> None:
-        self._found: dict[str, InputError] = {}
+        self._errors: dict[str, InputError] = {}
 
     def __enter__(self) -> None:
         return None
@@ -22,7 +22,7 @@ class Problems:
         if not isinstance(error, InputError):
             return False
         for problem in (error, *error.others):
-            self._found.setdefault(str(problem), problem)
+            self._errors.setdefault(str(problem), problem)
         error.others = ()
         error.__dict__.pop("__notes__", None)
         return True
@@ -35,6 +35,6 @@ class Problems:
         InputError
             The first problem, with the others.
         """
-        if self._found:
-            error, *others = self._found.values()
+        if self._errors:
+            error, *others = self._errors.values()
             raise error.with_others(others)

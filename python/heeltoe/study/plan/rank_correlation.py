@@ -57,7 +57,7 @@ def quantiles(walk: Walk, groups: int, shares: Sequence[float], *, between: bool
         at = np.asarray(shares) * size[filled][:, None] - 1.0
         below = above = np.clip(np.ceil(at), 0, None).astype(np.int64)
     ranks = np.stack([below, above])
-    values = _found(walk, table, np.broadcast_to(filled[None, :, None], ranks.shape).ravel(), ranks.ravel())
+    values = _values_at(walk, table, np.broadcast_to(filled[None, :, None], ranks.shape).ravel(), ranks.ravel())
     low, high = values.reshape(ranks.shape)
     results[filled] = _line(low, high, at - below) if between else low
     return results
@@ -86,7 +86,7 @@ def _first(walk: Walk, groups: int) -> Integers:
     return counts.reshape(groups, -1)
 
 
-def _found(walk: Walk, table: Integers, group: Integers, rank: Integers) -> Floats:
+def _values_at(walk: Walk, table: Integers, group: Integers, rank: Integers) -> Floats:
     """Return the numbers of these ranks, from zero, in these groups; `table` counts their first bits."""
     row, prefix, shift, bits = group, np.zeros(rank.size, dtype=np.uint64), 64 - _BITS, _BITS
     while True:

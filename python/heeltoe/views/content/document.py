@@ -6,12 +6,12 @@ from heeltoe.errors.sanitize import plain
 from heeltoe.result.write import build_info
 from heeltoe.views.content.checks import static_checks
 from heeltoe.views.content.evidence import evidence
-from heeltoe.views.content.input import defaults, given_input, input_hash, named, rerun, revisions
+from heeltoe.views.content.input import defaults, input_hash, input_section, named, rerun, revisions
 from heeltoe.views.content.limitations import limitations
 from heeltoe.views.content.limits import limits
 from heeltoe.views.content.method import method
 from heeltoe.views.content.motion import ground_motion
-from heeltoe.views.content.one_unit import one_unit_each
+from heeltoe.views.content.one_unit import with_one_unit
 from heeltoe.views.content.question import question
 from heeltoe.views.content.results import results
 from heeltoe.views.content.subject import Subject
@@ -27,7 +27,7 @@ def run_sections(subject: Subject) -> tuple[Block, ...]:
         evidence(subject),
         limits(subject),
     )
-    return one_unit_each(sections, subject.numbers)
+    return with_one_unit(sections, subject.numbers)
 
 
 def document(subject: Subject) -> Document:
@@ -37,7 +37,7 @@ def document(subject: Subject) -> Document:
     sections = (
         question(subject),
         limits(subject),
-        given_input(subject),
+        input_section(subject),
         ground_motion(subject),
         results(subject),
         evidence(subject),
@@ -53,6 +53,6 @@ def document(subject: Subject) -> Document:
         title=subject.title,
         subtitle=f"What the dam does in the earthquake, by {models}",
         footer=" · ".join([*named(subject.case), f"heeltoe {build_info()['heeltoe']}", f"input {hashed[:12]}"]),
-        blocks=one_unit_each(blocks, subject.numbers),
+        blocks=with_one_unit(blocks, subject.numbers),
         about=tuple((label, plain(words)) for label, words in subject.case.project.rows()),
     )

@@ -23,7 +23,7 @@ _WIDE = 2.6
 """Width of the column that says what a revision changed, over that of each of the others."""
 
 
-def given_input(subject: Subject) -> Section:
+def input_section(subject: Subject) -> Section:
     """Return the section with the drawing of the dam and all fields that the case gives."""
     rows = case_rows(subject.case, subject.units)
     text = (

@@ -12,14 +12,14 @@ from heeltoe.views.words.numbers import Numbers, Value
 _SCALED = ("displacement", "force", "pressure", "energy", "rotation")
 
 
-def one_unit_each(blocks: tuple[Block, ...], numbers: Numbers) -> tuple[Block, ...]:
+def with_one_unit(blocks: tuple[Block, ...], numbers: Numbers) -> tuple[Block, ...]:
     """Return blocks whose tables have each quantity in one unit."""
     return tuple(_block(block, numbers) for block in blocks)
 
 
 def _block(block: Block, numbers: Numbers) -> Block:
     if isinstance(block, Section):
-        return replace(block, blocks=one_unit_each(block.blocks, numbers))
+        return replace(block, blocks=with_one_unit(block.blocks, numbers))
     if not isinstance(block, Table):
         return block
     rows = block.rows

@@ -15,7 +15,7 @@ from heeltoe.units.sentences import quantity
 from heeltoe.views.content.checks import answer_of, load_cases, missed_of, remarks, section_table
 from heeltoe.views.content.drawings import drawing
 from heeltoe.views.content.input import case_rows, named, revisions
-from heeltoe.views.content.one_unit import one_unit_each
+from heeltoe.views.content.one_unit import with_one_unit
 from heeltoe.views.content.tree import (
     Block,
     Code,
@@ -118,7 +118,7 @@ def statics_sections(joints: Joints, units: str) -> tuple[Block, ...]:
     """Return what the checks of the governing section rest on, its load cases, the checks and assumptions."""
     subject, joint = _Subject(joints, {}, units), joints.governing
     numbers = Numbers(joint.statics.to_json(), units)
-    cases = one_unit_each((load_cases(joint.statics, numbers, ""),), numbers)
+    cases = with_one_unit((load_cases(joint.statics, numbers, ""),), numbers)
     return (*cases, _checks(subject, joint), _basis(subject, joint), References(subject.references))
 
 

@@ -20,7 +20,7 @@ from heeltoe.units.write import NOTHING, digits
 from heeltoe.views.content.dam_pages import dam_pages
 from heeltoe.views.content.drawings import drawing
 from heeltoe.views.content.input import case_rows
-from heeltoe.views.content.one_unit import one_unit_each
+from heeltoe.views.content.one_unit import with_one_unit
 from heeltoe.views.content.study_answers import (
     answer,
     fragility,
@@ -48,7 +48,7 @@ from heeltoe.views.content.tree import (
 )
 from heeltoe.views.words.fields import shown
 from heeltoe.views.words.numbers import Numbers
-from heeltoe.views.words.studies import values_said
+from heeltoe.views.words.studies import values_phrase
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -168,7 +168,7 @@ def study_sections(study: StudyResults, units: str) -> tuple[Block, ...]:
         hangs_on(subject),
         _fine(subject),
     )
-    return one_unit_each(without_gaps(*sections), subject.numbers)
+    return with_one_unit(without_gaps(*sections), subject.numbers)
 
 
 def study_document(subject: StudySubject) -> Document:
@@ -198,13 +198,13 @@ def study_document(subject: StudySubject) -> Document:
         title=plain(study.title),
         subtitle=f"A {what} of {study.store.count:,} runs, by the {models} model{'s' * bool(others)}",
         footer=f"heeltoe {study.manifest['build']['heeltoe']} · study {study.manifest['fingerprint'][:12]}",
-        blocks=one_unit_each(without_gaps(*sections), subject.numbers),
+        blocks=with_one_unit(without_gaps(*sections), subject.numbers),
     )
 
 
 def _question(subject: StudySubject) -> Section:
     study = subject.results
-    dams = study.store.count // max(1, _each(subject))
+    dams = study.store.count // max(1, _runs_of_a_dam(subject))
     motions = len(study.manifest["motions"])
     asked = (
         f"What does the part above the crack do in {study.store.count:,} runs: {dams:,} "
@@ -247,7 +247,7 @@ def _lost(study: StudyResults) -> Block | None:
     return Notes("failure", "Runs without a result", tuple((item,) for item in items))
 
 
-def _each(subject: StudySubject) -> int:
+def _runs_of_a_dam(subject: StudySubject) -> int:
     """Return how many runs each dam has."""
     walk = subject.results.walk
     return (len(subject.results.manifest["motions"]) if walk.every else 1) * (walk.strengths or 1) * len(walk.models)
@@ -279,7 +279,9 @@ def _varied(subject: StudySubject) -> Section:
         many = f"{len(subject.results.manifest['dams']):,} dams of the table "
         blocks.append(paragraph(many, Code(study["cases"]), "; all else is as in the base case."))
     elif study["vary"]:
-        varied = tuple((Code(path), values_said(values, subject.units, path)) for path, values in study["vary"].items())
+        varied = tuple(
+            (Code(path), values_phrase(values, subject.units, path)) for path, values in study["vary"].items()
+        )
         blocks.append(Table(("field", "values"), varied, "What varies; all else is as in the base case.", "ll", (4, 8)))
     else:
         blocks.append(paragraph("No field of the case varies."))
@@ -301,7 +303,7 @@ def _motions(subject: StudySubject) -> Section:
     if scale:
         period = f" at {shown(scale['period'], subject.units)}" if scale["period"] is not None else ""
         what = "a factor" if scale["measure"] == "factor" else f"{scale['measure'].upper()}{period}"
-        sentence += f" They are scaled to {what}: {values_said(scale['values'], subject.units)}"
+        sentence += f" They are scaled to {what}: {values_phrase(scale['values'], subject.units)}"
         sentence += ", pairs of components by their geometric mean." if motions_of_study["pairs"] else "."
     if motions_of_study and motions_of_study["both_signs"]:
         sentence += " Each runs both ways round."

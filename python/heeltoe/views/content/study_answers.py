@@ -41,7 +41,11 @@ def answer(subject: StudySubject) -> list[Block]:
             sentence += f"; the residual slip{of}, positive downstream, has the median {amounts[0]}, 84 % stay below "
             sentence += f"{amounts[1]}, and the farthest run ends at {amounts[2]}"
         sentence = f"{sentence}. " + " ".join(
-            (*_not_kept(subject, row), *_exceeded(subject, row["model"]), *_each_year(subject, row["model"]))
+            (
+                *_not_kept(subject, row),
+                *_exceeded(subject, row["model"]),
+                *_probabilities_of_a_year(subject, row["model"]),
+            )
         )
         blocks.append(paragraph(Strong(f"Answer, {row['model']} model. "), sentence.strip()))
     return blocks
@@ -317,7 +321,7 @@ def _years(row: dict[str, Any]) -> str:
 _ENDLESS = 1e8
 
 
-def _each_year(subject: StudySubject, model: str) -> list[str]:
+def _probabilities_of_a_year(subject: StudySubject, model: str) -> list[str]:
     """Say how often a year each limit is exceeded."""
     sentences = []
     for row in subject.results.hazard or ():

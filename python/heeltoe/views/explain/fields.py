@@ -55,13 +55,13 @@ def _walk(model: type[BaseModel], above: str, kind: str) -> Iterator[Meaning]:
             yield _leaf(path, field, kind)
         elif len(blocks) == 1:
             place = f"{path}[]" if _listed(field) else path
-            yield from _block(path, place, blocks[0], _said(field.description), kind)
+            yield from _block(path, place, blocks[0], _one_line(field.description), kind)
         else:
             # A list of blocks of several kinds.
             places = [f"{path}[{get_args(block.model_fields['step'].annotation)[0]}]" for block in blocks]
-            yield _named(path, _said(field.description), "a list of blocks", kind, tuple(places))
+            yield _named(path, _one_line(field.description), "a list of blocks", kind, tuple(places))
             for place, block in zip(places, blocks, strict=True):
-                yield from _block(place, place, block, _said(block.__doc__), kind)
+                yield from _block(place, place, block, _one_line(block.__doc__), kind)
 
 
 def _block(path: str, place: str, block: type[BaseModel], meaning: str, kind: str) -> Iterator[Meaning]:
@@ -77,7 +77,7 @@ def _named(path: str, meaning: str, holds: str, kind: str, parts: tuple[str, ...
         kind,
         meaning,
         holds,
-        found_in=_found(path, kind),
+        found_in=_place(path, kind),
         not_with=_not_with(path, kind),
         page=page_of(path, kind),
         parts=parts,
@@ -96,21 +96,21 @@ def _leaf(path: str, field: FieldInfo, kind: str) -> Meaning:
     return Meaning(
         path,
         kind,
-        _said(field.description),
+        _one_line(field.description),
         _holds(field),
         needed or default,
         _limits(field),
-        _found(path, kind),
+        _place(path, kind),
         _not_with(path, kind),
         page_of(path, kind),
     )
 
 
-def _said(text: str | None) -> str:
+def _one_line(text: str | None) -> str:
     return " ".join((text or "").split())
 
 
-def _found(path: str, kind: str) -> str:
+def _place(path: str, kind: str) -> str:
     if kind != "field of a case":
         return ""
     if path.partition(".")[0] in _SHOWN:

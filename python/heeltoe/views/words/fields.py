@@ -60,10 +60,10 @@ def fields(
 
 def shown(value: Any, units: str = "si", name: str = "") -> str:
     """Write a value of a case's JSON with its unit as people read it; `name` is that of its field."""
-    return shown_each([value], units, name)[0]
+    return shown_values([value], units, name)[0]
 
 
-def shown_each(values: Sequence[Any], units: str = "si", name: str = "") -> list[str]:
+def shown_values(values: Sequence[Any], units: str = "si", name: str = "") -> list[str]:
     """Write values of one field, see :func:`shown`, each quantity in one unit."""
     largest: dict[str, float] = {}
     for value in values:

@@ -35,7 +35,7 @@ def spread_rows(response: Response, units: str) -> list[list[str]]:
     return in_one_unit(rows, units)
 
 
-def spread_said(response: Response, units: str) -> str:
+def spread_sentence(response: Response, units: str) -> str:
     """Say which runs a spread is of."""
     spread = response.spread
     assert spread is not None

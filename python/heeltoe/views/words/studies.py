@@ -11,7 +11,7 @@ from heeltoe.result.limits import UNITS
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import length, lengths
-from heeltoe.views.words.fields import shown_each
+from heeltoe.views.words.fields import shown_values
 
 KINDS = {
     "residual_slip": "residual slip",
@@ -79,13 +79,13 @@ def strength_scale(measure: str, units: str = "si") -> Scale:
     return unit_system(units).scale({"m/s": "velocity", "m": "length"}[unit])
 
 
-def values_said(values: Any, units: str = "si", path: str = "") -> str:
+def values_phrase(values: Any, units: str = "si", path: str = "") -> str:
     """Write a list of values of a field, or a distribution, as people read it."""
     name = path.rpartition(".")[2]
     if isinstance(values, list):
-        return ", ".join(shown_each(values, units, name))
+        return ", ".join(shown_values(values, units, name))
     options = {key.rstrip("_"): value for key, value in values.items() if value is not None}
-    texts = dict(zip(options, shown_each(list(options.values()), units, name), strict=True))
+    texts = dict(zip(options, shown_values(list(options.values()), units, name), strict=True))
     kind = texts.pop("distribution")
     ends = [f"from {texts.pop('from')} to {texts.pop('to')}"] if "from" in texts else []
     return ", ".join([kind, *ends, *(f"{name} {text}" for name, text in texts.items())])
@@ -95,5 +95,5 @@ def ends_of(field: dict[str, Any], units: str) -> list[tuple[float, str]]:
     """Return the least and the largest slip [m] that values of a field make, and those values as people read them."""
     ends = sorted(field["values"], key=lambda end: float(end["demand"]))
     least, *_, most = [ends[0], *ends]
-    texts = shown_each([str(end["value"]) for end in (least, most)], units, field["name"].rpartition(".")[2])
+    texts = shown_values([str(end["value"]) for end in (least, most)], units, field["name"].rpartition(".")[2])
     return [(float(end["demand"]), text) for end, text in zip((least, most), texts, strict=True)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from heeltoe.result.numbers import Tension
-from heeltoe.result.tension import place_said
+from heeltoe.result.tension import place_phrase
 from heeltoe.units.sentences import written
 
 
@@ -14,7 +14,7 @@ def tension_line(tension: Tension, units: str) -> str:
         units,
         stress_pa=tension.stress_pa,
         time_s=tension.time_s,
-        where=place_said(tension),
+        where=place_phrase(tension),
         z_m=tension.z_m,
     )
     strength = tension.strength

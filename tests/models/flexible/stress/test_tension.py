@@ -7,7 +7,7 @@ import pytest
 from heeltoe import flexible, read_case
 from heeltoe.models.flexible.result.tension import share_beyond
 from heeltoe.result.numbers import StressPlace
-from heeltoe.result.tension import place_said
+from heeltoe.result.tension import place_phrase
 from shared.dams import BASE, FAST, HEIGHT, example
 
 
@@ -97,4 +97,4 @@ def test_how_much_of_the_section_is_beyond_a_strength():
 )
 def test_places_have_names(part, place, said):
     stress = StressPlace(stress_pa=1e6, time_s=1.0, part=part, place=place, x_m=0.0, z_m=0.0)
-    assert place_said(stress) == said
+    assert place_phrase(stress) == said

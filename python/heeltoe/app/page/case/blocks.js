@@ -38,8 +38,8 @@ const nameOf = (field) => field.path.slice(field.path.lastIndexOf(".") + 1);
 /** @param {any} value Of a field; empty ones are not given. */
 const isEmpty = (value) => value === "" || (Array.isArray(value) && value.length === 0);
 
-/** @param {any} given @returns {Record<string, any>} */
-const blockIn = (given) => (given && typeof given === "object" && !Array.isArray(given) ? given : {});
+/** @param {any} value @returns {Record<string, any>} */
+const blockIn = (value) => (value && typeof value === "object" && !Array.isArray(value) ? value : {});
 
 /**
  * The controls of the fields of a block.
@@ -82,16 +82,16 @@ const focusFirst = (root) => /** @type {HTMLElement | null | undefined} */ (root
 function blockOf(field, path, edit) {
   /** @type {Record<string, any> | null} */
   let block = null;
-  const said = () => edit(block === null ? "" : structuredClone(block));
+  const send = () => edit(block === null ? "" : structuredClone(block));
   const parts = partsOf(field.inner, path, (name, value) => {
     put((block = block || {}), name, value);
-    said();
+    send();
   });
   const inside = element("div", { class: "fields" }, ...parts.map(({ control }) => control.root));
   const toggle = element("button", { type: "button", onclick: () => {
     block = block === null ? {} : null;
     show();
-    said();
+    send();
   } });
   const label = field.label.toLowerCase();
   const root = element("fieldset", { class: "item", id: idOf(path), tabindex: "-1" }, element("legend", {}, field.label), element("p", { class: "meaning" }, field.meaning), inside, wrongLine(path), toggle);

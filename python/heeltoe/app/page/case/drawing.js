@@ -22,8 +22,8 @@ export class CaseDrawing {
     this.picture = svg("svg", { class: "section-drawing", role: "group", "aria-label": "Section of the dam with handles to drag" }, this.back, this.front);
     this.ofCorners = element("span", { hidden: true }, " At a corner, Insert adds one after it and Delete takes it away.");
     this.hint = element("p", { class: "faint" }, "Drag a handle, or go to one with Tab and move it with the arrow keys (Page Up and Page Down: ten steps).", this.ofCorners);
-    this.said = element("p", { class: "said", "aria-hidden": "true" });
-    this.root = element("div", { class: "drawing" }, this.picture, this.said, this.hint);
+    this.caption = element("p", { class: "caption", "aria-hidden": "true" });
+    this.root = element("div", { class: "drawing" }, this.picture, this.caption, this.hint);
     /** @type {Map<string, {handle: Handle, root: SVGElement}>} */
     this.handles = new Map();
     /** How far each stands from where it belongs; nothing changes while one is dragged. @type {Map<string, {x: number, y: number}>} */
@@ -79,10 +79,10 @@ export class CaseDrawing {
       if (pen) pen.font = FONT;
       const long = pen ? pen.measureText(text).width : 7 * text.length;
       const left = x - long * { start: 0, middle: 0.5, end: 1 }[/** @type {"start" | "middle" | "end"} */ (anchor)];
-      const found = lineFor({ left, right: left + long, top: y - 12, bottom: y + 4 }, taken);
-      if (!found) return [];
-      taken.push(found.box);
-      return [svg("text", { x, y: y + found.by, "text-anchor": anchor, class: "note" }, text)];
+      const line = lineFor({ left, right: left + long, top: y - 12, bottom: y + 4 }, taken);
+      if (!line) return [];
+      taken.push(line.box);
+      return [svg("text", { x, y: y + line.by, "text-anchor": anchor, class: "note" }, text)];
     });
   }
 
@@ -90,8 +90,8 @@ export class CaseDrawing {
   placeHandles(wide) {
     const belong = this.drawn.handles.map((/** @type {Handle} */ { at, axes }) => ({ x: this.at(at)[0], y: this.at(at)[1], axes }));
     if (!this.dragged) {
-      const found = asideOf(belong, wide);
-      this.aside = new Map(this.drawn.handles.map((/** @type {Handle} */ { name }, /** @type {number} */ place) => [name, found[place]]));
+      const shifts = asideOf(belong, wide);
+      this.aside = new Map(this.drawn.handles.map((/** @type {Handle} */ { name }, /** @type {number} */ place) => [name, shifts[place]]));
     }
     const names = new Set(this.drawn.handles.map((/** @type {Handle} */ handle) => handle.name));
     for (const [name, { root }] of this.handles) {
@@ -127,7 +127,7 @@ export class CaseDrawing {
 
   /** @param {Handle} handle */
   say(handle) {
-    this.said.textContent = `${handle.label}: ${handle.text}`;
+    this.caption.textContent = `${handle.label}: ${handle.text}`;
   }
 
   /** @param {string} name */

@@ -3,7 +3,7 @@
 export class Edits {
   /**
    * @param {import("../talk.js").Talk} talk
-   * @param {(told: any, idle: boolean) => void} heard Called with what the server makes of them, and whether none waits.
+   * @param {(state: any, idle: boolean) => void} heard Called with what the server makes of them, and whether none waits.
    * @param {(idle: boolean) => void} waits Called when an edit goes out and when all are answered.
    */
   constructor(talk, heard, waits) {
@@ -16,10 +16,10 @@ export class Edits {
     this.serial = 0;
     this.step = Date.now();
     this.here = false;
-    talk.on("case", (told) => {
-      const mine = told.serial === this.serial;
+    talk.on("case", (state) => {
+      const mine = state.serial === this.serial;
       if (mine) this.going = null;
-      heard(told, !this.going && this.waiting.length === 0);
+      heard(state, !this.going && this.waiting.length === 0);
       this.send();
     });
     for (const kind of ["refused", "bad request"]) {

@@ -31,9 +31,9 @@ export class CaseForm {
     /** The table of the section's corners. @type {ReturnType<typeof import("./lists.js").tableOf> | null} */
     this.corners = null;
     /** @type {any} */
-    this.told = null;
+    this.state = null;
     this.root.addEventListener("focusin", () => edits.begin());
-    this.root.addEventListener("settle", () => this.told && edits.idle && this.values());
+    this.root.addEventListener("settle", () => this.state && edits.idle && this.values());
   }
 
   /** Make the form anew, as soon as nothing that is typed is on its way. @param {BlockOf[]} blocks */
@@ -51,7 +51,7 @@ export class CaseForm {
     this.controls = [];
     this.blocks = blocks.map((block) => this.block(block, open.includes(block.path)));
     this.root.replaceChildren(...this.blocks.map(({ root }) => root));
-    if (this.told) this.show(this.told, true);
+    if (this.state) this.show(this.state, true);
     goOn();
   }
 
@@ -61,12 +61,12 @@ export class CaseForm {
     if (!(here instanceof HTMLElement) || !here.id || !this.root.contains(here)) return () => {};
     const text = here instanceof HTMLInputElement ? { value: here.value, start: here.selectionStart, end: here.selectionEnd } : null;
     return () => {
-      const there = document.getElementById(here.id);
-      if (there && text && there instanceof HTMLInputElement) {
-        there.value = text.value;
-        there.setSelectionRange(text.start, text.end);
+      const field = document.getElementById(here.id);
+      if (field && text && field instanceof HTMLInputElement) {
+        field.value = text.value;
+        field.setSelectionRange(text.start, text.end);
       }
-      there?.focus({ preventScroll: true });
+      field?.focus({ preventScroll: true });
     };
   }
 
@@ -103,41 +103,41 @@ export class CaseForm {
 
   /** @param {BlockOf} block */
   toggle(block) {
-    const there = valueAt(this.told.fields, block.path) !== undefined;
+    const present = valueAt(this.state.fields, block.path) !== undefined;
     this.edits.begin();
-    this.edits.add("put block", { path: block.path, there: !there });
+    this.edits.add("put block", { path: block.path, present: !present });
   }
 
-  /** @param {any} told @param {boolean} idle Whether nothing typed waits for an answer. */
-  show(told, idle) {
-    this.told = told;
+  /** @param {any} state @param {boolean} idle Whether nothing typed waits for an answer. */
+  show(state, idle) {
+    this.state = state;
     if (idle && this.next) {
       this.make();
       return;
     }
     if (idle) this.values();
-    this.law.show(told.law);
+    this.law.show(state.law);
     this.errors();
   }
 
   values() {
     for (const [field, control] of this.controls) {
-      const value = valueAt(this.told.fields, field.path);
+      const value = valueAt(this.state.fields, field.path);
       control.update(value);
-      control.root.hidden = isForeign(field, valueAt(this.told.fields, field.path.slice(0, Math.max(field.path.lastIndexOf("."), 0))), value);
+      control.root.hidden = isForeign(field, valueAt(this.state.fields, field.path.slice(0, Math.max(field.path.lastIndexOf("."), 0))), value);
     }
     for (const { block, body, toggle } of this.blocks) {
-      const there = valueAt(this.told.fields, block.path) !== undefined;
-      body.hidden = block.optional && !there;
-      toggle.textContent = block.optional ? `${there ? "Remove" : "Add"} ${block.label.toLowerCase()}` : "Back to the defaults";
-      toggle.hidden = !block.optional && !there;
+      const present = valueAt(this.state.fields, block.path) !== undefined;
+      body.hidden = block.optional && !present;
+      toggle.textContent = block.optional ? `${present ? "Remove" : "Add"} ${block.label.toLowerCase()}` : "Back to the defaults";
+      toggle.hidden = !block.optional && !present;
     }
   }
 
   errors() {
     const places = /** @type {HTMLElement[]} */ ([...this.root.querySelectorAll("[data-wrong]")]);
     const texts = new Map(places.map((place) => [place, ""]));
-    for (const error of this.told.errors) {
+    for (const error of this.state.errors) {
       const place = this.placeOf(error.field);
       if (place) texts.set(place, [texts.get(place), `${error.problem}; ${error.remedy}`].filter(Boolean).join(" "));
     }
@@ -156,8 +156,8 @@ export class CaseForm {
   /** The line for an error: at its field, else at what that stands in. @param {string} path @returns {HTMLElement | null} */
   placeOf(path) {
     for (let here = path; here; here = here.replace(/(\.[^.[\]]*|\[\d+\]|^[^.[\]]*)$/, "")) {
-      const found = /** @type {HTMLElement | null} */ (this.root.querySelector(`[data-wrong="${CSS.escape(here)}"]`));
-      if (found) return found;
+      const place = /** @type {HTMLElement | null} */ (this.root.querySelector(`[data-wrong="${CSS.escape(here)}"]`));
+      if (place) return place;
     }
     return null;
   }

@@ -16,15 +16,15 @@ function ticks(end, start = 0) {
 export class LawCurve {
   constructor() {
     this.picture = svg("svg", { class: "law", viewBox: `0 0 ${WIDE} ${TALL}`, role: "img", "aria-label": "Curve of the friction law" });
-    this.said = element("p", { class: "meaning" });
-    this.root = element("div", { class: "law-curve", hidden: true }, this.picture, this.said);
+    this.caption = element("p", { class: "meaning" });
+    this.root = element("div", { class: "law-curve", hidden: true }, this.picture, this.caption);
   }
 
   /** @param {any} law None where the case in force has no law. */
   show(law) {
     this.root.hidden = !law;
     if (!law) return;
-    const { over, at, friction, dot, said } = law;
+    const { over, at, friction, dot, sentence } = law;
     const end = at.at(-1);
     const most = 1.08 * Math.max(...friction, dot[1], 1e-3);
     const x = (/** @type {number} */ value) => MARGIN.left + (value / end) * (WIDE - MARGIN.left - MARGIN.right);
@@ -41,6 +41,6 @@ export class LawCurve {
       text((x(0) + x(end)) / 2, TALL - 8, over),
       text(14, middle, "apparent friction", { transform: `rotate(-90 14 ${middle})` }),
     );
-    this.said.textContent = said;
+    this.caption.textContent = sentence;
   }
 }

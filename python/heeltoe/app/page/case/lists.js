@@ -7,10 +7,10 @@ import { element } from "../dom.js";
 
 /**
  * @param {string} label
- * @param {string} said
+ * @param {string} title
  * @param {() => void} click
  */
-const small = (label, said, click) => element("button", { type: "button", class: "small", "aria-label": said, title: said, onclick: click }, label);
+const small = (label, title, click) => element("button", { type: "button", class: "small", "aria-label": title, title, onclick: click }, label);
 
 /** Halfway between two texts with the same unit; the first one where they have not. @param {string} a @param {string} b */
 function between(a, b) {

@@ -25,7 +25,7 @@ export function casePage(talk) {
   const corners = button("Edit the section by its corners", () => edits.add("corners", {}));
   const file = /** @type {HTMLInputElement} */ (element("input", { type: "file", id: "case-file", multiple: true, class: "unseen", onchange: open }));
   const fileLabel = element("label", { for: "case-file", class: "button" }, "Open a case file");
-  const said = element("p", { class: "wrong", role: "alert" });
+  const problem = element("p", { class: "wrong", role: "alert" });
   const problems = element("div", { class: "problems", role: "status" });
   const verdict = element("p", { class: "verdict-line", "aria-live": "off" });
 
@@ -34,28 +34,28 @@ export function casePage(talk) {
     file.value = "";
     const main = files.find(({ name }) => /\.(toml|json)$/i.test(name)) || files[0];
     if (!main) return;
-    said.textContent = "";
+    problem.textContent = "";
     try {
       const sent = await Promise.all(files.map((file) => talk.upload(file)));
       const beside = Object.fromEntries(files.map((file, place) => [file.name, sent[place].name]).filter(([name]) => name !== main.name));
       edits.begin();
       edits.add("open case", { file: sent[files.indexOf(main)].name, called: main.name, beside });
     } catch (error) {
-      said.textContent = error instanceof Error ? error.message : String(error);
+      problem.textContent = error instanceof Error ? error.message : String(error);
     }
   }
 
-  /** @param {any} told @param {boolean} idle */
-  function show(told, idle) {
+  /** @param {any} state @param {boolean} idle */
+  function show(state, idle) {
     stale = false;
-    said.textContent = told.file || "";
-    form.show(told, idle);
-    if (told.drawing) drawing.show(told.drawing);
-    drawing.root.classList.toggle("old", told.errors.length > 0);
-    undo.disabled = !told.undo;
-    redo.disabled = !told.redo;
-    corners.hidden = told.corners;
-    list(told.errors);
+    problem.textContent = state.file || "";
+    form.show(state, idle);
+    if (state.drawing) drawing.show(state.drawing);
+    drawing.root.classList.toggle("old", state.errors.length > 0);
+    undo.disabled = !state.undo;
+    redo.disabled = !state.redo;
+    corners.hidden = state.corners;
+    list(state.errors);
   }
 
   /** @param {any[]} errors */
@@ -102,7 +102,7 @@ export function casePage(talk) {
     mount(root) {
       const keep = button("Save the case file", () => talk.ask("save case"));
       const tools = element("div", { class: "tools" }, file, fileLabel, keep, undo, redo, corners);
-      const seen = element("div", { class: "seen" }, tools, said, problems, drawing.root, element("p", { class: "faint" }, "The rigid block:"), verdict);
+      const seen = element("div", { class: "seen" }, tools, problem, problems, drawing.root, element("p", { class: "faint" }, "The rigid block:"), verdict);
       root.append(element("h2", { class: "unseen" }, "Case"), element("div", { class: "case" }, seen, form.root));
       new IntersectionObserver((entries) => { visible = entries.some((entry) => entry.isIntersecting); refresh(); }).observe(root);
       return () => {

@@ -26,7 +26,7 @@ const size = (bytes) => (bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1e3))} 
 
 /** Lines with a button that copies them. @param {string} label @param {HTMLElement} lines */
 function copied(label, lines) {
-  const said = element("span", { class: "faint", role: "status" });
+  const status = element("span", { class: "faint", role: "status" });
   const copy = element("button", { type: "button", "aria-label": `Copy: ${label}`, onclick: async () => {
     const text = lines.textContent || "";
     const range = document.createRange();
@@ -35,13 +35,13 @@ function copied(label, lines) {
     getSelection()?.addRange(range);
     try {
       await navigator.clipboard.writeText(text);
-      said.textContent = "copied";
+      status.textContent = "copied";
     } catch {
       // A page that came over plain HTTP from another machine may not: then it is marked.
-      said.textContent = document.execCommand("copy") ? "copied" : "marked: copy it with Ctrl-C";
+      status.textContent = document.execCommand("copy") ? "copied" : "marked: copy it with Ctrl-C";
     }
   } }, "Copy");
-  return element("div", { class: "lines" }, element("h3", {}, label), lines, element("div", { class: "actions" }, copy, said));
+  return element("div", { class: "lines" }, element("h3", {}, label), lines, element("div", { class: "actions" }, copy, status));
 }
 
 /** @param {import("../talk.js").Talk} talk */
@@ -56,7 +56,7 @@ export function exportPage(talk) {
   const make = element("button", { type: "button", class: "main", onclick: () => talk.ask("make", wanted()) }, "Make the files");
   const cancel = element("button", { type: "button", hidden: true, onclick: () => talk.ask("cancel", { number: job.number }) }, "Cancel");
   const bar = element("progress", { hidden: true, "aria-label": "The files are made" });
-  const said = element("p", { class: "faint", role: "status" });
+  const status = element("p", { class: "faint", role: "status" });
   const old = element("p", { class: "caveat", role: "status", hidden: true }, "The case has changed since these files were made: make them again.");
   const files = element("div", { class: "files" });
   const command = element("pre", { tabindex: "0" });
@@ -72,8 +72,8 @@ export function exportPage(talk) {
 
   /** @param {string} what @param {object} fields */
   async function fetchOf(what, fields) {
-    const told = await talk.answer(what, fields);
-    if (told.of === "download") save(told);
+    const message = await talk.answer(what, fields);
+    if (message.of === "download") save(message);
   }
 
   /** @param {any} result */
@@ -84,28 +84,28 @@ export function exportPage(talk) {
     files.replaceChildren(element("p", { class: "verdict" }, result.verdict), all, element("div", { class: "wide" }, table));
   }
 
-  talk.on("export", (told) => {
-    command.textContent = told.command;
-    program.textContent = told.program;
-    for (const option of model.input.options) option.disabled = told.cannot.includes(option.value);
-    make.toggleAttribute("disabled", !told.ready || (job && job.state === "running"));
-    if (!told.ready) said.textContent = "The case has no motion: choose one in the tab Motion.";
-    old.hidden = told.same || !files.hasChildNodes();
+  talk.on("export", (message) => {
+    command.textContent = message.command;
+    program.textContent = message.program;
+    for (const option of model.input.options) option.disabled = message.cannot.includes(option.value);
+    make.toggleAttribute("disabled", !message.ready || (job && job.state === "running"));
+    if (!message.ready) status.textContent = "The case has no motion: choose one in the tab Motion.";
+    old.hidden = message.same || !files.hasChildNodes();
   });
-  talk.on("job", (found) => {
-    if (found.what !== "export" || (job && found.number < job.number)) return;
-    job = found;
+  talk.on("job", (message) => {
+    if (message.what !== "export" || (job && message.number < job.number)) return;
+    job = message;
     const running = job.state === "running";
     cancel.hidden = bar.hidden = !running;
     make.toggleAttribute("disabled", running);
-    said.textContent = running ? `${job.said} (${Math.round(job.seconds)} s)` : job.said;
-    said.classList.toggle("wrong", !running && !["done", "cancelled"].includes(job.state));
+    status.textContent = running ? `${job.status} (${Math.round(job.seconds)} s)` : job.status;
+    status.classList.toggle("wrong", !running && !["done", "cancelled"].includes(job.state));
     if (job.state === "done") show(job.result);
     else files.replaceChildren();
     if (!running) ask();
   });
-  talk.on("job refused", (told) => {
-    if (told.what === "export") said.textContent = told.text;
+  talk.on("job refused", (message) => {
+    if (message.what === "export") status.textContent = message.text;
   });
   for (const of of ["state", "rigid"]) talk.on(of, ask);
 
@@ -114,7 +114,7 @@ export function exportPage(talk) {
     label: "Export",
     /** @param {HTMLElement} root */
     mount(root) {
-      const options = element("div", { class: "export-options" }, model.root, element("div", { class: "ticks" }, report.root, csv.root, animation.root), element("div", { class: "actions" }, make, cancel), bar, said);
+      const options = element("div", { class: "export-options" }, model.root, element("div", { class: "ticks" }, report.root, csv.root, animation.root), element("div", { class: "actions" }, make, cancel), bar, status);
       options.addEventListener("input", ask);
       const file = element("button", { type: "button", onclick: () => fetchOf("case file", {}) }, "Download the case file");
       root.append(

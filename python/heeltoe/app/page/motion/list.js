@@ -43,8 +43,8 @@ export class MotionList {
     this.next = "";
     this.list.replaceChildren(...motions.map((motion, at) => this.item(motion, at)));
     if (!focus) return;
-    const there = /** @type {HTMLButtonElement | null} */ (this.list.querySelector(`[data-does="${focus}"]`));
-    (there && !there.disabled ? there : /** @type {HTMLElement | null} */ (this.list.querySelector(`[data-does="choose ${this.place}"]`)))?.focus();
+    const button = /** @type {HTMLButtonElement | null} */ (this.list.querySelector(`[data-does="${focus}"]`));
+    (button && !button.disabled ? button : /** @type {HTMLElement | null} */ (this.list.querySelector(`[data-does="choose ${this.place}"]`)))?.focus();
   }
 
   /** @param {{title: string, pause: string, wrong: string}} motion @param {number} at */
@@ -66,11 +66,11 @@ export class MotionList {
     return element("div", { class: "in-line pause faint" }, "after a pause of", input);
   }
 
-  /** @param {string} label @param {string} said @param {"up" | "down" | "remove"} what @param {number} at @param {boolean} disabled */
-  button(label, said, what, at, disabled) {
+  /** @param {string} label @param {string} title @param {"up" | "down" | "remove"} what @param {number} at @param {boolean} disabled */
+  button(label, title, what, at, disabled) {
     const does = (/** @type {number} */ place) => `${what} ${place}`;
     const to = { up: at - 1, down: at + 1, remove: Math.min(at, this.count - 2) }[what];
-    return element("button", { type: "button", class: "small", "aria-label": said, title: said, "data-does": does(at), disabled, onclick: () => {
+    return element("button", { type: "button", class: "small", "aria-label": title, title, "data-does": does(at), disabled, onclick: () => {
       this.next = does(to);
       this.change(what, at);
     } }, label);

@@ -17,8 +17,8 @@ export function motionPage(talk) {
   let sending = 0;
   const ways = [new Way("horizontal", changed, whole), new Way("vertical", changed, changed)];
   const files = /** @type {HTMLInputElement} */ (element("input", { type: "file", multiple: true, id: "record-files", onchange: () => send([...(files.files || [])]) }));
-  const said = element("ul", { class: "sent", role: "status" });
-  const drop = element("div", { class: "drop" }, element("label", { for: "record-files" }, "Drop records here, or choose files"), files, element("p", { class: "faint" }, "PEER AT2, COSMOS and CSMIP V2, USGS SMC, K-NET, columns of numbers; one for each direction, up to 20 MB."), said);
+  const status = element("ul", { class: "sent", role: "status" });
+  const drop = element("div", { class: "drop" }, element("label", { for: "record-files" }, "Drop records here, or choose files"), files, element("p", { class: "faint" }, "PEER AT2, COSMOS and CSMIP V2, USGS SMC, K-NET, columns of numbers; one for each direction, up to 20 MB."), status);
   const start = input("motion-start", "from");
   const end = input("motion-end", "to");
   const wrong = [
@@ -94,17 +94,17 @@ export function motionPage(talk) {
   }
 
   function redraw() {
-    const there = Boolean(seen && seen.motions.length);
-    curves.hidden = spectrum.hidden = !there;
-    if (there && curves.clientWidth) drawMotions(curves, spectrum, seen.motions);
+    const drawable = Boolean(seen && seen.motions.length);
+    curves.hidden = spectrum.hidden = !drawable;
+    if (drawable && curves.clientWidth) drawMotions(curves, spectrum, seen.motions);
   }
 
   /** @param {File[]} chosen */
   async function send(chosen) {
-    said.replaceChildren();
+    status.replaceChildren();
     for (const file of chosen) {
       const line = element("li", {}, `${file.name}: being read`);
-      said.append(line);
+      status.append(line);
       try {
         if (!file.size) throw new Error("it is empty");
         const { name } = await talk.upload(file);
@@ -150,14 +150,14 @@ export function motionPage(talk) {
     if (done) done(answer);
   });
   talk.on("state", () => talk.ask("motion", { place: list.place }));
-  talk.on("motion", ({ form: given, motions, place, most, records, catalogue }) => {
+  talk.on("motion", ({ form, motions, place, most, records, catalogue }) => {
     list.show(motions, place, most);
     use.textContent = list.count > 1 ? `Use as motion ${place + 1}` : "Use in this case";
     for (const way of ways) way.offer({ records, catalogue });
-    if (JSON.stringify([given, place]) !== filled) {
-      filled = JSON.stringify([given, place]);
-      for (const way of ways) way.fill(given[way.name]);
-      [start.value, end.value] = [given.start, given.end];
+    if (JSON.stringify([form, place]) !== filled) {
+      filled = JSON.stringify([form, place]);
+      for (const way of ways) way.fill(form[way.name]);
+      [start.value, end.value] = [form.start, form.end];
     }
     look();
   });

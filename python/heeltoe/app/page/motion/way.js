@@ -63,13 +63,13 @@ export class Way {
     if (this.source.selectedIndex < 0) this.source.value = SEPARATOR;
   }
 
-  /** @param {any} given What the case has. */
-  fill(given) {
-    this.own = given.title || "";
+  /** @param {any} form What the case has. */
+  fill(form) {
+    this.own = form.title || "";
     this.offer({});
-    this.source.value = `${given.source}${SEPARATOR}`;
-    for (const key of ["pga", "unit", "time_step"]) this.inputs[key].value = given[key] || "";
-    this.reverse.checked = Boolean(given.reverse);
+    this.source.value = `${form.source}${SEPARATOR}`;
+    for (const key of ["pga", "unit", "time_step"]) this.inputs[key].value = form[key] || "";
+    this.reverse.checked = Boolean(form.reverse);
     this.fit();
   }
 
@@ -111,7 +111,7 @@ export class Way {
 
   form() {
     const [source, channel] = this.source.value.split(SEPARATOR);
-    const values = Object.fromEntries(Object.entries(this.inputs).map(([key, each]) => [key, each.value]));
+    const values = Object.fromEntries(Object.entries(this.inputs).map(([key, input]) => [key, input.value]));
     return { ...values, source, channel: channel || "", reverse: this.reverse.checked };
   }
 }

@@ -34,7 +34,7 @@ function domains(flat) {
 /** @param {Shown[]} shown @param {boolean} narrow */
 function traces(shown, narrow) {
   /** @type {object[]} */
-  const found = lines(shown).map(({ row, of, name, stale, width, dash, x, y }) => ({
+  const traces = lines(shown).map(({ row, of, name, stale, width, dash, x, y }) => ({
     x, y, yaxis: AXES[row], type: "scatter", mode: "lines", name, opacity: stale ? 0.3 : 1, hovertemplate: `%{y:.4g} at %{x:.2f} s`,
     line: { color: colour(of), width, dash, simplify: false },
   }));
@@ -50,10 +50,10 @@ function traces(shown, narrow) {
       }
     }
     if (x.length) {
-      found.push({ x, y, yaxis: AXES.modes, type: "scatter", mode: "lines", name: kind, line: { color: colour(kind), width: thickness(shown, narrow), simplify: false }, hovertemplate: `${kind}, %{x:.2f} s` });
+      traces.push({ x, y, yaxis: AXES.modes, type: "scatter", mode: "lines", name: kind, line: { color: colour(kind), width: thickness(shown, narrow), simplify: false }, hovertemplate: `${kind}, %{x:.2f} s` });
     }
   }
-  return found;
+  return traces;
 }
 
 /**

@@ -18,9 +18,9 @@ const axis = (place, row) => /** @type {any} */ (place)._fullLayout[AXES[row].re
 
 /** @param {string} tag @param {Record<string, string | number>} attributes */
 function made(tag, attributes) {
-  const found = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) found.setAttribute(name, String(value));
-  return found;
+  const node = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, String(value));
+  return node;
 }
 
 /**

@@ -36,7 +36,7 @@ const KINDS = {
   figure,
 };
 
-/** @param {{title: string, subtitle: string, blocks: any[]}} told */
-export function documentOf(told) {
-  return element("article", { class: "document" }, element("h2", {}, told.title), element("p", { class: "faint" }, told.subtitle), ...told.blocks.map(made));
+/** @param {{title: string, subtitle: string, blocks: any[]}} content */
+export function documentOf(content) {
+  return element("article", { class: "document" }, element("h2", {}, content.title), element("p", { class: "faint" }, content.subtitle), ...content.blocks.map(made));
 }

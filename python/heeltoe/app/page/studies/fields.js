@@ -3,14 +3,14 @@ import { element } from "../dom.js";
 
 let made = 0;
 
-/** @param {{id?: string, label: string, said?: string, example?: string, at?: string}} of */
-export function field({ id, label, said = "", example = "", at = "" }) {
+/** @param {{id?: string, label: string, hint?: string, example?: string, at?: string}} of */
+export function field({ id, label, hint = "", example = "", at = "" }) {
   made += 1;
   const own = id || `field-${made}`;
-  const input = /** @type {HTMLInputElement} */ (element("input", { type: "text", id: own, placeholder: example, autocomplete: "off", spellcheck: "false", "aria-describedby": `${own}-said` }));
-  const beside = element("span", { class: "said", id: `${own}-said` }, said);
-  const root = element("div", { class: "entry", "data-field": at }, element("label", { for: own }, label), input, beside, element("p", { class: "wrong", role: "status" }));
-  return { root, input, said: beside };
+  const input = /** @type {HTMLInputElement} */ (element("input", { type: "text", id: own, placeholder: example, autocomplete: "off", spellcheck: "false", "aria-describedby": `${own}-hint` }));
+  const text = element("span", { class: "hint", id: `${own}-hint` }, hint);
+  const root = element("div", { class: "entry", "data-field": at }, element("label", { for: own }, label), input, text, element("p", { class: "wrong", role: "status" }));
+  return { root, input, hint: text };
 }
 
 /** @param {{id?: string, label: string, options: [string, string][], at?: string}} of */

@@ -10,19 +10,19 @@ export class RecordFolder {
     this.send = send;
     this.renew = renew;
     /** Those that are new since they were asked for. @type {string[]} */
-    this.found = [];
-    this.input = /** @type {HTMLInputElement} */ (element("input", { type: "file", id: "study-folder", multiple: true, webkitdirectory: true, onchange: () => this._read([...(this.input.files || [])]), "aria-describedby": "study-folder-said" }));
-    this.said = element("p", { class: "said", id: "study-folder-said", role: "status" }, "each file in it is read as a record");
-    this.root = element("div", { class: "entry" }, element("label", { for: "study-folder" }, "A folder of yours"), this.input, this.said);
+    this.records = [];
+    this.input = /** @type {HTMLInputElement} */ (element("input", { type: "file", id: "study-folder", multiple: true, webkitdirectory: true, onchange: () => this._read([...(this.input.files || [])]), "aria-describedby": "study-folder-status" }));
+    this.status = element("p", { class: "hint", id: "study-folder-status", role: "status" }, "each file in it is read as a record");
+    this.root = element("div", { class: "entry" }, element("label", { for: "study-folder" }, "A folder of yours"), this.input, this.status);
     // What is chosen here is no field of the study.
     this.root.addEventListener("input", (event) => event.stopPropagation());
   }
 
-  /** Return what was found since this was asked last. */
+  /** Return the records read since the last call. */
   taken() {
-    const found = this.found;
-    this.found = [];
-    return found;
+    const records = this.records;
+    this.records = [];
+    return records;
   }
 
   /** @param {File[]} files */
@@ -32,10 +32,10 @@ export class RecordFolder {
     const wrong = [];
     let read = 0;
     for (const file of wanted) {
-      this.said.textContent = `reading ${file.name}`;
+      this.status.textContent = `reading ${file.name}`;
       try {
         if (!file.size) throw new Error("it is empty");
-        this.found.push(await this.send(file));
+        this.records.push(await this.send(file));
         read += 1;
       } catch (error) {
         const text = /** @type {Error} */ (error).message;
@@ -44,7 +44,7 @@ export class RecordFolder {
     }
     this.input.value = "";
     const left = wrong.length > 3 ? [`and ${wrong.length - 3} others`] : [];
-    this.said.textContent = [`${read} of ${wanted.length} ${wanted.length === 1 ? "file" : "files"} read`, ...wrong.slice(0, 3), ...left].join("; ");
+    this.status.textContent = [`${read} of ${wanted.length} ${wanted.length === 1 ? "file" : "files"} read`, ...wrong.slice(0, 3), ...left].join("; ");
     this.renew();
   }
 }

@@ -158,9 +158,9 @@ export class StudyForm {
     );
   }
 
-  /** @param {string} name @param {string} label @param {string} said @param {string} example @param {string} at */
-  _field(name, label, said, example = "", at = name) {
-    const made = field({ id: `study-${name.replaceAll(".", "-")}`, label, said, example, at });
+  /** @param {string} name @param {string} label @param {string} hint @param {string} example @param {string} at */
+  _field(name, label, hint, example = "", at = name) {
+    const made = field({ id: `study-${name.replaceAll(".", "-")}`, label, hint, example, at });
     this.inputs[name] = made.input;
     return made.root;
   }
@@ -218,33 +218,33 @@ export class StudyForm {
   /** @returns {Record<string, any>} What the server takes; what is hidden says nothing. */
   read() {
     /** @type {Record<string, any>} */
-    const found = { models: [], records: [], vary: this.vary.read() };
+    const form = { models: [], records: [], vary: this.vary.read() };
     for (const [name, input] of Object.entries(this.inputs)) {
       const row = input.closest(".entry, label");
       const [kind, ...rest] = name.split(".");
       const hidden = row && /** @type {HTMLElement} */ (row).hidden;
       const ticked = input instanceof HTMLInputElement && input.type === "checkbox" ? input.checked : null;
       if (kind === "model" || kind === "record") {
-        if (ticked) found[`${kind}s`].push(rest.join("."));
-      } else if (ticked !== null) found[name] = ticked && !hidden;
-      else found[name] = hidden ? "" : input.value;
+        if (ticked) form[`${kind}s`].push(rest.join("."));
+      } else if (ticked !== null) form[name] = ticked && !hidden;
+      else form[name] = hidden ? "" : input.value;
     }
-    return found;
+    return form;
   }
 
-  /** @param {Record<string, any>} given @param {boolean} anew Whether what it does not name is emptied. */
-  write(given, anew = false) {
-    const models = given.models || [this.choices.usual];
+  /** @param {Record<string, any>} form @param {boolean} anew Whether what it does not name is emptied. */
+  write(form, anew = false) {
+    const models = form.models || [this.choices.usual];
     for (const [name, input] of Object.entries(this.inputs)) {
       const [kind, ...rest] = name.split(".");
       if (input instanceof HTMLInputElement && input.type === "checkbox") {
         if (kind === "model") input.checked = models.includes(rest.join(".")) && !input.disabled;
-        else if (kind === "record") input.checked = (given.records || this._some()).includes(rest.join("."));
-        else input.checked = Boolean(given[name]);
-      } else if (name in given) input.value = given[name] === "slips" ? SLIPS[this.choices.units] : given[name];
+        else if (kind === "record") input.checked = (form.records || this._some()).includes(rest.join("."));
+        else input.checked = Boolean(form[name]);
+      } else if (name in form) input.value = form[name] === "slips" ? SLIPS[this.choices.units] : form[name];
       else if (anew && name !== "title") input.value = input instanceof HTMLSelectElement ? input.options[0].value : "";
     }
-    this.vary.write(given.vary || []);
+    this.vary.write(form.vary || []);
     this.arrange();
     this.changed();
   }

@@ -20,7 +20,7 @@ export function studiesPage(talk) {
   const refused = element("p", { class: "wrong", role: "alert" });
   const list = element("ul", { class: "studies" });
   const none = element("p", { class: "faint" }, "None yet. Studies stay while the app runs, also when the page is closed.");
-  const said = element("div", { class: "said-of", tabindex: "-1" });
+  const answer = element("div", { class: "study-answers", tabindex: "-1" });
   const form = new StudyForm(
     () => {
       clearTimeout(looking);
@@ -28,9 +28,9 @@ export function studiesPage(talk) {
     },
     async (file) => {
       const { name } = await talk.upload(file);
-      const told = await talk.answer("record", { file: name, called: file.name });
-      if (told.error) throw new Error(told.error.text);
-      return told.called;
+      const message = await talk.answer("record", { file: name, called: file.name });
+      if (message.error) throw new Error(message.error.text);
+      return message.called;
     },
     ask,
   );
@@ -57,16 +57,16 @@ export function studiesPage(talk) {
     talk.ask("study form");
   }
 
-  /** @param {any[]} found */
-  function show(found) {
-    const kept = new Set(found.map((study) => study.number));
+  /** @param {any[]} studies */
+  function show(studies) {
+    const kept = new Set(studies.map((study) => study.number));
     for (const [number, study] of studies) {
       if (kept.has(number)) continue;
       study.root.remove();
       studies.delete(number);
-      if (said.dataset.study === String(number)) said.replaceChildren();
+      if (answer.dataset.study === String(number)) answer.replaceChildren();
     }
-    for (const study of found) {
+    for (const study of studies) {
       const known = studies.get(study.number);
       if (known) known.job = study.job;
       else {
@@ -87,7 +87,7 @@ export function studiesPage(talk) {
     const running = job.state === "running";
     const seconds = Math.round(job.seconds);
     const done = job.state === "done";
-    const state = running ? `${job.said} (${seconds} s)` : done ? `done in ${seconds} s` : job.said;
+    const state = running ? `${job.status} (${seconds} s)` : done ? `done in ${seconds} s` : job.status;
     if (root.dataset.state === job.state && running) {
       /** @type {HTMLElement} */ (root.querySelector(".state")).textContent = state;
       progress(/** @type {HTMLProgressElement} */ (root.querySelector("progress")), job);
@@ -111,42 +111,42 @@ export function studiesPage(talk) {
 
   /** @param {number} number */
   function answers(number) {
-    said.dataset.study = String(number);
-    said.replaceChildren(element("p", { role: "status" }, "drawing what the study says"));
+    answer.dataset.study = String(number);
+    answer.replaceChildren(element("p", { role: "status" }, "drawing what the study says"));
     talk.ask("study answers", { number });
   }
 
-  talk.on("study answers", (told) => {
-    if (said.dataset.study !== String(told.number)) return;
-    if (told.error) {
-      said.replaceChildren(element("p", { class: "wrong", role: "alert" }, told.error.text));
+  talk.on("study answers", (message) => {
+    if (answer.dataset.study !== String(message.number)) return;
+    if (message.error) {
+      answer.replaceChildren(element("p", { class: "wrong", role: "alert" }, message.error.text));
       return;
     }
-    const take = TAKE.map(([what, label]) => element("button", { type: "button", onclick: () => fetchOf(told.number, what) }, label));
-    said.replaceChildren(element("div", { class: "actions", role: "group", "aria-label": "Export" }, ...take), ...told.headlines.map((/** @type {any} */ row) => element("section", { class: "card", "aria-label": `${NAMES[row.model]}: suite` }, element("h3", {}, NAMES[row.model]), headlineOf(row))), documentOf(told));
+    const take = TAKE.map(([what, label]) => element("button", { type: "button", onclick: () => fetchOf(message.number, what) }, label));
+    answer.replaceChildren(element("div", { class: "actions", role: "group", "aria-label": "Export" }, ...take), ...message.headlines.map((/** @type {any} */ row) => element("section", { class: "card", "aria-label": `${NAMES[row.model]}: suite` }, element("h3", {}, NAMES[row.model]), headlineOf(row))), documentOf(message));
   });
 
   /** @param {number} number @param {string} what */
   async function fetchOf(number, what) {
     refused.textContent = "";
-    const told = await talk.answer("study download", { number, what });
-    if (told.of === "download") save(told);
+    const message = await talk.answer("study download", { number, what });
+    if (message.of === "download") save(message);
   }
 
-  talk.on("study form", (told) => {
-    form.show(told.choices);
-    show(told.studies);
+  talk.on("study form", (message) => {
+    form.show(message.choices);
+    show(message.studies);
   });
-  talk.on("studies", ({ studies: found }) => show(found));
+  talk.on("studies", ({ studies }) => show(studies));
   talk.on("study refused", ({ text }) => {
     refused.textContent = text;
   });
-  talk.on("study look", (told) => {
-    const wrong = form.fault(told.error || null);
-    start.toggleAttribute("disabled", Boolean(told.error));
-    if (wrong) outlook.replaceChildren(element("button", { type: "button", class: "link", onclick: () => go(wrong) }, "Something above cannot be used"), `: ${told.error.problem}`);
-    else outlook.textContent = told.outlook || told.error.text;
-    outlook.classList.toggle("wrong", Boolean(told.error) && !wrong);
+  talk.on("study look", (message) => {
+    const wrong = form.fault(message.error || null);
+    start.toggleAttribute("disabled", Boolean(message.error));
+    if (wrong) outlook.replaceChildren(element("button", { type: "button", class: "link", onclick: () => go(wrong) }, "Something above cannot be used"), `: ${message.error.problem}`);
+    else outlook.textContent = message.outlook || message.error.text;
+    outlook.classList.toggle("wrong", Boolean(message.error) && !wrong);
   });
   talk.on("job", (job) => {
     const number = Number((/^study (\d+)$/.exec(job.what) || [])[1]);
@@ -155,12 +155,12 @@ export function studiesPage(talk) {
     const before = study.job.state;
     study.job = job;
     line(number);
-    if (before === "running" && job.state === "done" && (!said.hasChildNodes() || said.dataset.study === String(number))) answers(number);
+    if (before === "running" && job.state === "done" && (!answer.hasChildNodes() || answer.dataset.study === String(number))) answers(number);
   });
   talk.on("state", () => {
     wanted = true;
     if (visible) ask();
-    if (said.hasChildNodes() && said.dataset.study) answers(Number(said.dataset.study));
+    if (answer.hasChildNodes() && answer.dataset.study) answers(Number(answer.dataset.study));
   });
 
   return {
@@ -168,7 +168,7 @@ export function studiesPage(talk) {
     label: "Studies",
     /** @param {HTMLElement} root */
     mount(root) {
-      const made = element("section", { "aria-label": "Studies of this tab" }, element("h2", {}, "Studies"), none, list, said);
+      const made = element("section", { "aria-label": "Studies of this tab" }, element("h2", {}, "Studies"), none, list, answer);
       root.append(element("div", { class: "two" }, element("div", {}, element("h2", {}, "A new study of this case"), form.root, element("div", { class: "launch" }, outlook, refused, start)), made));
       new IntersectionObserver(([entry]) => {
         visible = entry.isIntersecting;

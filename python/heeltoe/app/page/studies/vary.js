@@ -33,9 +33,9 @@ export class VaryRows {
     row.path.focus();
   }
 
-  /** @param {Record<string, string>} given */
-  _make(given) {
-    const row = new VaryRow(this.fields, given, () => {
+  /** @param {Record<string, string>} values */
+  _make(values) {
+    const row = new VaryRow(this.fields, values, () => {
       this.rows = this.rows.filter((other) => other !== row);
       row.root.remove();
       this.none.hidden = this.rows.length > 0;
@@ -48,12 +48,12 @@ export class VaryRows {
     return row;
   }
 
-  /** @param {Record<string, string>[]} given */
-  write(given) {
+  /** @param {Record<string, string>[]} rows */
+  write(rows) {
     this.rows = [];
     this.list.replaceChildren();
     this.none.hidden = false;
-    for (const entry of given) if (this.fields.some((known) => known.path === entry.path)) this._make(entry);
+    for (const entry of rows) if (this.fields.some((known) => known.path === entry.path)) this._make(entry);
   }
 
   /** @param {boolean} drawn Whether dams are drawn: then nobody counts values. */
@@ -68,8 +68,8 @@ export class VaryRows {
 }
 
 class VaryRow {
-  /** @param {any[]} fields @param {Record<string, string>} given @param {() => void} remove */
-  constructor(fields, given, remove) {
+  /** @param {any[]} fields @param {Record<string, string>} values @param {() => void} remove */
+  constructor(fields, values, remove) {
     this.fields = fields;
     const path = select({ label: "Field", options: [] });
     const kind = select({ label: "How", options: Object.entries(KINDS).map(([name, [label]]) => [name, label]) });
@@ -82,14 +82,14 @@ class VaryRow {
       groups[field.block].append(element("option", { value: field.path }, `${field.block}: ${field.label}`));
     }
     this.path.append(...Object.values(groups));
-    this.path.value = given.path;
-    this.kind.value = given.kind || "list";
+    this.path.value = values.path;
+    this.kind.value = values.kind || "list";
     this.meaning = element("p", { class: "faint" });
-    /** @type {Record<string, {root: HTMLElement, input: HTMLInputElement, said: HTMLElement}>} */
+    /** @type {Record<string, {root: HTMLElement, input: HTMLInputElement, hint: HTMLElement}>} */
     this.inputs = {};
     for (const name of Object.keys(LABELS)) {
       this.inputs[name] = field({ label: LABELS[name] });
-      this.inputs[name].input.value = this._begin(given[name] || "");
+      this.inputs[name].input.value = this._begin(values[name] || "");
     }
     const off = element("button", { type: "button", onclick: remove }, "Remove");
     const places = element("div", { class: "places" }, ...Object.values(this.inputs).map(({ root }) => root));
@@ -120,22 +120,22 @@ class VaryRow {
     const [, names] = KINDS[this.kind.value];
     for (const [name, { root }] of Object.entries(this.inputs)) root.hidden = !(names.includes(name) || (name === "count" && !drawn && this.kind.value !== "list"));
     this.meaning.textContent = `${known.meaning}${known.now ? ` Now ${known.now}.` : ""}`;
-    const said = known.choices.length ? `of ${known.choices.join(", ")}` : known.unit ? `in ${known.unit}, or with a unit` : "with commas between them";
-    this.inputs.values.said.textContent = said;
+    const hint = known.choices.length ? `of ${known.choices.join(", ")}` : known.unit ? `in ${known.unit}, or with a unit` : "with commas between them";
+    this.inputs.values.hint.textContent = hint;
     this.inputs.values.input.placeholder = known.choices.slice(0, 2).join(", ");
     const at = `vary.${known.path}`;
     this.root.dataset.field = at;
     const name = `${known.block}: ${known.label}`;
     this.root.setAttribute("aria-label", name);
     this.off.setAttribute("aria-label", `Remove ${name}`);
-    for (const [each, { root }] of Object.entries(this.inputs)) root.dataset.field = each === "values" ? `${at}[` : `${at}.${each}`;
+    for (const [name, { root }] of Object.entries(this.inputs)) root.dataset.field = name === "values" ? `${at}[` : `${at}.${name}`;
   }
 
   read() {
     const [, names] = KINDS[this.kind.value];
     /** @type {Record<string, string>} */
-    const found = { path: this.path.value, kind: this.kind.value };
-    for (const [name, { root, input }] of Object.entries(this.inputs)) found[name] = !root.hidden && (names.includes(name) || name === "count") ? input.value : "";
-    return found;
+    const row = { path: this.path.value, kind: this.kind.value };
+    for (const [name, { root, input }] of Object.entries(this.inputs)) row[name] = !root.hidden && (names.includes(name) || name === "count") ? input.value : "";
+    return row;
   }
 }

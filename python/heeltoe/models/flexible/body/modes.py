@@ -165,8 +165,8 @@ class Basis:
     def _truncated(self, keep: int) -> tuple[Floats, Floats]:
         import scipy.linalg
 
-        found = lowest(self._stiffness, self._mass, keep + self._rigid.shape[1], self._shift, self._factors.solve)
-        squares, shapes = self._with_rigid(*found)
+        eigenpairs = lowest(self._stiffness, self._mass, keep + self._rigid.shape[1], self._shift, self._factors.solve)
+        squares, shapes = self._with_rigid(*eigenpairs)
         static = self._static
         for _ in range(2):  # the second time takes away what rounding has left
             static = static - _projected(static, shapes, self._mass)

@@ -213,7 +213,7 @@ def _from_file(path: Path, section: CutSection, area: float, *, above: bool) -> 
     if right <= 0.0 or left >= section.crack_width or abs(edge) > max(top - bottom, section.crack_width):
         (left, bottom), (right, top) = nodes.min(axis=0), nodes.max(axis=0)
         result = f"x from {left:g} to {right:g} m, z from {bottom:g} to {top:g} m"
-        raise InputError("mesh-far", name, result, crack=_said(section))
+        raise InputError("mesh-far", name, result, crack=_crack_place(section))
     mesh = _body(nodes, elements, section, name, above=above)
     # Exactly on the line, so that the two faces of the crack touch.
     along = places[mesh.crack, 0]
@@ -236,7 +236,7 @@ def _from_file(path: Path, section: CutSection, area: float, *, above: bool) -> 
     return mesh
 
 
-def _said(section: CutSection) -> str:
+def _crack_place(section: CutSection) -> str:
     (heel, bottom), (toe, top) = section.heel, section.toe
     if bottom == top:
         return f"x from {heel:g} to {toe:g} m at z = {bottom:g} m"
@@ -261,7 +261,7 @@ def _body(nodes: Floats, elements: Integers, section: CutSection, name: str, *, 
         side = places[:, 1].min() if above else places[:, 1].max()
         width = nodes[np.abs(places[:, 1] - side) <= slack]
         result = f"x from {width[:, 0].min():g} to {width[:, 0].max():g} m at z = {width[0, 1]:g} m"
-        raise InputError("mesh-crack", name, result, crack=_said(section), side="lower" if above else "upper")
+        raise InputError("mesh-crack", name, result, crack=_crack_place(section), side="lower" if above else "upper")
     crack, rest = path[: last + 1], path[last:]
     heights = nodes[rest, 1]
     far = np.flatnonzero(np.abs(heights - (heights.max() if above else heights.min())) <= slack)

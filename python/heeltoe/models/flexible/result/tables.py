@@ -22,7 +22,7 @@ from heeltoe.models.flexible.result.history import CrackHistory, watched_nodes
 from heeltoe.models.flexible.result.response import ElasticCrackResponse
 from heeltoe.models.flexible.result.water import face_pressures
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
-from heeltoe.models.flexible.run.slip_history import law_found, sliding_friction, worn_of
+from heeltoe.models.flexible.run.slip_history import law_result, sliding_friction, worn_of
 from heeltoe.result.contract import slip_by_mode, time_by_mode
 from heeltoe.result.crest import crest_histories
 from heeltoe.result.numbers import (
@@ -126,7 +126,7 @@ def crack_numbers(
         before_shaking=start_of(dam, place) if case.flexible.contact == "coulomb" else None,
         penetration_m=Penetration(watched=raw.penetration, any_in_frames=history.deepest_penetration()),
         evidence=None if evidence is None else evidence.numbers(),
-        friction_law=None if worn is None else law_found(worn, run, place),
+        friction_law=None if worn is None else law_result(worn, run, place),
         joint=bond_of(case, dam, run, place),
     )
     # Where single runs scatter, what is shown first is the mean of several.

@@ -19,7 +19,7 @@ from heeltoe.models.flexible.result.envelope import (
     tension_before,
 )
 from heeltoe.result.numbers import StressPlace, TensileStrength, Tension, TensionByMesh
-from heeltoe.result.tension import place_said
+from heeltoe.result.tension import place_phrase
 from heeltoe.warnings.notice import Notice
 
 # What a part of the dam is called.
@@ -70,7 +70,7 @@ def tension_warnings(tension: Tension | None) -> Iterator[Notice]:
             time_s=tension.time_s,
             stress_pa=tension.stress_pa,
             strength_pa=strength.dynamic_pa,
-            where=place_said(tension),
+            where=place_phrase(tension),
             z_m=tension.z_m,
             share=strength.share_beyond,
         )

@@ -93,12 +93,12 @@ def worn_of(alone: Case, place: int, dam: FlexibleDam, run: DamRun) -> Worn | No
     return Worn(alone.crack.law, length, np.maximum(force, 0.0) / length, *(values[own] for values in through))
 
 
-def law_found(worn: Worn, run: DamRun, place: int) -> ElasticFrictionLaw:
+def law_result(worn: Worn, run: DamRun, place: int) -> ElasticFrictionLaw:
     """Return what a law has come to: how far the crack has slipped, and its friction under the static loads before and
     after that, on the whole and of its contacts."""
     path = worn.path - worn.path_before
-    before, of_each_before = worn.apparent(worn.path_before, worn.bonded_before)
-    after, of_each_after = worn.apparent(worn.path, worn.bonded)
+    before, range_before = worn.apparent(worn.path_before, worn.bonded_before)
+    after, range_after = worn.apparent(worn.path, worn.bonded)
     left = worn.borne(worn.path, worn.bonded) - worn.borne(worn.path, np.zeros_like(worn.path))
     cohesive = worn.law.cohesion is not None
     return ElasticFrictionLaw(
@@ -108,9 +108,9 @@ def law_found(worn: Worn, run: DamRun, place: int) -> ElasticFrictionLaw:
         normal_stress_pa=worn.mean(worn.stress),
         normal_stress_range_pa=[float(worn.stress.min()), float(worn.stress.max())],
         apparent_friction_before=before,
-        apparent_friction_before_range=of_each_before,
+        apparent_friction_before_range=range_before,
         apparent_friction_after=after,
-        apparent_friction_after_range=of_each_after,
+        apparent_friction_after_range=range_after,
         cohesion_left_pa=worn.mean(left) if cohesive else None,
         bond_energy_j=run.summaries[place].bond_energy if cohesive else None,
         surface=worn.law.surface,

@@ -131,7 +131,7 @@ def _advice(blocks: list[Block], run: StackRun, outcome: str, asked: int) -> Sen
     advice = advice_of(blocks[place], run.cracks[1 - place], outcome)
     if advice is None or outcome not in ADVICE:
         return advice
-    return Sentence.of("at the crack at {at_m:g m}: {said}", at_m=_elevation(blocks[place]), said=advice)
+    return Sentence.of("at the crack at {at_m:g m}: {advice}", at_m=_elevation(blocks[place]), advice=advice)
 
 
 def _elevation(block: Block) -> float:

@@ -67,7 +67,7 @@ def draw_stresses(axes: Axes, load_case: LoadCase, units: Units) -> None:
         f"distance from the heel along the crack [{length.unit}]; grey: middle third, light grey: middle half"
     )
     axes.grid(visible=False)
-    beside(axes, _said(load_case, units))
+    beside(axes, _label(load_case, units))
 
 
 def _beyond(load_case: LoadCase) -> float:
@@ -76,7 +76,7 @@ def _beyond(load_case: LoadCase) -> float:
     return min(max(place, -0.3 * load_case.contact_to_m), 1.3 * load_case.contact_to_m)
 
 
-def _said(load_case: LoadCase, units: Units) -> str:
+def _label(load_case: LoadCase, units: Units) -> str:
     """Say where the resultant is and how far the crack is open."""
     length = units.scale("length")
     if load_case.resultant_from_heel_m is None or load_case.eccentricity_m is None:
