@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shlex
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -89,6 +90,10 @@ JsonPath = Annotated[str | None, typer.Option("--json", metavar="FILE|-", help="
 Workbook = Annotated[
     bool, typer.Option("--xlsx", help="Write the tables as a workbook for spreadsheets, with units, into --out.")
 ]
+MotionSource = Annotated[
+    str | None, typer.Option(metavar="FILE-or-NAME", help="Ground motion to use instead of that of the case.")
+]
+Peak = Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")]
 Details = Annotated[bool, typer.Option("--details", help="Print all results, not only the most important ones.")]
 UnitsName = Annotated[
     str, typer.Option("--units", metavar="si|us", help="Units of text and figures; JSON and tables stay SI.")
@@ -124,6 +129,39 @@ def as_given(motion: str) -> str:
     """A path on the command line is relative to where the user stands, not to the case file."""
     path = Path(os.path.expanduser(motion))  # unlike that of paths, it leaves nobody's home as it is
     return str(path.resolve()) if os.path.isfile(path) else motion
+
+
+def motion_changes(motion: str | None, **fields: str | None) -> list[str]:
+    """Return the changes of a case that the options of its motion make."""
+    options = {"file": motion and json.dumps(as_given(motion)), **fields}
+    return [f"motion.{name}={value}" for name, value in options.items() if value is not None]
+
+
+def refuse(options: Mapping[str, Any], code: str) -> None:
+    """Refuse the first of some options that is there."""
+    for option, value in options.items():
+        if value:
+            raise InputError(code, option)
+
+
+def check_written(out: Path | None, *, report: bool, xlsx: bool, others: Mapping[str, bool]) -> None:
+    """Refuse a report or a workbook that cannot be made, and what of a workbook and `others` has nowhere to go."""
+    if report:
+        from heeltoe.views.report.write import check_packages
+
+        check_packages()
+    if xlsx:
+        from heeltoe.views.files.workbook import check_workbook
+
+        check_workbook()
+    for option, ticked in {"--xlsx": xlsx, **others}.items():
+        if ticked and out is None and not report:
+            raise InputError("needs-other", option, other="--out or --report")
+
+
+def removed_files(place: Path | None, earlier: Sequence[str]) -> list[Path]:
+    """Return which of the files of an earlier run are gone."""
+    return [] if place is None else [place / name for name in earlier if not (place / name).exists()]
 
 
 def check_json(json_: str | None) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Annotated
 
@@ -17,10 +16,12 @@ from heeltoe.cli.common import (
     Changes,
     Details,
     JsonPath,
-    as_given,
+    MotionSource,
+    Peak,
     check_json,
     check_units,
     finish,
+    motion_changes,
     status,
     units_of,
 )
@@ -117,10 +118,8 @@ def animate(
     ] = 1.0,
     from_: Annotated[str, typer.Option("--from", metavar="0s", help="Time at which to start.")] = "0 s",
     until: Annotated[str | None, typer.Option(metavar="20s", help="Time at which to end.")] = None,
-    motion: Annotated[
-        str | None, typer.Option(metavar="FILE-or-NAME", help="Ground motion to use instead of that of the case.")
-    ] = None,
-    pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
+    motion: MotionSource = None,
+    pga: Peak = None,
     set_: Changes = None,
     units: CaseUnits = None,
 ) -> None:
@@ -142,10 +141,7 @@ def animate(
     end = None if until is None else parse(until, "duration", "--until")
     check_options(place, exaggerate=many, frames_per_second=fps, speed=speed)
     check_file(place, "--to")
-    changes = list(set_ or [])
-    options = (("file", motion and json.dumps(as_given(motion))), ("pga", pga))
-    changes += [f"motion.{name}={value}" for name, value in options if value is not None]
-    loaded = read_case(case, changes)
+    loaded = read_case(case, [*(set_ or []), *motion_changes(motion, pga=pga)])
     with status() as say:
         began = perf_counter()
         say("running")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,16 +18,21 @@ from heeltoe.cli.common import (
     Changes,
     Details,
     JsonPath,
+    MotionSource,
+    Peak,
     Workbook,
-    as_given,
     check_json,
     check_units,
+    check_written,
     command_line,
     finish,
+    motion_changes,
+    refuse,
+    removed_files,
     status,
     units_of,
 )
-from heeltoe.cli.suite import Suite, refuse, run_suite_command
+from heeltoe.cli.suite import Suite, run_suite_command
 from heeltoe.errors.error import InputError
 
 if TYPE_CHECKING:
@@ -64,10 +68,8 @@ def run(
             help="Model of the dam; auto: elastic with a rigid block beside it if the case has a modulus.",
         ),
     ] = "auto",
-    motion: Annotated[
-        str | None, typer.Option(metavar="FILE-or-NAME", help="Ground motion to use instead of that of the case.")
-    ] = None,
-    pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
+    motion: MotionSource = None,
+    pga: Peak = None,
     reverse: Annotated[bool, typer.Option("--reverse", help="Reverse the sign of the motion.")] = False,
     duration: Annotated[str | None, typer.Option(metavar="30s", help="Length of the run.")] = None,
     set_: Changes = None,
@@ -167,12 +169,7 @@ def run(
         run_suite_command(case, read_case(case, changes), pga, suite, request)
         return
     refuse(suite.options(), "suite-needs")
-    options = (
-        ("motion.file", motion and json.dumps(as_given(motion))),
-        ("motion.pga", pga),
-        ("motion.duration", duration),
-    )
-    changes += [f"{name}={value}" for name, value in options if value is not None]
+    changes += motion_changes(motion, pga=pga, duration=duration)
     _run(case, changes, reverse, output_step, request)
 
 
@@ -203,26 +200,11 @@ class Asked:
 
         check_model(self.model, "--model")
         check_units(self.units)
-        if self.report:
-            from heeltoe.views.report.write import check_packages
-
-            check_packages()
-        if self.xlsx:
-            from heeltoe.views.files.workbook import check_workbook
-
-            check_workbook()
-            if self.out is None and not self.report:
-                raise InputError("needs-other", "--xlsx", other="--out or --report")
+        check_written(self.out, report=self.report, xlsx=self.xlsx, others={})
         if self.vtk and self.out is None and not self.report:
             raise InputError("vtk-without-out", "--vtk")
         if self.vary:
-            for option, option_value in (
-                ("--vtk", self.vtk),
-                ("--spread", self.spread is not None),
-                ("--report", self.report),
-            ):
-                if option_value:
-                    raise InputError("vary-option", option)
+            refuse({"--vtk": self.vtk, "--spread": self.spread is not None, "--report": self.report}, "vary-option")
 
     def check_elastic(self, case: Case) -> None:
         """Refuse what shows elastic parts where there are none."""
@@ -273,9 +255,14 @@ def _run(path: str, changes: Given, reverse: bool, output_step: str | None, requ
         # Files first: if they cannot be written that is all there is to say.
         earlier = [] if place is None else files(place)
         written = [] if place is None else _write(result, case, request, place, say)
-    removed = [] if place is None else [place / name for name in earlier if not (place / name).exists()]
     details = case if request.details else None
-    finish(result.to_json(), request.json, written, lambda console: show(result, console, units, details), removed)
+    finish(
+        result.to_json(),
+        request.json,
+        written,
+        lambda console: show(result, console, units, details),
+        removed_files(place, earlier),
+    )
     if not result.ok:
         raise typer.Exit(NO_RESULT)
 

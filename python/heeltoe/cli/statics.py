@@ -17,12 +17,18 @@ from heeltoe.cli.common import (
     Changes,
     Details,
     JsonPath,
+    MotionSource,
+    Peak,
     Workbook,
     as_given,
     check_json,
     check_units,
+    check_written,
     command_line,
     finish,
+    motion_changes,
+    refuse,
+    removed_files,
     status,
     units_of,
 )
@@ -53,10 +59,8 @@ def statics(
             metavar="auto|rigid|decoupled|flexible", help="Model used to compute the residual slip; overrides the case."
         ),
     ] = None,
-    motion: Annotated[
-        str | None, typer.Option(metavar="FILE-or-NAME", help="Ground motion to use instead of that of the case.")
-    ] = None,
-    pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
+    motion: MotionSource = None,
+    pga: Peak = None,
     spectrum: Annotated[
         str | None,
         typer.Option(
@@ -91,9 +95,7 @@ def statics(
     request = _Asked(slip, model, motion, pga, vary or [], sheet, out, report, every_section, details, xlsx, spectrum)
     request.check()
     check_units(units)
-    changes = [*(set_ or []), *([] if criteria is None else [_judged_by(criteria)])]
-    options = (("file", motion and json.dumps(as_given(motion))), ("pga", pga))
-    changes += [f"motion.{name}={value}" for name, value in options if value is not None]
+    changes = [*(set_ or []), *([] if criteria is None else [_judged_by(criteria)]), *motion_changes(motion, pga=pga)]
     _statics(case, changes, json_, units, request)
 
 
@@ -130,27 +132,10 @@ class _Asked:
         for option, option_value in (("--model", self.model), ("--motion", self.motion), ("--pga", self.pga)):
             if self.slip is not None and option_value is not None:
                 raise InputError("contradiction", "--slip", self.slip, other=f"{option} {option_value}")
-        if self.report:
-            from heeltoe.views.report.write import check_packages
-
-            check_packages()
-        if self.xlsx:
-            from heeltoe.views.files.workbook import check_workbook
-
-            check_workbook()
-            if self.out is None and not self.report:
-                raise InputError("needs-other", "--xlsx", other="--out or --report")
-        if self.every_section and self.out is None and not self.report:
-            raise InputError("needs-other", "--every-section", other="--out or --report")
-        options = (
-            ("--report", self.report),
-            ("--sheet", self.sheet),
-            ("--every-section", self.every_section),
-            ("--xlsx", self.xlsx),
-        )
-        for option, ticked in options:
-            if self.vary and ticked:
-                raise InputError("vary-option", option)
+        check_written(self.out, report=self.report, xlsx=self.xlsx, others={"--every-section": self.every_section})
+        if self.vary:
+            options = {"--report": self.report, "--sheet": self.sheet}
+            refuse({**options, "--every-section": self.every_section, "--xlsx": self.xlsx}, "vary-option")
 
     def after(self) -> After:
         """Return where the slip of the post-seismic case comes from."""
@@ -168,7 +153,7 @@ def _statics(path: str, changes: list[str], json_: str | None, units: str | None
     """Read the case with its changes, judge it, write and show what is asked for."""
     from heeltoe.case.read import read_case
     from heeltoe.study.small.run_table import parse_axes
-    from heeltoe.study.small.statics import judge, statics_json, statics_table
+    from heeltoe.study.small.statics import StaticsTable, judge, statics_json, statics_table
     from heeltoe.views.terminal.statics import print_sections, print_statics_table
 
     loaded, after = read_case(path, changes), request.after()
@@ -180,24 +165,22 @@ def _statics(path: str, changes: list[str], json_: str | None, units: str | None
         check_directory(place, "--out", OWN)
     check_json(json_)
     earlier = [] if place is None else files(place)
-    written: list[Path] = []
     with status() as say:
+        results: Joints | StaticsTable
         if request.vary:
-            table = statics_table(path, changes, parse_axes(request.vary), after, say, spectrum=request.spectrum)
-            written = [] if place is None else _write(table, loaded, request, place, shown, say)
+            results = statics_table(path, changes, parse_axes(request.vary), after, say, spectrum=request.spectrum)
         else:
             results = judge(loaded, after, say, spectrum=request.spectrum)
-            written = [] if place is None else _write(results, loaded, request, place, shown, say)
-    removed = [] if place is None else [place / name for name in earlier if not (place / name).exists()]
-    if request.vary:
-        finish(table.to_json(), json_, written, lambda console: print_statics_table(table, console, shown), removed)
-    else:
-        data = statics_json(results)
+        written = [] if place is None else _write(results, loaded, request, place, shown, say)
 
-        def show(console: Console) -> None:
+    def show(console: Console) -> None:
+        if isinstance(results, StaticsTable):
+            print_statics_table(results, console, shown)
+        else:
             print_sections(results, console, shown, sheet=request.sheet, details=request.details)
 
-        finish(data, json_, written, show, removed)
+    data = results.to_json() if isinstance(results, StaticsTable) else statics_json(results)
+    finish(data, json_, written, show, removed_files(place, earlier))
 
 
 def _write(

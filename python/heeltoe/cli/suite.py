@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -53,13 +53,6 @@ class Suite:
             "judge": self.judge,
             "vertical": self.vertical or None,
         }
-
-
-def refuse(options: Mapping[str, Any], code: str) -> None:
-    """Refuse the first of some options that is there."""
-    for option, value in options.items():
-        if value:
-            raise InputError(code, option)
 
 
 def run_suite_command(path: str, case: Case, pga: str | None, suite: Suite, request: Asked) -> None:
