@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heeltoe.kernel.block import BLOCK, block
+from heeltoe.kernel.block import BLOCK, StackRun, block, run_stack
 from heeltoe.kernel.shaking import Shaking
-from heeltoe.kernel.stack import StackRun, run_stack
 
 GRAVITY = 9.80665
 DENSITY = 2400.0

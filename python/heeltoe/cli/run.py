@@ -290,7 +290,7 @@ def _write(
 ) -> list[Path]:
     """Write files and report; what asks for a report alone has its figures in it."""
     from heeltoe.study.small.run_table import SmallStudy
-    from heeltoe.views.files.write import figures_of, write_run
+    from heeltoe.views.files.write import figures_of, write_all
 
     say("writing")
     units = units_of(case, request.units)
@@ -310,4 +310,4 @@ def _write(
         write_kinds(build_report(case, result, units=units, command=command_line(), figures=figures), fresh)
 
     shown = figures if request.out else {}
-    return write_run(result, place, shown, suffix=request.suffix, vtk=request.vtk, report=report)
+    return write_all(result, place, figures=shown, suffix=request.suffix, vtk=request.vtk, report=report)

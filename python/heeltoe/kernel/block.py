@@ -1,4 +1,4 @@
-"""A rigid block: its numbers, how it is run, what it did."""
+"""Rigid blocks, alone or two of them one on the other: their numbers, how they are run, what they did."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from heeltoe.kernel.shaking import Shaking
 #: What runs return.
 BlockRun = _kernel.BlockRun
 BlockSummary = _kernel.BlockSummary
+StackRun = _kernel.StackRun
 #: Names of the numbers of a block, in the order of the kernels.
 BLOCK = tuple(_kernel.BLOCK_FIELDS)
 #: Names of the numbers of what changes as a block moves.
@@ -181,3 +182,23 @@ def run_blocks(
     settle, most, jam = limits.settle, limits.event_limit, limits.jam
     looked_at = () if crest is None else (crest,)
     return _kernel.run_rigid_many(blocks, motions, which, scales, settle, most, jam, threads, *looked_at)
+
+
+def run_stack(
+    blocks: tuple[Floats, Floats], place: Floats, shaking: Shaking, moments: Floats, limits: Limits = USUAL
+) -> StackRun:
+    """Run two blocks, exactly from event to event.
+
+    Parameters
+    ----------
+    blocks
+        (21,) numbers in the order of :data:`BLOCK`: all above the lower crack as one block, and
+        what is above the upper one.
+    place
+        (3,) where the upper block is, see :func:`heeltoe.models.rigid.stack.model.place_of`.
+    shaking, moments, limits
+        As of :func:`run_block`.
+    """
+    time, horizontal, up = shaking.time, shaking.horizontal, shaking.up
+    settle, most, jam = limits.settle, limits.event_limit, limits.jam
+    return _kernel.run_rigid_stack(*blocks, place, time, horizontal, up, moments, settle, most, jam)

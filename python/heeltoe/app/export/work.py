@@ -111,7 +111,7 @@ def make(say: Callable[..., None], folder: Path, options: Wanted) -> dict[str, A
     from heeltoe.models.run import cost_of
     from heeltoe.study.small.analysis import analyse
     from heeltoe.views.animation.write import animate
-    from heeltoe.views.files.write import figures_of, write_run
+    from heeltoe.views.files.write import figures_of, write_all
     from heeltoe.views.report.write import build_report, check_packages, write_kinds
 
     if options.report:
@@ -129,7 +129,7 @@ def make(say: Callable[..., None], folder: Path, options: Wanted) -> dict[str, A
             built = build_report(case, result, units=options.units, command=command(options), figures=figures)
             write_kinds(built, fresh)
 
-    write_run(result, folder / OUT, figures, suffix=options.suffix, report=report)
+    write_all(result, folder / OUT, figures=figures, suffix=options.suffix, report=report)
     if options.animation and result.histories:
         say("drawing the animation")
         animate(case.with_({"units": options.units}), result, folder / OUT / "animation.html")

@@ -70,6 +70,7 @@ def write_all(
     suffix: str = ".parquet",
     vtk: bool = False,
     figures: Mapping[str, Figure] | None = None,
+    report: Callable[[Path], object] | None = None,
 ) -> list[Path]:
     """Write a result with its histories and figures.
 
@@ -97,6 +98,8 @@ def write_all(
     figures
         Figures of the result, drawn before; none of them where this is empty, as where a report holds them. They are
         drawn here where it is not given.
+    report
+        Writes a report into a directory. An earlier report goes where this is given, and stays where it is not.
 
     Returns
     -------
@@ -110,26 +113,10 @@ def write_all(
         unknown, or what VTK files need is not installed.
     """
     drawn = figures_of(result, case, units) if figures is None else figures
-    return write_run(result, directory, drawn, suffix=suffix, vtk=vtk)
-
-
-def write_run(
-    result: Response | SmallStudy,
-    directory: Path,
-    figures: Mapping[str, Figure],
-    *,
-    suffix: str = ".parquet",
-    vtk: bool = False,
-    report: Callable[[Path], object] | None = None,
-) -> list[Path]:
-    """Write a result as :func:`write_all`, with these figures and what `report` writes into a directory.
-
-    An earlier report goes where this is given, and stays where it is not.
-    """
 
     def write(fresh: Path) -> None:
         _write(result, fresh, suffix, vtk)
-        save_all(figures, fresh)
+        save_all(drawn, fresh)
         if report:
             report(fresh)
 

@@ -15,8 +15,6 @@ from heeltoe.base.arrays import Floats
 from heeltoe.result.response import Response
 
 _WAYS = ("downstream", "upstream")
-# Whose acceleration it is where that is not the ground's below the block itself.
-_OF = {"flexible": " (rigid block)", "decoupled": ", of the crack's own horizontal motion alone"}
 
 
 @dataclass(frozen=True)
@@ -62,7 +60,7 @@ def starts(response: Response) -> dict[tuple[str, str], Start]:
     """Return where sliding and rocking start, each way, by kind and way."""
     limits, slopes = (response.static[f"critical_acceleration_{key}"] for key in ("g", "per_vertical"))
     vertical = None
-    # Of the crack's own vertical motion and rotation in the decoupled chain, `of_what` says that they are left out.
+    # In the decoupled chain the crack's own vertical motion and rotation count, not those of the ground.
     if response.vertical is not None and response.model != "decoupled":
         up = response.vertical.acceleration / response.gravity
         vertical = (min(0.0, float(up.min())), max(0.0, float(up.max())))
@@ -80,11 +78,6 @@ def first_starts(response: Response) -> tuple[Start, Start]:
         min((first[kind, way] for kind in ("sliding", "rocking")), key=lambda start: start.value) for way in _WAYS
     )
     return down, up
-
-
-def of_what(response: Response) -> str:
-    """Say whose acceleration that is, where it is not simply the ground's."""
-    return _OF.get(response.model, "")
 
 
 def first_starts_in_words(response: Response) -> str:

@@ -57,16 +57,16 @@ export function studiesPage(talk) {
     talk.ask("study form");
   }
 
-  /** @param {any[]} studies */
-  function show(studies) {
-    const kept = new Set(studies.map((study) => study.number));
+  /** @param {any[]} rows */
+  function show(rows) {
+    const kept = new Set(rows.map((study) => study.number));
     for (const [number, study] of studies) {
       if (kept.has(number)) continue;
       study.root.remove();
       studies.delete(number);
       if (answer.dataset.study === String(number)) answer.replaceChildren();
     }
-    for (const study of studies) {
+    for (const study of rows) {
       const known = studies.get(study.number);
       if (known) known.job = study.job;
       else {

@@ -99,7 +99,13 @@ class Basis:
         return Modes(squares, shapes, rigid, kept, self._free.size, truncated)
 
     def error(self, modes: Modes, circular: float) -> float:
-        """Return what :func:`residual_error` does."""
+        """Return the relative error of the crack's compliance that is due to the modes left out, growing at s [1/s].
+
+        The compliance under forces that grow like exp(s t), ``E^T (K + s^2 M)^-1 E`` with unit forces E on the crack
+        nodes, has no resonances. It is compared with a direct solution, pattern of forces by pattern of forces; the
+        pattern with the largest error counts, from 0 (none but rounding) to 1 (nothing of it is left). A measure at a
+        frequency that follows the modes kept would not see how few they are.
+        """
         import scipy.linalg
 
         if not modes.truncated:
@@ -202,28 +208,6 @@ def error_frequency(first: float) -> float:
     intact dam. The slip of the typical dam changes by 0.5 % with 12 modes, which leave an error of 16 % there, and by
     0.02 % with 50, which leave 1 to 2 %."""
     return _RANGE * first
-
-
-def residual_error(body: Body, modes: Modes, circular: float) -> float:
-    """Return the relative error of the crack's compliance that is due to the modes left out.
-
-    The compliance under forces that grow like exp(s t), ``E^T (K + s^2 M)^-1 E`` with unit forces E on the crack nodes,
-    has no resonances. It is compared with a direct solution, pattern of forces by pattern of forces. A measure at a
-    frequency that follows the modes kept would not see how few they are.
-
-    Parameters
-    ----------
-    body, modes
-        A body, and the modes in question.
-    circular
-        s [1/s].
-
-    Returns
-    -------
-    float
-        For the pattern of forces with the largest error, from 0 (none but rounding) to 1 (nothing of it is left).
-    """
-    return Basis(body).error(modes, circular)
 
 
 def part_periods(modes: Modes, count: int = 5) -> Floats:

@@ -10,8 +10,8 @@ import numpy as np
 from heeltoe.base.arrays import Floats
 from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
+from heeltoe.kernel.block import StackRun, run_stack
 from heeltoe.kernel.shaking import Shaking
-from heeltoe.kernel.stack import StackRun, run_stack
 from heeltoe.mechanics.block import Block, build_block, instability
 from heeltoe.models.rigid.model import moments_of
 from heeltoe.models.rigid.tables import crack_response, energy_of, references_of, with_crest
