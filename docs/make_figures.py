@@ -11,8 +11,7 @@ from heeltoe.study.small.run_table import parse_axes, run_small
 from heeltoe.validation.blocks.joints import BEAM_ENERGY, FIRST_PART, MEASURED, TAKEN_ENERGY, bend_beam
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.histories import response_figure
-from heeltoe.views.figures.overturning import overturning_figure
-from heeltoe.views.figures.runs import slips_figure
+from heeltoe.views.figures.runs import overturning_figure, slips_figure
 from heeltoe.views.figures.style import STYLE
 from heeltoe.views.figures.write import save
 

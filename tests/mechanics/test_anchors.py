@@ -9,7 +9,7 @@ from heeltoe import rigid
 from heeltoe.case.at_crack import AnchorAtCrack
 from heeltoe.mechanics.anchors import anchor_force
 from heeltoe.views.figures.anchors import anchor_figure
-from heeltoe.views.figures.bearing import bearing_figure, edge_stresses
+from heeltoe.views.figures.histories import bearing_figure, edge_stresses
 from shared.dams import example
 from shared.drawn import check
 

@@ -15,7 +15,7 @@ from heeltoe.views.figures.all import all_figures
 from heeltoe.views.figures.stress.tension import tension_figure
 from heeltoe.views.report.html import html
 from heeltoe.views.report.write import build_report
-from heeltoe.views.words.tension import tension_line, tension_worth
+from heeltoe.views.words.response import tension_line, tension_worth
 from shared.dams import BASE, COARSE, ENDS, HEIGHT
 from shared.drawn import check, texts
 from shared.report_reader import Reader

@@ -164,19 +164,19 @@ def spread_of(
     """Return the same run with weaker and stronger shaking, as a table."""
     from heeltoe.models.run import earthquake, flexible, live
     from heeltoe.study.small.spread import with_spread
-    from heeltoe.views.words.spread import COLUMNS, spread_rows, spread_sentence
+    from heeltoe.views.words.response import SPREAD_COLUMNS, spread_rows, spread_sentence
 
     changed = case.with_(changes) if changes else case
     say(f"running the {model} model")
     response = flexible(changed) if model == "flexible" else live(changed, model, earthquake(changed))
     if not response.summary:
-        return {"model": model, "columns": COLUMNS, "rows": [], "sentence": response.outcome, "warnings": []}
+        return {"model": model, "columns": SPREAD_COLUMNS, "rows": [], "sentence": response.outcome, "warnings": []}
     spread = with_spread(response, changed, progress=lambda done, of: say(f"{done} of {of} runs"))
     before = {meant(warning, units) for warning in response.warnings}
     warnings = [meant(warning, units) for warning in spread.warnings]
     return {
         "model": model,
-        "columns": COLUMNS,
+        "columns": SPREAD_COLUMNS,
         "rows": spread_rows(spread, units),
         "sentence": spread_sentence(spread, units),
         "warnings": [warning for warning in warnings if warning not in before],

@@ -22,9 +22,7 @@ from heeltoe.units.write import angle, length, measured
 from heeltoe.views.animation.page import packed, part_data
 from heeltoe.views.figures.panels import pieces
 from heeltoe.views.figures.style import shaken_by
-from heeltoe.views.words import cracks as crack_words
-from heeltoe.views.words import sequence as sequence_words
-from heeltoe.views.words.law import law_lines
+from heeltoe.views.words.response import CRACK_COLUMNS, SEQUENCE_COLUMNS, crack_rows, law_lines, sequence_rows
 
 # Stretches of a history of which each has its peaks drawn: as many as a large screen has room for.
 _BINS = 400
@@ -126,9 +124,9 @@ def _numbers(response: Response, units: str) -> list[dict[str, str]]:
 def _tables(response: Response, units: str) -> Iterator[tuple[str, Sequence[str], list[list[str]]]]:
     """Walk what a response tells row by row: of several cracks, of several motions."""
     if response.several:
-        yield "Each crack, from the crest down", crack_words.COLUMNS, crack_words.crack_rows(response, units)
+        yield "Each crack, from the crest down", CRACK_COLUMNS, crack_rows(response, units)
     if response.sequence:
-        yield "Motion by motion", sequence_words.COLUMNS, sequence_words.sequence_rows(response, units)
+        yield "Motion by motion", SEQUENCE_COLUMNS, sequence_rows(response, units)
 
 
 def _curves(response: Response, units: str) -> dict[str, Any]:

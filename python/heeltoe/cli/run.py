@@ -32,7 +32,7 @@ from heeltoe.cli.common import (
     status,
     units_of,
 )
-from heeltoe.cli.suite import Suite, run_suite_command
+from heeltoe.cli.many import Suite, run_suite_command
 from heeltoe.errors.error import InputError
 
 if TYPE_CHECKING:

@@ -411,7 +411,7 @@ def _sequence(case: Case, response: R) -> tuple[R, tuple[Notice, ...]]:
     """Add what each motion of a sequence does, and return what is to be said of it."""
     if not response.motion.parts or not response.started:
         return response, ()
-    from heeltoe.models.statics.between import about_the_sequence, judged_stages
+    from heeltoe.models.statics.after import about_the_sequence, judged_stages
 
     followed = response.drainage_by_motion is not None
     if not case.further_cracks:

@@ -19,7 +19,7 @@ from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.write import digits
 from heeltoe.views.words.fields import fields
 from heeltoe.views.words.numbers import Numbers, Value
-from heeltoe.views.words.warnings import listed
+from heeltoe.views.words.response import listed
 
 _WIDTH, _HEIGHT = 420, 90
 # A column of pixels shows no more than the least and the most in it.

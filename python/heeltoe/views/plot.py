@@ -67,7 +67,7 @@ def _(response: Response, units: str) -> Mapping[str, Figure]:
 @_figures.register
 def _(solved: Solved, units: str) -> Mapping[str, Figure]:
     from heeltoe.views.content.solve import field_scale
-    from heeltoe.views.figures.solve import solve_figure
+    from heeltoe.views.figures.runs import solve_figure
 
     return _one("solve", lambda: solve_figure(solved, field_scale(solved, units), units))
 
@@ -103,6 +103,6 @@ def _(statics: Statics, units: str) -> Mapping[str, Figure]:
 
 @_figures.register
 def _(overturning: OverturningMap, units: str) -> Mapping[str, Figure]:
-    from heeltoe.views.figures.overturning import overturning_figure
+    from heeltoe.views.figures.runs import overturning_figure
 
     return _one("overturning", lambda: overturning_figure(overturning))

@@ -14,7 +14,7 @@ from heeltoe.mechanics.block import Block, build_block, static_state
 from heeltoe.mechanics.references import cited
 from heeltoe.models.flexible.body.cost import check_cost
 from heeltoe.models.flexible.body.reduced import FlexibleDam, build_flexible_dam
-from heeltoe.models.flexible.evidence.excitation import self_excitation
+from heeltoe.models.flexible.evidence.growth import self_excitation
 from heeltoe.models.flexible.evidence.refinement import Answer, answer
 from heeltoe.models.flexible.result.envelope import envelope_of
 from heeltoe.models.flexible.result.response import FlexibleResponse

@@ -24,7 +24,7 @@ from heeltoe.views.content.tree import (
     paragraph,
     without_gaps,
 )
-from heeltoe.views.words.warnings import listed
+from heeltoe.views.words.response import listed
 from heeltoe.warnings.notice import Notice
 
 # Static checks that are not met and have room on page one; the others are counted there.

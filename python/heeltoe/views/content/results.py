@@ -10,11 +10,16 @@ from heeltoe.units.sentences import written
 from heeltoe.views.content.drawings import in_rows
 from heeltoe.views.content.subject import Subject
 from heeltoe.views.content.tree import Block, Inline, Section, Table, paragraph
-from heeltoe.views.words.law import law_line, roughness_line
 from heeltoe.views.words.numbers import Value
-from heeltoe.views.words.sequence import COLUMNS, sequence_rows
+from heeltoe.views.words.response import (
+    SEQUENCE_COLUMNS,
+    law_line,
+    roughness_line,
+    sequence_rows,
+    tension_line,
+    tension_worth,
+)
 from heeltoe.views.words.starts import starts
-from heeltoe.views.words.tension import tension_line, tension_worth
 
 _ROWS: tuple[tuple[str, str, str | None], ...] = (
     ("Slip while sliding", "slip_by_mode_m.sliding", "displacement"),
@@ -323,5 +328,5 @@ def _sequence(subject: Subject) -> list[Block]:
         rows = tuple(map(tuple, sequence_rows(run.response, subject.units)))
         if rows:
             caption = f"Motion by motion, {run.name}; slips from before the first one, + downstream."
-            blocks.append(Table(COLUMNS, rows, caption, "l" + "r" * (len(COLUMNS) - 1)))
+            blocks.append(Table(SEQUENCE_COLUMNS, rows, caption, "l" + "r" * (len(SEQUENCE_COLUMNS) - 1)))
     return blocks

@@ -14,14 +14,14 @@ from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.anchors import anchor_figure, moving_anchors
-from heeltoe.views.figures.bearing import bearing_figure
 from heeltoe.views.figures.crack_level import crack_level_figure
-from heeltoe.views.figures.crest import crest_figure
 from heeltoe.views.figures.dense import filled_in
 from heeltoe.views.figures.energy import energy_figure
 from heeltoe.views.figures.histories import (
     NO_SLIP,
     acceleration_figure,
+    bearing_figure,
+    crest_figure,
     force_figure,
     lifts_off,
     response_figure,

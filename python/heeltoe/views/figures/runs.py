@@ -1,16 +1,22 @@
-"""A table of runs as curves."""
+"""Figures of small studies: of a table of runs, of a field that was solved for, of which pulses overturn a block."""
 
 from __future__ import annotations
 
 import math
 import re
+from typing import Any
 
 import numpy as np
+from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.result.limits import LABELS
+from heeltoe.study.small.overturning import ENDS, OverturningMap
 from heeltoe.study.small.run_table import SmallStudy
-from heeltoe.units.systems import unit_system
+from heeltoe.study.small.solve import Solved
+from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import length
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.panels import largest
@@ -157,3 +163,74 @@ def _line(number: int) -> tuple[str, str]:
     """Return colour and dash of a line; with the colours used up, the same with other dashes."""
     turn, place = divmod(number, len(_LINES))
     return _LINES[place][0], _LINES[(place + turn) % len(_LINES)][1]
+
+
+# What lies this far above the limit does not decide how high the figure is.
+_HIGHEST = 5.0
+
+
+@styled
+def solve_figure(solved: Solved, scale: Scale, units: str = "si") -> Figure:
+    """Draw the result by the worse sign over the field, the limit, and the crossings; `scale` is that of the field."""
+    figure = Figure(figsize=(WIDTH, 4.0), layout="constrained")
+    axes = figure.subplots()
+    known = [point for point in solved.points if point.result_m is not None]
+    results = np.array([point.result_m for point in known], dtype=np.float64)
+    high = min(float(results.max(initial=0.0)), _HIGHEST * solved.allowed_m)
+    metres = unit_system(units).scale("displacement", largest(np.array([high, solved.allowed_m])))
+    values = scale(np.array([point.value for point in known]))
+    axes.plot(values, metres(results), color=COLOURS["slip"], marker="o", markersize=3.5, label="worse sign")
+    top = 1.12 * float(metres(max(high, solved.allowed_m)))
+    beyond = [float(scale(point.value)) for point in solved.points if point.result_m is None]
+    if beyond:
+        label = "fails, or has no result"
+        axes.plot(beyond, np.full(len(beyond), 0.96 * top), "x", color=COLOURS["crack"], label=label, markersize=6)
+    axes.axhline(metres(solved.allowed_m), color=COLOURS["crack"], linewidth=1.3, label="allowed")
+    for place, crossing in enumerate(solved.crossings):
+        at, give = float(scale(crossing.value)), float(scale(crossing.give_or_take or 0.0))
+        axes.axvspan(at - give, at + give, color="#BBBBBB", alpha=0.6, linewidth=0.0)
+        label = f"just met at {at:.4g} {scale.unit}".rstrip()
+        axes.axvline(at, color="#444444", linestyle=("--", ":", "-.")[place % 3], linewidth=1.2, label=label)
+    axes.set_ylim(0.0, top)
+    axes.set_xlabel(f"{solved.field} [{scale.unit}]" if scale.unit else solved.field)
+    axes.set_ylabel(f"{LABELS[solved.limit]}, either way [{metres.unit}]")
+    axes.legend(loc="best", fontsize=8)
+    one_way = "" if solved.one_way else "; not one way"
+    heading(figure, solved.title or "Untitled case", f"{solved.model} model, {len(solved.points)} values{one_way}")
+    return figure
+
+
+# In the order of ENDS; they differ in lightness, too.
+_COLOURS = ("#FFFFFF", "#D9E8F5", "#E69F00", "#8C2D04", "#999999")
+
+
+@styled
+def overturning_figure(overturning: OverturningMap) -> Figure:
+    """Draw what each pulse does over its frequency and amplitude."""
+    figure = Figure(figsize=(7.0, 5.0), layout="constrained")
+    axes = figure.subplots()
+    axes.pcolormesh(
+        overturning.frequency_hz,
+        overturning.amplitude_g,
+        overturning.end.T,
+        cmap=ListedColormap(_COLOURS),
+        norm=BoundaryNorm(np.arange(len(ENDS) + 1) - 0.5, len(ENDS)),
+        shading="nearest",
+        rasterized=True,
+    )
+    axes.grid(visible=False)
+    axes.set_xlabel("frequency of the pulse [Hz]")
+    axes.set_ylabel("amplitude of the pulse [g]")
+    one = 2.0 * math.pi / overturning.frequency_parameter_1_s
+    ratio: Any = (lambda hertz: one * hertz, lambda over: over / one)
+    above = axes.secondary_xaxis("top", functions=ratio)
+    above.set_xlabel(f"circular frequency over p, p = {overturning.frequency_parameter_1_s:.3g} 1/s")
+    seen = [k for k in range(len(ENDS)) if (overturning.end == k).any()]
+    axes.legend(
+        handles=[Patch(facecolor=_COLOURS[k], edgecolor="#888888", label=ENDS[k]) for k in seen],
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.13),
+        ncols=2,
+    )
+    heading(figure, overturning.title or "Untitled case", f"one {overturning.pulse} pulse")
+    return figure

@@ -24,9 +24,7 @@ from heeltoe.views.content.solve import field_scale
 from heeltoe.views.figures.all import NAMES, all_figures
 from heeltoe.views.figures.amplification import amplification_figure
 from heeltoe.views.figures.law import law_figure
-from heeltoe.views.figures.overturning import overturning_figure
-from heeltoe.views.figures.runs import small_figures
-from heeltoe.views.figures.solve import solve_figure
+from heeltoe.views.figures.runs import overturning_figure, small_figures, solve_figure
 from heeltoe.views.figures.studies.all import study_figures
 from heeltoe.views.figures.write import save_all
 from heeltoe.views.files.statics import WORKBOOK

@@ -21,7 +21,7 @@ from heeltoe.views.content.subject import NAMES, Subject
 from heeltoe.views.terminal.render import Screen, print_title, quiet_table, render, safe
 from heeltoe.views.words.motion import sampling
 from heeltoe.views.words.numbers import Amount, Cell, Numbers, in_one_unit
-from heeltoe.views.words.warnings import listed
+from heeltoe.views.words.response import listed
 
 _MORE = "the ground motion, static loads, modes of motion, energy and convergence"
 # What a sentence names as its source, for which the report has room.

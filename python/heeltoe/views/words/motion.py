@@ -12,7 +12,7 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import measures
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.sentences import numbers, quantity
-from heeltoe.views.words.sequence import part_lines
+from heeltoe.views.words.response import part_lines
 
 
 def sampling(motion: GroundMotion) -> str:

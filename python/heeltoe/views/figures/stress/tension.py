@@ -17,7 +17,7 @@ from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.dam import dam_axes, extent
 from heeltoe.views.figures.style import COLOURS, WIDTH, describe, styled
-from heeltoe.views.words.tension import tension_line
+from heeltoe.views.words.response import tension_line
 
 _LEVELS = 8
 _UNREAD = "#E4E4E4"
