@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from heeltoe.units.sentences import quantity
 from heeltoe.units.write import NOTHING
-from heeltoe.views.content.subject import Subject
+from heeltoe.views.content.subject import Labels, Subject
 from heeltoe.views.content.tree import Block, Inline, Notes, Section, Strong, Table, glued, paragraph
 from heeltoe.views.words.numbers import Numbers, Value
 from heeltoe.views.words.statics import section_rows, verdict_of
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from heeltoe.models.statics.joints import Joints
     from heeltoe.models.statics.model import Statics
 
-_CASES: tuple[tuple[str, str, str | None], ...] = (
+_CASES: Labels = (
     ("Normal force", "normal_force_n", None),
     ("Force along the crack, + downstream", "shear_force_n", None),
     ("Coefficient of friction", "friction", None),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -87,19 +88,17 @@ def defaults(subject: Subject) -> Section:
 
 def rerun(subject: Subject) -> Section:
     """Return the section that lets anyone run the same again."""
-    build = " ".join(f"{name} {version}" for name, version in build_info().items())
     digest = input_hash(subject.case, *((run.response.motion, run.response.vertical) for run in subject.runs[:1]))
-    blocks: list[Block] = [
-        paragraph("With the input above, this command writes this report again:"),
-        Listing(subject.command or _command(subject)),
-        paragraph(Strong("Build. "), Code(build)),
+    return rerun_section(
+        "With the input above, this command writes this report again:",
+        subject.command or _command(subject),
+        build_info(),
         paragraph(Strong("Input, SHA-256. "), Code(digest)),
         paragraph(
             "The hash covers every field of the case in SI units, defaults included and the title block left out, and "
             "the samples of the ground motion as used, so that the same hash and the same build mean the same numbers."
         ),
-    ]
-    return Section("To run it again", tuple(blocks))
+    )
 
 
 def named(case: Case) -> list[str]:
@@ -150,4 +149,17 @@ def case_rows(case: Case, units: str) -> tuple[tuple[Inline, ...], ...]:
     return tuple(
         (Code(path), value, meaning.replace("`", ""))
         for path, value, _, meaning in fields(case, written, units=units, given=True)
+    )
+
+
+def case_table(case: Case, units: str, caption: str) -> Table:
+    """Return the fields of a case that are given as a table."""
+    return Table(("field", "value", "meaning"), case_rows(case, units), caption, "lll", (3.8, 2.7, 5.7))
+
+
+def rerun_section(promise: str, command: str, build: Mapping[str, str], *more: Block) -> Section:
+    """Return the section that lets anyone run the same again: what the `command` promises, and the versions."""
+    versions = " ".join(f"{name} {version}" for name, version in build.items())
+    return Section(
+        "To run it again", (paragraph(promise), Listing(command), paragraph(Strong("Build. "), Code(versions)), *more)
     )

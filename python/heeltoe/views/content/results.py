@@ -8,7 +8,7 @@ from typing import Any
 from heeltoe.result.response import Response
 from heeltoe.units.sentences import written
 from heeltoe.views.content.drawings import in_rows
-from heeltoe.views.content.subject import Subject
+from heeltoe.views.content.subject import Labels, Subject
 from heeltoe.views.content.tree import Block, Inline, Section, Table, paragraph
 from heeltoe.views.words.numbers import Value
 from heeltoe.views.words.response import (
@@ -21,7 +21,7 @@ from heeltoe.views.words.response import (
 )
 from heeltoe.views.words.starts import starts
 
-_ROWS: tuple[tuple[str, str, str | None], ...] = (
+_ROWS: Labels = (
     ("Slip while sliding", "slip_by_mode_m.sliding", "displacement"),
     ("Slip while slide-rocking", "slip_by_mode_m.slide_rocking", "displacement"),
     ("Slip while drifting", "slip_by_mode_m.drifting", "displacement"),
@@ -39,7 +39,7 @@ _ROWS: tuple[tuple[str, str, str | None], ...] = (
     ("Of it silence, after the ground motion", "silence_s", "time"),
 )
 _ALWAYS = ("impacts", "final_slip_velocity_m_s", "end_time_s")
-_STATIC: tuple[tuple[str, str, str | None], ...] = (
+_STATIC: Labels = (
     ("Sliding safety factor", "static.sliding_safety_factor", None),
     ("Normal force on the crack", "static.normal_force_n", None),
     ("Force along the crack, + downstream", "static.horizontal_force_n", None),
@@ -54,7 +54,7 @@ _STARTS = {
     ("rocking", "downstream"): "Rocking downstream, about the toe, starts at",
     ("rocking", "upstream"): "Rocking upstream, about the heel, starts at",
 }
-_OF_CRACKS: tuple[tuple[str, str, str | None], ...] = (
+_OF_CRACKS: Labels = (
     ("Residual slip, + downstream", "residual_slip_m", "displacement"),
     ("Peak slip downstream", "peak_slip_downstream_m", "displacement"),
     ("Largest rotation downstream", "rocking_downstream_rad", None),
@@ -65,7 +65,7 @@ _OF_CRACKS: tuple[tuple[str, str, str | None], ...] = (
     ("Lost in friction", "crack_energy.friction_j", None),
     ("Lost in impacts", "crack_energy.impact_j", None),
 )
-_CRACK_LEVEL: tuple[tuple[str, str, str | None], ...] = (
+_CRACK_LEVEL: Labels = (
     ("Peak of the ground", "ground_peak_g", "g"),
     ("Peak at the crack, horizontal", "peak_horizontal_g", "g"),
     ("Peak at the crack, over that of the ground", "amplification", None),
@@ -77,7 +77,7 @@ _CRACK_LEVEL: tuple[tuple[str, str, str | None], ...] = (
     ("Spacing of the motion of the crack", "convergence.step_s", "time"),
     ("Residual slip with twice that", "convergence.coarser_residual_slip_m", "displacement"),
 )
-_LAW: tuple[tuple[str, str, str | None], ...] = (
+_LAW: Labels = (
     ("Slip path, to and fro", "slip_path_m", "displacement"),
     ("Normal stress under the static loads", "normal_stress_pa", None),
     ("Apparent friction before the earthquake", "apparent_friction_before", None),
@@ -91,7 +91,7 @@ _LAW: tuple[tuple[str, str, str | None], ...] = (
     ("Time walked by integration, the rest exactly", "integrated_time_s", "time"),
     ("Estimated error of the integration", "integration_error_m", None),
 )
-_JOINT: tuple[tuple[str, str, str | None], ...] = (
+_JOINT: Labels = (
     ("First cracking", "first_cracking_s", "time"),
     ("Place of it, from the upstream face", "first_cracking_at_m", "length"),
     ("Cracked through", "cracked_through_s", "time"),
@@ -104,7 +104,7 @@ _JOINT: tuple[tuple[str, str, str | None], ...] = (
     ("Longest element along the joint", "element_m", "length"),
     ("Tensile strength that the model takes", "tensile_strength_pa", None),
 )
-_BOND: tuple[tuple[str, str, str | None], ...] = (
+_BOND: Labels = (
     ("Bond breaks", "breaks_s", "time"),
     ("Part of the tensile strength used until then", "tensile_strength_used", None),
     ("Part of the shear strength used until then", "shear_strength_used", None),
@@ -211,16 +211,9 @@ def _tension(subject: Subject) -> list[Block]:
 
 def _at_the_crack(subject: Subject) -> list[Block]:
     """Return how the crack moves that shakes a decoupled block."""
+    caption = "The motion of the crack, which shakes the block."
     return [
-        Table(
-            ("", "value"),
-            tuple(
-                (label, subject.numbers(f"{run.prefix}crack_level.{key}", quantity))
-                for label, key, quantity in _CRACK_LEVEL
-            ),
-            "The motion of the crack, which shakes the block.",
-            "lr",
-        )
+        subject.values(_CRACK_LEVEL, f"{run.prefix}crack_level.", caption)
         for run in subject.runs
         if "crack_level" in run.response.summary
     ]
@@ -262,10 +255,9 @@ def _law(subject: Subject) -> list[Block]:
     alone = [cracked for cracked in subject.case.single_crack_cases if cracked.crack.law is not None]
     if not alone:
         return _rough(subject)
-    several = bool(subject.case.further_cracks)
     blocks: list[Block] = []
     for cracked in alone:
-        at = written(" at {at_m:g m}", subject.units, at_m=cracked.crack.elevation) if several else ""
+        at = _where(subject, cracked.crack.elevation if subject.case.further_cracks else None)
         assert cracked.crack.law is not None
         sentence = (
             f"The friction of the crack{at} goes by the law {cracked.crack.law.name}; its figure shows what is borne."
@@ -275,19 +267,11 @@ def _law(subject: Subject) -> list[Block]:
     for run in subject.runs:
         whose = "" if len(subject.runs) == 1 else f", {run.name}"
         for prefix, law_state in _laws_of(run.response):
-            at = (
-                written(" at {at_m:g m}", subject.units, at_m=law_state["elevation_m"])
-                if "elevation_m" in law_state
-                else ""
-            )
-            law = law_state["friction_law"]
+            at, law = _where(subject, law_state.get("elevation_m")), law_state["friction_law"]
             blocks.append(paragraph(f"What it has come to{at}{whose}: {law_line(law, subject.units)}."))
-            rows = tuple(
-                (label, subject.numbers(f"{run.prefix}{prefix}friction_law.{key}", quantity))
-                for label, key, quantity in _LAW
-                if key.split(".")[0] in law
-            )
-            blocks.append(Table(("", "value"), rows, f"The friction law{at}{whose}.", "lr"))
+            present = [key for _, key, _ in _LAW if key.split(".")[0] in law]
+            caption = f"The friction law{at}{whose}."
+            blocks.append(subject.values(_LAW, f"{run.prefix}{prefix}friction_law.", caption, present))
     return blocks
 
 
@@ -298,18 +282,15 @@ def _joint(subject: Subject) -> list[Block]:
         for name, labels in (("joint", _JOINT), ("bond", _BOND)):
             whose = " below the block" if name == "bond" else ""
             for prefix, state in _laws_of(run.response, name):
-                at = (
-                    written(" at {at_m:g m}", subject.units, at_m=state["elevation_m"])
-                    if "elevation_m" in state
-                    else ""
-                )
-                rows = tuple(
-                    (label, subject.numbers(f"{run.prefix}{prefix}{name}.{key}", quantity))
-                    for label, key, quantity in labels
-                    if state[name][key] is not None
-                )
-                blocks.append(Table(("", "value"), rows, f"What has become of the joint{whose}{at}.", "lr"))
+                caption = f"What has become of the joint{whose}{_where(subject, state.get('elevation_m'))}."
+                present = [key for _, key, _ in labels if state[name][key] is not None]
+                blocks.append(subject.values(labels, f"{run.prefix}{prefix}{name}.", caption, present))
     return blocks
+
+
+def _where(subject: Subject, elevation_m: float | None) -> str:
+    """Return where one of several cracks is; nothing of the only one."""
+    return "" if elevation_m is None else written(" at {at_m:g m}", subject.units, at_m=elevation_m)
 
 
 def _laws_of(response: Response, block: str = "friction_law") -> list[tuple[str, Mapping[str, Any]]]:

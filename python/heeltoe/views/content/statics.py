@@ -14,15 +14,13 @@ from heeltoe.result.write import build_info
 from heeltoe.units.sentences import quantity
 from heeltoe.views.content.checks import answer_of, load_cases, missed_of, remarks, section_table
 from heeltoe.views.content.drawings import drawing
-from heeltoe.views.content.input import case_rows, named, revisions
+from heeltoe.views.content.input import case_table, named, rerun_section, revisions
 from heeltoe.views.content.one_unit import with_one_unit
 from heeltoe.views.content.tree import (
     Block,
-    Code,
     Document,
     FigureBlock,
     Inline,
-    Listing,
     Notes,
     References,
     Section,
@@ -165,11 +163,9 @@ def _answer(subject: _Subject) -> Section:
 
 
 def _input(case: Case, units: str) -> Section:
-    rows = case_rows(case, units)
     system = "US" if units == "us" else "SI"
     text = f"All that the case says, in {system} units, per {'foot' if system == 'US' else 'metre'} of dam:"
-    table = Table(("field", "value", "meaning"), rows, "Given by the case.", "lll", (3.8, 2.7, 5.7))
-    return Section("Input", (paragraph(text), table))
+    return Section("Input", (paragraph(text), case_table(case, units, "Given by the case.")))
 
 
 def _checks(subject: _Subject, joint: Joint) -> Section:
@@ -249,13 +245,5 @@ def _method(subject: _Subject) -> Section:
 
 
 def _rerun(subject: _Subject) -> Section:
-    build = " ".join(f"{name} {version}" for name, version in build_info().items())
-    command = subject.command or "heeltoe statics CASE.toml --report"
-    return Section(
-        "To run it again",
-        (
-            paragraph("With the input above, this command writes this report again:"),
-            Listing(command),
-            paragraph(Strong("Build. "), Code(build)),
-        ),
-    )
+    promise = "With the input above, this command writes this report again:"
+    return rerun_section(promise, subject.command or "heeltoe statics CASE.toml --report", build_info())

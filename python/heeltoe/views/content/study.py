@@ -19,7 +19,7 @@ from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.write import NOTHING, digits
 from heeltoe.views.content.dam_pages import dam_pages
 from heeltoe.views.content.drawings import drawing
-from heeltoe.views.content.input import case_rows
+from heeltoe.views.content.input import case_table, rerun_section
 from heeltoe.views.content.one_unit import with_one_unit
 from heeltoe.views.content.study_answers import (
     answer,
@@ -37,7 +37,6 @@ from heeltoe.views.content.tree import (
     Code,
     Document,
     FigureBlock,
-    Listing,
     Notes,
     References,
     Section,
@@ -189,7 +188,7 @@ def study_document(subject: StudySubject) -> Document:
         _fine(subject),
         Section("References", (References(_references(subject)),)),
         _rerun(subject),
-        _base(subject),
+        Section("Appendix: the base case", (case_table(subject.case, subject.units, "Given by the base case."),)),
     )
     *others, last = study.walk.models
     models = f"{', '.join(others)} and {last}" if others else last
@@ -369,24 +368,13 @@ def _references(subject: StudySubject) -> tuple[str, ...]:
 
 
 def _rerun(subject: StudySubject) -> Section:
-    study = subject.results
-    build = " ".join(f"{name} {version}" for name, version in study.manifest["build"].items())
-    return Section(
-        "To run it again",
-        (
-            paragraph("With the study file, its base case and its records, this command makes the same numbers again:"),
-            Listing(subject.command or "heeltoe study STUDY.toml --report"),
-            paragraph(Strong("Build. "), Code(build)),
-            paragraph(Strong("Study, SHA-256. "), Code(study.manifest["fingerprint"])),
-            paragraph(
-                "The hash covers the study, every field of the base case in SI units, defaults included, and the "
-                "samples of all ground motions, so that the same hash and the same build mean the same numbers."
-            ),
+    return rerun_section(
+        "With the study file, its base case and its records, this command makes the same numbers again:",
+        subject.command or "heeltoe study STUDY.toml --report",
+        subject.results.manifest["build"],
+        paragraph(Strong("Study, SHA-256. "), Code(subject.results.manifest["fingerprint"])),
+        paragraph(
+            "The hash covers the study, every field of the base case in SI units, defaults included, and the samples "
+            "of all ground motions, so that the same hash and the same build mean the same numbers."
         ),
     )
-
-
-def _base(subject: StudySubject) -> Section:
-    rows = case_rows(subject.case, subject.units)
-    table = Table(("field", "value", "meaning"), rows, "Given by the base case.", "lll", (3.8, 2.7, 5.7))
-    return Section("Appendix: the base case", (table,))

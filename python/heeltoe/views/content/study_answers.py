@@ -157,11 +157,8 @@ def fragility(subject: StudySubject) -> Section | None:
     if asked is None:
         return None
     curves = subject.results.fragility
-    limits = limits_of([(curve["limit"], curve["value"]) for curve in curves], subject.units)
     rows: list[tuple[Inline, ...]] = []
-    for curve in curves:
-        what = limits[curve["limit"], curve["value"]]
-        label = f"{what}, {curve['model']}" if len(subject.results.walk.models) > 1 else what
+    for curve, label in zip(curves, _labels(subject, curves), strict=True):
         exceeding = f"{curve['exceeding']:,} of {curve['runs']:,}"
         if curve["median"] is None:
             rows.append((label, curve["why"], "", "", "", exceeding))
@@ -193,11 +190,9 @@ def hazard_section(subject: StudySubject) -> Section | None:
     annual = subject.results.hazard
     if annual is None:
         return None
-    limits = limits_of([(row["limit"], row["value"]) for row in annual], subject.units)
+    labels = _labels(subject, annual)
     rows: list[tuple[Inline, ...]] = []
-    for row in annual:
-        what = limits[row["limit"], row["value"]]
-        label = f"{what}, {row['model']}" if len(subject.results.walk.models) > 1 else what
+    for row, label in zip(annual, labels, strict=True):
         if row["annual_rate"] is None:
             rows.append((label, row["why"], "", "", ""))
             continue
@@ -222,40 +217,40 @@ def hazard_section(subject: StudySubject) -> Section | None:
     blocks = (
         paragraph(text),
         table,
-        *_fractiles(annual, limits, several=len(subject.results.walk.models) > 1),
-        *_by_event(subject, annual, limits),
-        *_at_strengths(subject, annual, limits),
+        *_fractiles(annual, labels),
+        *_by_event(subject, annual, labels),
+        *_at_strengths(subject, annual, labels),
         *subject.figure("hazard"),
     )
     return Section("Annual probability", blocks)
 
 
-def _fractiles(
-    annual: Sequence[Mapping[str, Any]], limits: Mapping[tuple[str, float], str], *, several: bool
-) -> tuple[Block, ...]:
+def _labels(subject: StudySubject, rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return the limits of rows in words, with the model where there are several."""
+    limits = limits_of([(row["limit"], row["value"]) for row in rows], subject.units)
+    several = len(subject.results.walk.models) > 1
+    return [limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "") for row in rows]
+
+
+def _fractiles(annual: Sequence[Mapping[str, Any]], labels: Sequence[str]) -> tuple[Block, ...]:
     """Return the fractiles of the annual probabilities by the uncertainty of the fragility curves."""
-    known = [row for row in annual if row["annual_probability_fractiles"]]
     rows: list[tuple[Inline, ...]] = [
-        (
-            limits[row["limit"], row["value"]] + (f", {row['model']}" if several else ""),
-            *(f"{row['annual_probability_fractiles'][name]:.2e}" for name in FRACTILES),
-        )
-        for row in known
+        (label, *(f"{row['annual_probability_fractiles'][name]:.2e}" for name in FRACTILES))
+        for row, label in zip(annual, labels, strict=True)
+        if row["annual_probability_fractiles"]
     ]
     caption = "Fractiles of the annual probabilities by the uncertainty of the fragility curves."
     head = ("exceeded", *(f"{100.0 * share:.0f} %" for share in FRACTILES.values()))
-    return (Table(head, tuple(rows), caption, "l" + "r" * len(FRACTILES)),) if known else ()
+    return (Table(head, tuple(rows), caption, "l" + "r" * len(FRACTILES)),) if rows else ()
 
 
-def _by_event(
-    subject: StudySubject, annual: Sequence[Mapping[str, Any]], limits: Mapping[tuple[str, float], str]
-) -> tuple[Block, ...]:
+def _by_event(subject: StudySubject, annual: Sequence[Mapping[str, Any]], labels: Sequence[str]) -> tuple[Block, ...]:
     """Return which events make the annual rates, those that make most of the first one above."""
-    known = [row for row in annual if row["by_event"]]
+    known = {label: row for row, label in zip(annual, labels, strict=True) if row["by_event"]}
     if not known:
         return ()
-    scale, several = strength_scale(known[0]["measure"], subject.units), len(subject.results.walk.models) > 1
-    parts = [{part["event"]: part for part in row["by_event"]} for row in known]
+    scale = strength_scale(annual[0]["measure"], subject.units)
+    parts = [{part["event"]: part for part in row["by_event"]} for row in known.values()]
     shown = list(parts[0])[:SHOWN_EVENTS]
     rows: list[tuple[Inline, ...]] = [
         (
@@ -269,34 +264,31 @@ def _by_event(
         f"Events, {some}: the share of the annual rate that motions like theirs make; behind it the "
         f"{_named(subject.study['fragility'])} at which half of the dams exceed the limit in them."
     )
-    heads = [limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "") for row in known]
-    return (Table(("event", *heads), tuple(rows), caption, "l" + "r" * len(known)),)
+    return (Table(("event", *known), tuple(rows), caption, "l" + "r" * len(known)),)
 
 
 def _at_strengths(
-    subject: StudySubject, annual: Sequence[Mapping[str, Any]], limits: Mapping[tuple[str, float], str]
+    subject: StudySubject, annual: Sequence[Mapping[str, Any]], labels: Sequence[str]
 ) -> tuple[Block, ...]:
     """Return the probability of each limit in motions of the strengths of the hazard curve, with their return periods,
     and which share of its annual rate motions up to there make."""
-    known = [row for row in annual if row["at"]]
+    known = {label: row for row, label in zip(annual, labels, strict=True) if row["at"]}
     if not known:
         return ()
-    scale = strength_scale(known[0]["measure"], subject.units)
-    several = len(subject.results.walk.models) > 1
-    heads = [limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "") for row in known]
+    scale = strength_scale(annual[0]["measure"], subject.units)
     rows: list[tuple[Inline, ...]] = []
-    for place, point in enumerate(known[0]["at"]):
+    for place, point in enumerate(next(iter(known.values()))["at"]):
         years = 1.0 / point["annual_rate"]
         cells = [
             f"{_percent(row['at'][place]['probability'])}; {_percent(_made_up_to(row, point['strength']))}"
-            for row in known
+            for row in known.values()
         ]
         rows.append((scaled(point["strength"], scale), f"{digits(years, 3)} years", *cells))
     caption = (
         "Probability that a limit is exceeded in a motion of this strength; behind it, the share of the annual rate "
         "that motions up to there make."
     )
-    head = (_named(subject.study["fragility"]), "return period", *heads)
+    head = (_named(subject.study["fragility"]), "return period", *known)
     return (Table(head, tuple(rows), caption, "l" + "r" * (1 + len(known))),)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from heeltoe.case.model import Case
 from heeltoe.errors.sanitize import plain
 from heeltoe.result.response import Response
-from heeltoe.views.content.tree import FigureBlock, Inline
+from heeltoe.views.content.tree import FigureBlock, Inline, Table
 from heeltoe.views.words.numbers import Numbers
 
 if TYPE_CHECKING:
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from heeltoe.models.statics.model import Statics
 
 NAMES = {"rigid": "rigid block", "flexible": "flexible dam", "decoupled": "decoupled block"}
+#: Label, key in the JSON, and the quantity where the key does not say it.
+Labels = Sequence[tuple[str, str, str | None]]
 MODELS = {
     "rigid": "the rigid model",
     "flexible": "the flexible model",
@@ -118,6 +120,13 @@ class Subject:
     def row(self, label: Inline, key: str, quantity: str | None = None, *, sign: float = 1.0) -> tuple[Inline, ...]:
         """Return a row of a table: the same number of every run."""
         return (label, *(self.numbers(run.prefix + key, quantity, sign=sign) for run in self.runs))
+
+    def values(self, labels: Labels, prefix: str, caption: str, present: Container[str] | None = None) -> Table:
+        """Return a table of label and number; `prefix` stands before their keys. Those that are `present` alone, where
+        these are given."""
+        shown = [(label, key, quantity) for label, key, quantity in labels if present is None or key in present]
+        rows = tuple((label, self.numbers(f"{prefix}{key}", quantity)) for label, key, quantity in shown)
+        return Table(("", "value"), rows, caption, "lr")
 
     def figure(self, *names: str) -> tuple[FigureBlock, ...]:
         """Return those of the named figures that are there, of every run."""
