@@ -9,11 +9,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
+import numpy as np
+
 from heeltoe.base.arrays import Floats
 from heeltoe.result.numbers import SlipByMode, TimeByMode
 
 # Not at run time: a response takes these names.
 if TYPE_CHECKING:
+    from heeltoe.kernel.shaking import Shaking
     from heeltoe.result.response import Numbered
 
 
@@ -148,3 +151,12 @@ def headlines(table: Mapping[str, Floats]) -> dict[str, Floats]:
         for headline in HEADLINES
         if headline.column in table
     }
+
+
+def ground_histories(shaking: Shaking, moments: Floats) -> dict[str, Floats]:
+    """Return the first columns of all histories: the moments (n,) [s], and how the ground accelerates then [m/s2]."""
+    horizontal = np.interp(moments, shaking.time, shaking.horizontal)
+    histories = {"time_s": moments, "ground_acceleration_m_s2": horizontal}
+    if shaking.up is not None:
+        histories["vertical_ground_acceleration_m_s2"] = np.interp(moments, shaking.time, shaking.up)
+    return histories

@@ -60,6 +60,11 @@ class MotionNumbers(Block):
     ] = None
 
 
+def write_json(data: Mapping[str, Any], path: Path) -> None:
+    """Write the JSON of a result to `path`."""
+    path.write_text(json_text(data) + "\n", encoding="utf-8")
+
+
 def write_table(table: pa.Table, path: Path) -> None:
     """Write a table to `path`: CSV if it ends so, else Parquet."""
     import pyarrow.csv

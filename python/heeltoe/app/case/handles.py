@@ -247,11 +247,7 @@ def _along_crack(case: Case, units: str) -> Iterator[Handle]:
     def at(part: float) -> tuple[float, float]:
         return left + part * (right - left), low + part * (high - low)
 
-    highest = lengths.height - lengths.step * lengths.metres
-    # Its handle stands on the crack, the elevation counts at the heel.
-    start = lengths.base + at(_CRACK_AT)[1] - low
-    level = lengths.way("z", "crack.elevation", case.crack.elevation, (0.0, highest), start)
-    yield Handle("crack", "Crack", at(_CRACK_AT), (level,))
+    yield _level(case, lengths, "crack", "Crack", "crack")
     slope = math.degrees(case.crack.inclination)
     # It ends in the downstream face, not in the base.
     falling = max(-_STEEPEST_DEG, -math.degrees(math.atan2(low - lengths.base, right - left)))
@@ -265,7 +261,10 @@ def _along_crack(case: Case, units: str) -> Iterator[Handle]:
         x = case.uplift.drain_x
         part = min(max((x - left) / (right - left), 0.0), 1.0)
         yield Handle("drains", "Drains", at(part), (lengths.way("x", "uplift.drain_x", x, (left, right)),))
-    yield from _further_cracks(case, lengths)
+    for place, crack in enumerate(case.further_cracks):
+        alone = case.model_copy(update={"crack": crack.beside(case.crack)})
+        name = f"further crack {place + 1}"
+        yield _level(alone, lengths, name, name.capitalize(), f"further_cracks[{place}]")
     for place, anchor in enumerate(case.anchors):
         # What is given by its ends moves by their numbers.
         if anchor.distance is None:
@@ -279,12 +278,12 @@ def _along_crack(case: Case, units: str) -> Iterator[Handle]:
         yield Handle(f"anchor {place + 1}", f"Anchor {place + 1}", at(part), (way,))
 
 
-def _further_cracks(case: Case, lengths: _Lengths) -> Iterator[Handle]:
-    for place, crack in enumerate(case.further_cracks):
-        section = case.model_copy(update={"crack": crack.beside(case.crack)}).cut
-        (left, low), (right, high) = section.heel, section.toe
-        at = (left + _CRACK_AT * (right - left), low + _CRACK_AT * (high - low))
-        highest = lengths.height - lengths.step * lengths.metres
-        start = lengths.base + at[1] - low
-        way = lengths.way("z", f"further_cracks[{place}].elevation", crack.elevation, (0.0, highest), start)
-        yield Handle(f"further crack {place + 1}", f"Further crack {place + 1}", at, (way,))
+def _level(case: Case, lengths: _Lengths, name: str, label: str, path: str) -> Handle:
+    """Return the handle of the elevation of the crack of a case, whose block in the file has this path."""
+    (left, low), (right, high) = case.cut.heel, case.cut.toe
+    at = (left + _CRACK_AT * (right - left), low + _CRACK_AT * (high - low))
+    highest = lengths.height - lengths.step * lengths.metres
+    # It stands on the crack, the elevation counts at the heel.
+    start = lengths.base + at[1] - low
+    way = lengths.way("z", f"{path}.elevation", case.crack.elevation, (0.0, highest), start)
+    return Handle(name, label, at, (way,))

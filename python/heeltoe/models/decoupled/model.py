@@ -24,7 +24,7 @@ from heeltoe.models.rigid.walk import walk
 from heeltoe.models.runner import reach_of_block, until_rest
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.spectrum import response_spectrum
-from heeltoe.result.contract import JOINT_METER_M
+from heeltoe.result.contract import JOINT_METER_M, ground_histories
 from heeltoe.result.crest import ACCELERATION, DISPLACEMENT
 from heeltoe.result.numbers import BondedMotion, Chain, CrackLevel, CrackMotionConvergence, CrackSpectrum
 from heeltoe.result.response import Response
@@ -199,10 +199,8 @@ def _histories(block: Response, felt: CrackMotion, earthquake: Earthquake) -> di
     """Put the ground's own motion where the block has that of the crack, and the crack's beside it."""
     # Where the crest is relative to the ground depends on the part below, too.
     histories = {name: values for name, values in block.histories.items() if name not in (DISPLACEMENT, ACCELERATION)}
-    moments, shaking = histories["time_s"], earthquake.shaking
-    result = {"time_s": moments, "ground_acceleration_m_s2": np.interp(moments, shaking.time, shaking.horizontal)}
-    if shaking.up is not None:
-        result["vertical_ground_acceleration_m_s2"] = np.interp(moments, shaking.time, shaking.up)
+    moments = histories["time_s"]
+    result = ground_histories(earthquake.shaking, moments)
     histories.pop("vertical_ground_acceleration_m_s2", None)
     for name, accelerogram in (
         ("crack_acceleration_m_s2", felt.horizontal),

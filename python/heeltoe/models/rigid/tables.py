@@ -17,7 +17,7 @@ from heeltoe.mechanics.block import Block, static_state
 from heeltoe.mechanics.references import cited
 from heeltoe.models.rigid.bond import BondedBlock, bonded_block, held_histories
 from heeltoe.models.rigid.slip_history import law_histories, law_result, roughness_histories, roughness_result
-from heeltoe.result.contract import HEADLINES, headlines, slip_by_mode, time_by_mode
+from heeltoe.result.contract import HEADLINES, ground_histories, headlines, slip_by_mode, time_by_mode
 from heeltoe.result.crest import crest_histories, crest_motion
 from heeltoe.result.numbers import AnchorForce, BlockNumbers
 from heeltoe.result.response import CrackResponse, Energy
@@ -196,12 +196,9 @@ def histories_of(
     case: Case, block: Block, shaking: Shaking, moments: Floats, run: BlockRun, bonded: BondedBlock | None = None
 ) -> dict[str, Floats]:
     """Return the histories of the contract at the moments that the run has reached."""
-    column, time = run.histories, shaking.time
-    result = {"time_s": moments, "ground_acceleration_m_s2": np.interp(moments, time, shaking.horizontal)}
-    if shaking.up is not None:
-        result["vertical_ground_acceleration_m_s2"] = np.interp(moments, time, shaking.up)
+    column, result = run.histories, ground_histories(shaking, moments)
     if shaking.turning is not None:
-        result["ground_rotation_rad_s2"] = np.interp(moments, time, shaking.turning)
+        result["ground_rotation_rad_s2"] = np.interp(moments, shaking.time, shaking.turning)
     rotation = (column.gap_toe - column.gap_heel) / block.width
     rate = (column.gap_velocity_toe - column.gap_velocity_heel) / block.width
     if case.analysis.rotation == "finite":

@@ -77,9 +77,7 @@ def summary(walk: Walk) -> list[dict[str, Any]]:
             "slid_off": int(off[place]),
             "undetermined": int(undetermined[place]),
             "limits_not_met": broken[name],
-            "dominant_mode": dict(zip(MODES, (by_mode[place] / slid[place]).tolist(), strict=True))
-            if slid[place]
-            else {},
+            "dominant_mode": _shares(by_mode[place], int(slid[place])),
             **_by_crack(dict(distributions(place)), own, walk.cracks),
         }
         for place, name in enumerate(models)

@@ -69,7 +69,7 @@ Words = NDArray[Any]
 Ran = tuple[Words, OfCrack, Sequence[OfCrack]]
 
 
-class Found:
+class PartResults:
     """Results of some runs, filled model by model."""
 
     def __init__(self, count: int, cracks: int, *, crest: bool) -> None:
@@ -170,7 +170,7 @@ def run_part(plan: Plan, start: int, stop: int, threads: int = 1) -> pa.Table:
     Table
         Its metadata say, under :data:`SECONDS`, what took how long.
     """
-    results = Found(min(stop, plan.count) - start, 1 + len(plan.case.further_cracks), crest=plan.crest)
+    results = PartResults(min(stop, plan.count) - start, 1 + len(plan.case.further_cracks), crest=plan.crest)
     with results.timed("sampling"):
         runs = plan.runs(start, stop)
     for place, model in enumerate(plan.study.model):
@@ -182,7 +182,7 @@ def run_part(plan: Plan, start: int, stop: int, threads: int = 1) -> pa.Table:
     return table.replace_schema_metadata({SECONDS: json.dumps(results.seconds)})
 
 
-def _rigid(plan: Plan, runs: Runs, rows: Integers, results: Found, threads: int) -> None:
+def _rigid(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads: int) -> None:
     if plan.case.further_cracks:
         _two_blocks(plan, runs, rows, results, threads)
         return
@@ -248,7 +248,7 @@ def _outcomes(case: Case, table: Mapping[str, Floats]) -> Words:
     return outcomes_of(words, [table], finite=case.analysis.rotation == "finite")
 
 
-def _two_blocks(plan: Plan, runs: Runs, rows: Integers, results: Found, threads: int) -> None:
+def _two_blocks(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads: int) -> None:
     from heeltoe.models.rigid.stack.model import run_two_blocks
 
     samples, first, of_sample = np.unique(runs.sample[rows], return_index=True, return_inverse=True)
@@ -341,7 +341,9 @@ def _cases(plan: Plan, values: Mapping[str, NDArray[Any]], count: int) -> Iterat
             yield None
 
 
-def _elastic(plan: Plan, runs: Runs, rows: Integers, results: Found, run: Callable[[Case, int, Floats], Ran]) -> None:
+def _elastic(
+    plan: Plan, runs: Runs, rows: Integers, results: PartResults, run: Callable[[Case, int, Floats], Ran]
+) -> None:
     """Run dam by dam, and motion by motion: what is built for one of them serves all its strengths."""
     samples, first, of_sample = np.unique(runs.sample[rows], return_index=True, return_inverse=True)
     values = {path: column[rows][first] for path, column in runs.values.items()}
@@ -358,7 +360,7 @@ def _elastic(plan: Plan, runs: Runs, rows: Integers, results: Found, run: Callab
             results.put(here, *ran)
 
 
-def _flexible(plan: Plan, runs: Runs, rows: Integers, results: Found, threads: int) -> None:
+def _flexible(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads: int) -> None:
     from heeltoe.models.drain_closure import drained, follows_drains
     from heeltoe.models.flexible.model import Rested, rest_of
     from heeltoe.models.flexible.run.dam_runner import ShakenDam
@@ -402,7 +404,7 @@ def _flexible(plan: Plan, runs: Runs, rows: Integers, results: Found, threads: i
     _elastic(plan, runs, rows, results, run)
 
 
-def _decoupled(plan: Plan, runs: Runs, rows: Integers, results: Found, threads: int) -> None:
+def _decoupled(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads: int) -> None:
     from heeltoe.models.decoupled.model import crack_earthquake
 
     def run(case: Case, motion: int, scales: Floats) -> Ran:
@@ -426,7 +428,7 @@ def _decoupled(plan: Plan, runs: Runs, rows: Integers, results: Found, threads: 
     _elastic(plan, runs, rows, results, run)
 
 
-_MODELS: dict[str, Callable[[Plan, Runs, Integers, Found, int], None]] = {
+_MODELS: dict[str, Callable[[Plan, Runs, Integers, PartResults, int], None]] = {
     "rigid": _rigid,
     "decoupled": _decoupled,
     "flexible": _flexible,
@@ -437,7 +439,7 @@ def _both_ways(factor: Floats) -> Floats:
     return np.column_stack([factor, factor])
 
 
-def _table(plan: Plan, runs: Runs, results: Found) -> pa.Table:
+def _table(plan: Plan, runs: Runs, results: PartResults) -> pa.Table:
     """Return the runs with their results, as they are stored."""
     names = np.array([shake.name for shake in plan.shakes])
     events = np.array([plan.events[shake.event] for shake in plan.shakes])

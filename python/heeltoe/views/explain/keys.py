@@ -25,6 +25,7 @@ from heeltoe.views.explain.meaning import Meaning
 from heeltoe.views.explain.pages import page_of
 from heeltoe.views.explain.result_keys import OF_A_RUN, OF_EVENTS, OF_HISTORIES, OF_STATICS, OF_STUDIES
 from heeltoe.views.explain.study_keys import OF_OTHERS
+from heeltoe.views.words.numbers import ENDINGS
 from heeltoe.warnings.notice import Notice
 
 _RUN, _STATICS = "heeltoe run --json", "heeltoe statics --json"
@@ -66,26 +67,6 @@ _PROPERTIES: dict[type, tuple[str, ...]] = {
 _NOT_THERE = {
     "gravity", "vertical", "seconds", "sources", "ends_m", "moment_nm", "dam", "parts",
 }  # fmt: skip
-# The longest ending first.
-_UNITS = {
-    "_rad_s2": "rad/s²",
-    "_rad_s": "rad/s",
-    "_m_s2": "m/s²",
-    "_m_s": "m/s",
-    "_n_s": "N s per metre of dam",
-    "_1_s": "1/s",
-    "_rad": "rad",
-    "_nm": "N m per metre of dam",
-    "_m2": "m²",
-    "_kg": "kg per metre of dam",
-    "_pa": "Pa",
-    "_hz": "Hz",
-    "_m": "m",
-    "_s": "s",
-    "_g": "g",
-    "_j": "J per metre of dam",
-    "_n": "N per metre of dam",
-}
 
 
 def keys_of_the_json() -> Iterator[Meaning]:
@@ -168,7 +149,7 @@ def unit_of(name: str) -> str:
     """Return the unit that the name of a key or a column ends in; empty where it says none."""
     parts = [part.removesuffix("[]") for part in name.split(".") if part != "*"]
     for part in (parts[-1], *parts[-2:-1]):
-        for ending, unit in _UNITS.items():
+        for ending, (_, unit) in ENDINGS.items():
             if part.endswith(ending):
                 return unit
         if part not in _OF_A_NUMBER:

@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 
 from heeltoe.base.atomic_files import write_whole
 from heeltoe.models.statics.joints import Joints
-from heeltoe.result.write import json_text, write_table
+from heeltoe.result.write import write_json, write_table
+from heeltoe.study.small.run_table import SmallStudy
 from heeltoe.study.small.statics import StaticsTable, statics_json
 from heeltoe.views.figures.write import save_all
 
@@ -40,7 +41,7 @@ def write_statics(
     """
 
     def write(fresh: Path) -> None:
-        (fresh / "result.json").write_text(json_text(statics_json(joints)) + "\n", encoding="utf-8")
+        write_json(statics_json(joints), fresh / "result.json")
         write_table(pa.Table.from_pylist(list(force_rows(joints))), fresh / "sheet.csv")
         write_table(pa.Table.from_pylist(list(check_rows(joints))), fresh / "checks.csv")
         save_all(figures, fresh)
@@ -52,14 +53,15 @@ def write_statics(
 
 
 def write_statics_table(table: StaticsTable, directory: Path) -> list[Path]:
-    """Write a table of static checks as ``result.json``, ``table.csv`` and ``table.parquet``."""
+    """Write a table of static checks as :func:`write_run_table` does."""
+    return write_whole(lambda fresh: write_run_table(table, fresh), directory, OWN)
 
-    def write(fresh: Path) -> None:
-        (fresh / "result.json").write_text(json_text(table.to_json()) + "\n", encoding="utf-8")
-        for suffix in (".csv", ".parquet"):
-            write_table(table.to_table(), fresh / f"table{suffix}")
 
-    return write_whole(write, directory, OWN)
+def write_run_table(table: SmallStudy | StaticsTable, directory: Path) -> None:
+    """Write a table of runs, or of static checks, as ``result.json``, ``table.csv`` and ``table.parquet``."""
+    write_json(table.to_json(), directory / "result.json")
+    for suffix in (".csv", ".parquet"):
+        write_table(table.to_table(), directory / f"table{suffix}")
 
 
 def force_rows(joints: Joints) -> Iterator[dict[str, Any]]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import singledispatch
 from pathlib import Path
+from typing import Any
 
+import pyarrow as pa
 from matplotlib.figure import Figure
 
 from heeltoe.base.atomic_files import write_whole
@@ -15,7 +17,7 @@ from heeltoe.models.flexible.result.history import crack_table
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.models.flexible.surroundings.amplification import Amplification
 from heeltoe.result.response import Response
-from heeltoe.result.write import json_text, write_table
+from heeltoe.result.write import write_json, write_table
 from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.small.overturning import OverturningMap
 from heeltoe.study.small.run_table import SmallStudy
@@ -27,7 +29,7 @@ from heeltoe.views.figures.law import law_figure
 from heeltoe.views.figures.runs import overturning_figure, small_figures, solve_figure
 from heeltoe.views.figures.studies.all import study_figures
 from heeltoe.views.figures.write import save_all
-from heeltoe.views.files.statics import WORKBOOK
+from heeltoe.views.files.statics import WORKBOOK, write_run_table
 from heeltoe.views.files.vtk import OWN as VTK_FILES
 from heeltoe.views.files.vtk import write_frames
 from heeltoe.views.files.workbook import fill_workbook
@@ -127,43 +129,45 @@ def write_overturning(overturning: OverturningMap, directory: Path) -> list[Path
 
     What a run has left in the directory stays, as does what is not heeltoe's.
     """
-
-    def write(fresh: Path) -> None:
-        write_table(overturning.to_table(), fresh / "overturning.csv")
-        save_all({"overturning": overturning_figure(overturning)}, fresh)
-
-    return write_whole(write, directory, ())
+    figures = {"overturning": overturning_figure(overturning)}
+    return _write_few(directory, figures, {"overturning.csv": overturning.to_table()})
 
 
 def write_solved(solved: Solved, directory: Path, units: str = "si") -> list[Path]:
     """Write a field that was solved for as ``solve.json``, ``.csv``, ``.png`` and ``.svg``, all or none, and return
     their paths."""
-
-    def write(fresh: Path) -> None:
-        (fresh / "solve.json").write_text(json_text(solved.to_json()) + "\n", encoding="utf-8")
-        write_table(solved.to_table(), fresh / "solve.csv")
-        save_all({"solve": solve_figure(solved, field_scale(solved, units), units)}, fresh)
-
-    return write_whole(write, directory, SOLVED)
+    figures = {"solve": solve_figure(solved, field_scale(solved, units), units)}
+    return _write_few(directory, figures, {"solve.csv": solved.to_table()}, {"solve.json": solved.to_json()}, SOLVED)
 
 
 def write_amplification(title: str, amplification: Amplification, directory: Path) -> list[Path]:
     """Write the response of a crest as ``response.csv``, ``.png`` and ``.svg``, all or none, and return their paths."""
-
-    def write(fresh: Path) -> None:
-        write_table(amplification.to_table(), fresh / "response.csv")
-        save_all({"response": amplification_figure(title, amplification)}, fresh)
-
-    return write_whole(write, directory, ())
+    figures = {"response": amplification_figure(title, amplification)}
+    return _write_few(directory, figures, {"response.csv": amplification.to_table()})
 
 
 def write_law(curves: Mapping[str, LawCurve], directory: Path) -> list[Path]:
     """Write the curves of friction laws by their names as PNG and SVG, all or none, and return their paths."""
+    return _write_few(directory, {name: law_figure(curve) for name, curve in curves.items()})
+
+
+def _write_few(
+    directory: Path,
+    figures: Mapping[str, Figure],
+    tables: Mapping[str, pa.Table] | None = None,
+    results: Mapping[str, Mapping[str, Any]] | None = None,
+    own: Sequence[str] = (),
+) -> list[Path]:
+    """Write figures, tables and JSON by their names, all or none; files of an earlier run that match `own` go."""
 
     def write(fresh: Path) -> None:
-        save_all({name: law_figure(curve) for name, curve in curves.items()}, fresh)
+        for name, data in (results or {}).items():
+            write_json(data, fresh / name)
+        for name, table in (tables or {}).items():
+            write_table(table, fresh / name)
+        save_all(figures, fresh)
 
-    return write_whole(write, directory, ())
+    return write_whole(write, directory, own)
 
 
 def write_study(
@@ -229,7 +233,7 @@ def _write(result: object, directory: Path, suffix: str, vtk: bool) -> None:
 
 @_write.register
 def _(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
-    _write_json(response, directory)
+    write_json(response.to_json(), directory / "result.json")
     if response.beside is not None:
         (directory / response.beside.model).mkdir()
         _write(response.beside, directory / response.beside.model, suffix, vtk)
@@ -255,10 +259,4 @@ def _(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
 
 @_write.register
 def _(grid: SmallStudy, directory: Path, suffix: str, vtk: bool) -> None:
-    _write_json(grid, directory)
-    for ending in (".csv", ".parquet"):
-        write_table(grid.to_table(), directory / f"table{ending}")
-
-
-def _write_json(result: Response | SmallStudy, directory: Path) -> None:
-    (directory / "result.json").write_text(json_text(result.to_json()) + "\n", encoding="utf-8")
+    write_run_table(grid, directory)

@@ -10,21 +10,25 @@ from typing import Any
 from heeltoe.units.systems import FOOT, POUND, unit_system
 from heeltoe.units.write import NOTHING, angle, digits, length, one_unit
 
-# Endings of names, the longest first, and what they mean.
-_ENDINGS = {
-    "_rad_s2": "angular acceleration",
-    "_rad_s": "angular velocity",
-    "_pa": "pressure",
-    "_m_s2": "acceleration",
-    "_m_s": "velocity",
-    "_1_s": "rate",
-    "_rad": "rotation",
-    "_kg": "mass",
-    "_m": "displacement",
-    "_s": "time",
-    "_g": "g",
-    "_j": "energy",
-    "_n": "force",
+#: Endings of names, the longest first: the quantity, and its SI unit in words.
+ENDINGS = {
+    "_rad_s2": ("angular acceleration", "rad/s²"),
+    "_rad_s": ("angular velocity", "rad/s"),
+    "_m_s2": ("acceleration", "m/s²"),
+    "_m_s": ("velocity", "m/s"),
+    "_n_s": ("impulse", "N s per metre of dam"),
+    "_1_s": ("rate", "1/s"),
+    "_rad": ("rotation", "rad"),
+    "_nm": ("moment", "N m per metre of dam"),
+    "_m2": ("area", "m²"),
+    "_kg": ("mass", "kg per metre of dam"),
+    "_pa": ("pressure", "Pa"),
+    "_hz": ("frequency", "Hz"),
+    "_m": ("displacement", "m"),
+    "_s": ("time", "s"),
+    "_g": ("g", "g"),
+    "_j": ("energy", "J per metre of dam"),
+    "_n": ("force", "N per metre of dam"),
 }
 # Less than this [Pa] is what rounding leaves of no stress.
 _NO_PRESSURE = 1e-3
@@ -144,7 +148,7 @@ def kind(key: str) -> str:
     last = key.rpartition(".")[2]
     if last.isdigit() or last in ("mean", "std", "min", "max"):
         last = key.split(".")[-2]
-    return next((meaning for ending, meaning in _ENDINGS.items() if last.endswith(ending)), "number")
+    return next((quantity for ending, (quantity, _) in ENDINGS.items() if last.endswith(ending)), "number")
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from heeltoe.models.flexible.result.response import ElasticCrackResponse
 from heeltoe.models.flexible.result.water import face_pressures
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.slip_history import law_result, sliding_friction, worn_of
-from heeltoe.result.contract import slip_by_mode, time_by_mode
+from heeltoe.result.contract import ground_histories, slip_by_mode, time_by_mode
 from heeltoe.result.crest import crest_histories
 from heeltoe.result.numbers import (
     AnchorForce,
@@ -220,10 +220,7 @@ def histories_of(
 ) -> dict[str, Floats]:
     """Return the histories of the contract for a crack, frame by frame; with those of its friction `law`, and of a bond
     over its width [m]."""
-    column, time = run.all_frames[place], run.frames.time
-    result = {"time_s": time, "ground_acceleration_m_s2": np.interp(time, shaking.time, shaking.horizontal)}
-    if shaking.up is not None:
-        result["vertical_ground_acceleration_m_s2"] = np.interp(time, shaking.time, shaking.up)
+    column, result = run.all_frames[place], ground_histories(shaking, run.frames.time)
     if law:
         result |= {"slip_path_m": column.slip_path, "friction_strength_n": column.friction_strength}
     if bonded_width is not None:
