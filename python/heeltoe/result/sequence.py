@@ -11,6 +11,7 @@ import numpy as np
 from heeltoe.base.blocks import Block, Number
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M
 from heeltoe.result.rest import comes_to_rest
+from heeltoe.units.sentences import listed
 from heeltoe.units.write import length
 
 # Not at run time: a response has them.
@@ -88,4 +89,4 @@ def sequence_sentence(stages: Sequence[Stage], units: str) -> str:
         else f"nothing in motion {number}"
         for number, stage in enumerate(stages, 1)
     ]
-    return f"Motion by motion it slides {', '.join(texts[:-1])} and {texts[-1]}." if len(texts) > 1 else ""
+    return f"Motion by motion it slides {listed(texts)}." if len(texts) > 1 else ""

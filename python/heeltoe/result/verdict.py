@@ -9,7 +9,7 @@ from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
 from heeltoe.result.rest import comes_to_rest, last_of, motion_end, rests_from
 from heeltoe.result.sequence import sequence_sentence
 from heeltoe.result.tension import tension_sentence
-from heeltoe.units.sentences import written
+from heeltoe.units.sentences import listed, written
 from heeltoe.units.write import angle, length, lengths, measured, speed
 
 # Not at run time: a response says its verdict in its JSON.
@@ -187,7 +187,7 @@ def _joints_in_order(bonds: Sequence[tuple[CrackResponse, BondState]], units: st
         places = [f"{_level(level, units)} ({when:.2f} s)" for when, level in through[:_NAMED]]
         if len(through) > _NAMED:
             places.append(f"{len(through) - _NAMED} more by {through[-1][0]:.2f} s")
-        sentences.append(f"Cracked through: {_listed(places)}.")
+        sentences.append(f"Cracked through: {listed(places)}.")
     parts = [
         (crack, bond) for crack, bond in bonds if bond.first_cracking_s is not None and bond.cracked_through_s is None
     ]
@@ -200,7 +200,7 @@ def _joints_in_order(bonds: Sequence[tuple[CrackResponse, BondState]], units: st
         ]
         if len(parts) > _NAMED:
             places.append(f"{len(parts) - _NAMED} more less far")
-        sentences.append(f"Cracked in part: {_listed(places)}.")
+        sentences.append(f"Cracked in part: {listed(places)}.")
     whole = len(bonds) - len(cracked)
     if whole:
         sentences.append(f"{'The other does' if whole == 1 else f'The other {whole} do'} not crack.")
@@ -209,10 +209,6 @@ def _joints_in_order(bonds: Sequence[tuple[CrackResponse, BondState]], units: st
 
 def _of(part: float, whole: float, units: str) -> str:
     return " of ".join(lengths((part, whole), units))
-
-
-def _listed(parts: Sequence[str]) -> str:
-    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
 
 
 def _bond_of_block(response: Response) -> str:

@@ -92,8 +92,18 @@ def quantity(value: float | Sequence[float], form: str, units: str = "si") -> st
     """
     form, _, word = form.partition("|")
     texts, unit = numbers(list(value) if isinstance(value, Sequence) else [value], form, units)
-    listed = texts[0] if len(texts) == 1 else f"{', '.join(texts[:-1])} {word or 'and'} {texts[-1]}"
-    return f"{listed} {unit}" if unit else listed
+    text = listed(texts, word or "and")
+    return f"{text} {unit}" if unit else text
+
+
+def listed(parts: Sequence[str], word: str = "and") -> str:
+    """Write things one after the other, with a word before the last."""
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} {word} {parts[-1]}"
+
+
+def counted(count: int, what: str) -> str:
+    """Write how many of something there are."""
+    return f"{count:,} {what}{'' if count == 1 else 's'}"
 
 
 def numbers(values: Sequence[float], form: str, units: str = "si") -> tuple[list[str], str]:

@@ -27,6 +27,7 @@ from heeltoe.case.sentences import collected, first_error, gathered
 from heeltoe.case.suite import PeriodField, SuiteRule
 from heeltoe.errors.error import InputError, shown
 from heeltoe.units.parse import acceleration_unit
+from heeltoe.units.sentences import counted
 
 #: A value of some field as a case file has it; which quantity it is depends on the field.
 Value = str | int | float
@@ -336,12 +337,12 @@ class Study(Shown, Fields):
 def untitled(study: Mapping[str, Any], records: int, dams: int = 0) -> str:
     """Return what a study without a title is called, by its fields as a file has them: what it varies."""
     if study.get("suite"):
-        return f"suite of {records} record{'s' * (records != 1)}"
+        return f"suite of {counted(records, 'record')}"
     if study.get("cases"):
-        return f"portfolio of {dams:,} dam{'s' * (dams != 1)}"
+        return f"portfolio of {counted(dams, 'dam')}"
     names = list(study.get("vary") or ())
     if not names:
-        return f"study of {records} ground motion{'s' * (records != 1)}"
+        return f"study of {counted(records, 'ground motion')}"
     return f"study of {' and '.join(names) if len(names) < 3 else f'{len(names)} fields'}"
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from heeltoe.case.crack.crack import Crack
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.rigid.varying import varies
+from heeltoe.units.sentences import listed
 from heeltoe.views.content.drawings import in_rows
 from heeltoe.views.content.equations import EQUATIONS
 from heeltoe.views.content.subject import Subject
@@ -115,7 +116,6 @@ def _loads(writer: _Writer, subject: Subject) -> None:
     loads += ["ice"] if case.ice else []
     loads += ["silt"] if case.silt else []
     loads += ["anchors"] if case.anchors else []
-    listed = loads[0] if len(loads) == 1 else f"{', '.join(loads[:-1])} and {loads[-1]}"
     uplift = case.uplift
     pattern = _PATTERNS[uplift.pattern]
     if uplift.pattern != "none":
@@ -124,7 +124,7 @@ def _loads(writer: _Writer, subject: Subject) -> None:
             pattern = "There is no water, and hence no pressure in the crack."
     changes = uplift.during_shaking == "constant" and uplift.pattern != "none" and bool(case.reservoir)
     writer.say(
-        f"Static loads are {listed}.",
+        f"Static loads are {listed(loads)}.",
         pattern,
         "It does not change while the crack opens and closes." if changes else "",
     )

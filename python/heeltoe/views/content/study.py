@@ -16,6 +16,7 @@ from heeltoe.models.runner import TRUSTED
 from heeltoe.result.verdict import verdict
 from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.units.parse import STANDARD_GRAVITY
+from heeltoe.units.sentences import counted, listed
 from heeltoe.units.write import NOTHING, digits
 from heeltoe.views.content.dam_pages import dam_pages
 from heeltoe.views.content.drawings import drawing
@@ -190,12 +191,11 @@ def study_document(subject: StudySubject) -> Document:
         _rerun(subject),
         Section("Appendix: the base case", (case_table(subject.case, subject.units, "Given by the base case."),)),
     )
-    *others, last = study.walk.models
-    models = f"{', '.join(others)} and {last}" if others else last
+    models = study.walk.models
     what = "suite" if study.suite else "study"
     return Document(
         title=plain(study.title),
-        subtitle=f"A {what} of {study.store.count:,} runs, by the {models} model{'s' * bool(others)}",
+        subtitle=f"A {what} of {study.store.count:,} runs, by the {listed(models)} model{'s' * (len(models) > 1)}",
         footer=f"heeltoe {study.manifest['build']['heeltoe']} · study {study.manifest['fingerprint'][:12]}",
         blocks=with_one_unit(without_gaps(*sections), subject.numbers),
     )
@@ -206,9 +206,8 @@ def _question(subject: StudySubject) -> Section:
     dams = study.store.count // max(1, _runs_of_a_dam(subject))
     motions = len(study.manifest["motions"])
     asked = (
-        f"What does the part above the crack do in {study.store.count:,} runs: {dams:,} "
-        f"dam{'s' * (dams != 1)}, {motions:,} ground motion{'s' * (motions != 1)} of "
-        f"{len(study.manifest['events']):,} event{'s' * (len(study.manifest['events']) != 1)}?"
+        f"What does the part above the crack do in {study.store.count:,} runs: {counted(dams, 'dam')}, "
+        f"{counted(motions, 'ground motion')} of {counted(len(study.manifest['events']), 'event')}?"
     )
     asked += "" if study.walk.every or motions == 1 else " Each dam meets one of them."
     blocks: list[Block | None] = [

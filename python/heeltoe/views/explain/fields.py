@@ -19,6 +19,7 @@ from heeltoe.case.paths import constraints
 from heeltoe.case.sentences import kinds_in
 from heeltoe.study.plan.file import Distribution, Study
 from heeltoe.units.parse import DIMENSIONS
+from heeltoe.units.sentences import listed
 from heeltoe.views.explain.meaning import Meaning
 from heeltoe.views.explain.pages import page_of
 from heeltoe.views.words.fields import shown
@@ -119,9 +120,7 @@ def _place(path: str, kind: str) -> str:
     if not models:
         return "suites of records alone"
     names = [name for model, name in READERS.items() if model in models]
-    return (
-        "all models" if len(names) == len(READERS) else " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
-    )
+    return "all models" if len(names) == len(READERS) else listed(names)
 
 
 def _not_with(path: str, kind: str) -> str:

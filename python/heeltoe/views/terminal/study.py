@@ -7,6 +7,7 @@ from rich.markup import escape
 
 from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.run.run import Outlook, Progress
+from heeltoe.units.sentences import counted
 from heeltoe.views.content.study import study_answer, study_sections
 from heeltoe.views.terminal.render import Screen, print_title, print_warnings, render
 
@@ -67,8 +68,3 @@ def print_study(study: StudyResults, console: Console, units: str = "si", *, det
         return
     render(study_sections(study, units), console)
     print_warnings(warnings, console)
-
-
-def counted(count: int, what: str) -> str:
-    """Write how many of something there are."""
-    return f"{count:,} {what}{'' if count == 1 else 's'}"
