@@ -121,7 +121,7 @@ def test_tables_in_either_form(both, tmp_path):
 
 
 @pytest.mark.usefixtures("no_figures")
-@pytest.mark.parametrize("stage", ["json_text", "write_table", "save_all", "crack_table", "_publish"])
+@pytest.mark.parametrize("stage", ["write_json", "write_table", "save_all", "crack_table", "_publish"])
 def test_a_failure_at_any_stage_leaves_what_was_there(stage, both, block, tmp_path, monkeypatch):
     write_all(block, tmp_path / "old", figures={})
     (tmp_path / "old" / "notes.txt").write_text("mine")

@@ -25,6 +25,7 @@ from heeltoe.models.runner import (
     slid_off,
     twin_of,
     until_rest,
+    where_of,
     worse_way,
 )
 from heeltoe.models.statics.standing import standing_warnings
@@ -413,15 +414,12 @@ def _sequence(case: Case, response: R) -> tuple[R, tuple[Notice, ...]]:
         return response, ()
     from heeltoe.models.statics.after import about_the_sequence, judged_stages
 
-    followed = response.drainage_by_motion is not None
-    if not case.further_cracks:
-        judged = judged_stages(case, response)
-        return response.with_crack(sequence=judged), tuple(about_the_sequence(case, judged, followed=followed))
+    followed, several = response.drainage_by_motion is not None, bool(case.further_cracks)
     by_crack = [judged_stages(alone, response.at_crack(place)) for place, alone in enumerate(case.single_crack_cases)]
     notices = [
         notice
         for alone, judged in zip(case.single_crack_cases, by_crack, strict=True)
-        for notice in about_the_sequence(alone, judged, followed=followed, several=True)
+        for notice in about_the_sequence(alone, judged, followed=followed, several=several)
     ]
     for place, judged in enumerate(by_crack):
         response = response.with_crack(place, sequence=judged)
@@ -436,8 +434,7 @@ def _slides_on(case: Case, response: Response) -> Iterator[Notice]:
             continue
         at_rest, sliding = friction_of(alone.crack, normal, crack.crack_width_m)
         if at_rest / factor > sliding * (1.0 + 1e-9):
-            where = Sentence.of(" at {at_m:g m}", at_m=crack.elevation) if case.further_cracks else ""
-            yield Notice("slides-on", needed=at_rest / factor, sliding=sliding, where=where)
+            yield Notice("slides-on", needed=at_rest / factor, sliding=sliding, where=where_of(case, alone))
 
 
 def _anchors_crossed(case: Case, response: Response) -> Iterator[Notice]:
@@ -445,8 +442,7 @@ def _anchors_crossed(case: Case, response: Response) -> Iterator[Notice]:
     for crack, alone in zip(response.cracks, case.single_crack_cases, strict=True):
         slip = max(abs(crack.peak_slip_downstream_m), abs(crack.peak_slip_upstream_m))
         if slip >= SHEARS_M and any(anchor.prestress for anchor in alone.anchors_at_crack):
-            where = Sentence.of(" at {at_m:g m}", at_m=crack.elevation) if case.further_cracks else ""
-            yield Notice("anchors-cross-slip", slip_m=slip, where=where)
+            yield Notice("anchors-cross-slip", slip_m=slip, where=where_of(case, alone))
 
 
 def _slid_off(response: Response) -> tuple[Notice, ...]:

@@ -220,6 +220,11 @@ def reach_of_block(response: Response) -> float:
     return rests_from(response) if response.outcome == "ok" else -math.inf
 
 
+def where_of(case: Case, alone: Case) -> Sentence | str:
+    """Return where a crack is, `alone` in its case, for a sentence about one of several; nothing of the only one."""
+    return Sentence.of(" at {at_m:g m}", at_m=alone.crack.elevation) if case.further_cracks else ""
+
+
 def about_the_anchors(anchors: Sequence[AnchorForce]) -> Iterator[Notice]:
     """Say which anchors bear more than they are good for, and of which nothing says what that is."""
     for number, anchor in enumerate(anchors, start=1):

@@ -25,7 +25,7 @@ from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import analysing, frame_step_of
 from heeltoe.models.flexible.run.slip_history import Worn, law_warnings, worn_of
 from heeltoe.models.flexible.warnings import judge_outcome, stands, warnings_of
-from heeltoe.models.runner import STEP, severity, until_rest
+from heeltoe.models.runner import STEP, severity, until_rest, where_of
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import CRACKED, leading_crack
 from heeltoe.result.crest import CrestMotion, crest_motion
@@ -308,5 +308,4 @@ def _about_the_laws(case: Case, worn: Sequence[Worn | None]) -> Iterator[Notice]
     """Say of each crack with a law where that is used beyond what it was made for."""
     for alone, wear in zip(case.single_crack_cases, worn, strict=True):
         if wear is not None:
-            where = Sentence.of(" at {at_m:g m}", at_m=alone.crack.elevation) if case.further_cracks else ""
-            yield from law_warnings(wear, where)
+            yield from law_warnings(wear, where_of(case, alone))
