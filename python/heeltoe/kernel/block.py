@@ -195,7 +195,7 @@ def run_stack(
         (21,) numbers in the order of :data:`BLOCK`: all above the lower crack as one block, and
         what is above the upper one.
     place
-        (3,) where the upper block is, see :func:`heeltoe.models.rigid.stack.model.place_of`.
+        (3,) where the upper block is, see :func:`heeltoe.models.rigid.stack.place_of`.
     shaking, moments, limits
         As of :func:`run_block`.
     """

@@ -462,7 +462,7 @@ def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Res
 
     def run(through: Earthquake) -> Response:
         if case.further_cracks:
-            from heeltoe.models.rigid.stack.model import run_two_blocks
+            from heeltoe.models.rigid.stack import run_two_blocks
 
             return run_two_blocks(case, through, output_step)
         return run_rigid(case, through, output_step)

@@ -249,7 +249,7 @@ def _outcomes(case: Case, table: Mapping[str, Floats]) -> Words:
 
 
 def _two_blocks(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads: int) -> None:
-    from heeltoe.models.rigid.stack.model import run_two_blocks
+    from heeltoe.models.rigid.stack import run_two_blocks
 
     samples, first, of_sample = np.unique(runs.sample[rows], return_index=True, return_inverse=True)
     values = {path: column[rows][first] for path, column in runs.values.items()}

@@ -21,7 +21,7 @@ from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.drain_closure import follows_drains, run_drained
 from heeltoe.models.flexible.result.response import FlexibleResponse
-from heeltoe.models.rigid.stack.model import walk_two_blocks
+from heeltoe.models.rigid.stack import walk_two_blocks
 from heeltoe.models.rigid.tables import with_openings
 from heeltoe.models.rigid.varying import by_itself
 from heeltoe.models.rigid.walk import limits_of, walk

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from heeltoe.views.content.subject import NAMES
 from heeltoe.views.content.tree import Beside, Block, FigureBlock, glued
+from heeltoe.views.figures import OF_CRACKS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -96,19 +97,6 @@ _HEIGHTS = {
 }
 _PANELS = 3
 """Of one component of a motion: acceleration, velocity, displacement."""
-#: Figures that each of several cracks has.
-OF_CRACKS = (
-    "response",
-    "slip-by-mode",
-    "friction",
-    "forces",
-    "bearing",
-    "path",
-    "joint",
-    "crack",
-    "pressure",
-    "asperities",
-)
 # They share a row where there are both.
 _HALVES = ("bearing", "anchors")
 # Shares of a row are one together, but for rounding.

@@ -13,6 +13,7 @@ from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
+from heeltoe.views.figures import OF_CRACKS
 from heeltoe.views.figures.anchors import anchor_figure, moving_anchors
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.dense import filled_in
@@ -64,8 +65,6 @@ NAMES = (
     "mesh",
     "modes",
 )
-#: Those that each of several cracks has.
-_OF_CRACKS = ("response", "slip-by-mode", "friction", "forces", "bearing", "path", "joint", "crack", "pressure")
 #: Lift-offs below this [m] have no picture of their own.
 _NO_LIFT = 1e-5
 #: Nor has the motion of a crest that goes with the ground up to this [m].
@@ -142,7 +141,7 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
         drawings["anchors"] = lambda: anchor_figure(case, filled_in(result), units)
     for name, other in result.others.items():
         drawn = _drawings(other, units)
-        drawings |= {f"{name}/{figure_name}": drawn[figure_name] for figure_name in _OF_CRACKS if figure_name in drawn}
+        drawings |= {f"{name}/{figure_name}": drawn[figure_name] for figure_name in OF_CRACKS if figure_name in drawn}
     if beside is not None:
         drawings |= {f"{beside.model}/{name}": draw for name, draw in _drawings(beside, units).items()}
     return Figures(drawings)

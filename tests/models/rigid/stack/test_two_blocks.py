@@ -11,7 +11,7 @@ from heeltoe import run
 from heeltoe.case.combinations import check
 from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import build_block
-from heeltoe.models.rigid.stack.model import place_of, walk_two_blocks
+from heeltoe.models.rigid.stack import place_of, walk_two_blocks
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.study.small.spread import with_spread
 from shared.dams import example

@@ -1,1 +1,0 @@
-"""A dam that is cracked at two levels as two rigid blocks, one on the other."""
