@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from typing import TypeVar
 
 from rich import box
 from rich.console import Console, RenderableType
@@ -30,6 +31,7 @@ from heeltoe.views.content.tree import (
 )
 from heeltoe.views.words.numbers import Value
 
+T = TypeVar("T")
 #: A short screen has at most so many lines, files apart, where it is at least 100 columns wide.
 MOST_LINES = 15
 _NOTICE = {"failure": "red", "warning": "yellow", "note": "dim"}
@@ -84,20 +86,27 @@ def print_table(table: Table, console: Console) -> None:
 def _parts(table: Table, console: Console) -> list[list[int]]:
     """Divide the columns of numbers so that none is cut; words wrap."""
     everything = list(range(len(table.head)))
-    if table.widths or "r" not in table.align or _fits(table, everything, console):
+    if table.widths or "r" not in table.align or fits(_drawn(table, everything), console):
         return [everything]
-    parts = [[0]]
-    for column in everything[1:]:
-        if len(parts[-1]) == 1 or _fits(table, [*parts[-1], column], console):
+    parts = in_parts(everything[1:], lambda part: fits(_drawn(table, [0, *part]), console))
+    return [[0, *part] for part in parts]
+
+
+def fits(table: RichTable, console: Console) -> bool:
+    """Whether no cell of a table is cut."""
+    wide = console.options.update(max_width=10_000)
+    return Measurement.get(console, wide, table).maximum <= console.width
+
+
+def in_parts(columns: Sequence[T], fit: Callable[[list[T]], bool]) -> list[list[T]]:
+    """Divide columns so that each part fits, as far as one of at least one column does."""
+    parts = [list(columns[:1])]
+    for column in columns[1:]:
+        if fit([*parts[-1], column]):
             parts[-1].append(column)
         else:
-            parts.append([0, column])
+            parts.append([column])
     return parts
-
-
-def _fits(table: Table, columns: list[int], console: Console) -> bool:
-    wide = console.options.update(max_width=10_000)
-    return Measurement.get(console, wide, _drawn(table, columns)).maximum <= console.width
 
 
 def _drawn(table: Table, columns: Sequence[int]) -> RichTable:
@@ -137,9 +146,12 @@ def print_title(title: str, what: str, console: Console) -> None:
     console.print(f"[bold]{escape(plain(title) or 'Untitled case')}[/bold]  ({what})", soft_wrap=True)
 
 
-def quiet_table() -> RichTable:
-    """Return an empty table with quiet lines."""
-    return RichTable(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, header_style="dim", border_style="dim")
+def quiet_table(*, close: bool = False) -> RichTable:
+    """Return an empty table with quiet lines, and with `close` columns where there are many."""
+    table = RichTable(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, header_style="dim", border_style="dim")
+    if close:
+        table.padding = (0, 1, 0, 0)
+    return table
 
 
 def label_grid() -> RichTable:

@@ -115,9 +115,8 @@ def _table(response: Response, units: str) -> Table:
             lengths = [bond.cracked_length_m for crack in others if (bond := _bond(crack)) is not None]
             cracked = [length(max(lengths), units) if lengths else NOTHING] if bonded else []
             cells.append([f"{len(others)} others, at most", *largest, *cracked])
-    table = quiet_table()
-    # So close that a line of 80 characters holds the names of all columns beside that of a model.
-    table.padding = (0, 1, 0, 0)
+    # A line of 80 characters holds the names of all columns beside that of a model.
+    table = quiet_table(close=True)
     table.add_column("", no_wrap=True)
     for label, *_ in _SHOWN:
         table.add_column(label.removesuffix(" slip") if bonded else label, justify="right")

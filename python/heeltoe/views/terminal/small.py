@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from rich import box
 from rich.console import Console
 from rich.markup import escape
-from rich.measure import Measurement
 from rich.table import Table
 
 from heeltoe.errors.sanitize import plain
@@ -23,7 +21,7 @@ from heeltoe.study.small.run_table import SmallStudy
 from heeltoe.study.small.solve import Solved
 from heeltoe.units.systems import INCH
 from heeltoe.views.content.solve import solve_answer, solve_table
-from heeltoe.views.terminal.render import print_more, print_title, render, safe
+from heeltoe.views.terminal.render import fits, in_parts, print_more, print_title, quiet_table, render, safe
 
 
 def _length(metres: float, units: str) -> str:
@@ -93,11 +91,11 @@ def print_small(grid: SmallStudy, console: Console, units: str = "si", *, detail
         slip = tuple(column for column in slip if column not in _IN_DETAIL)
     rocking = _ROCKING if details else _ROCKING[_ROTATIONS:-1]
     whole = slip + rocking
-    groups = (
-        [whole]
-        if _fits(grid, whole, console, units)
-        else [*_parts(grid, slip, console, units), *_parts(grid, rocking, console, units)]
-    )
+
+    def fit(columns: Sequence[_Column]) -> bool:
+        return fits(_table(grid, columns, units), console)
+
+    groups: list[Sequence[_Column]] = [whole] if fit(whole) else [*in_parts(slip, fit), *in_parts(rocking, fit)]
     for columns in groups:
         console.print()
         console.print(_table(grid, columns, units))
@@ -139,22 +137,6 @@ def _judged(grid: SmallStudy) -> list[str]:
     return [" ".join(sentences)] if sentences else []
 
 
-def _fits(grid: SmallStudy, columns: tuple[_Column, ...], console: Console, units: str) -> bool:
-    wide = console.options.update(max_width=10_000)
-    return Measurement.get(console, wide, _table(grid, columns, units)).maximum <= console.width
-
-
-def _parts(grid: SmallStudy, columns: tuple[_Column, ...], console: Console, units: str) -> list[tuple[_Column, ...]]:
-    """Divide columns so that no number has to be cut, as far as at least one fits beside the varied fields."""
-    parts: list[tuple[_Column, ...]] = [columns[:1]]
-    for column in columns[1:]:
-        if _fits(grid, (*parts[-1], column), console, units):
-            parts[-1] = (*parts[-1], column)
-        else:
-            parts.append((column,))
-    return parts
-
-
 def _remarks(grid: SmallStudy, units: str, *, details: bool) -> list[str]:
     """Return all warnings once, with the runs they are of; in detail those of other numbers, too."""
     remarks: dict[str | tuple[str, int], list[tuple[str, str]]] = {}
@@ -178,15 +160,8 @@ def _remarks(grid: SmallStudy, units: str, *, details: bool) -> list[str]:
     return sentences
 
 
-def _table(grid: SmallStudy, columns: tuple[_Column, ...], units: str) -> Table:
-    table = Table(
-        box=box.SIMPLE_HEAD,
-        show_edge=False,
-        pad_edge=False,
-        padding=(0, 1, 0, 0),
-        header_style="dim",
-        border_style="dim",
-    )
+def _table(grid: SmallStudy, columns: Sequence[_Column], units: str) -> Table:
+    table = quiet_table(close=True)
     for axis in grid.axes:
         table.add_column(escape(axis.path.replace(".", "\n")), no_wrap=True)
     for heading, *_ in columns:
