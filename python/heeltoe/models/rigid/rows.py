@@ -45,6 +45,11 @@ class Rows:
     scales: Floats
     crest: Floats | None = None
 
+    def twins(self, places: Integers, factor: float) -> Rows:
+        """Return some of them with all motions so many times as strong; nobody asks for their crest."""
+        blocks = [self.blocks[place] for place in places.tolist()] if self.blocks else ()
+        return Rows(self.numbers[places], blocks, self.which[places], factor * self.scales[places])
+
 
 def rows_of(
     blocks: Sequence[Block | Case] | Floats,

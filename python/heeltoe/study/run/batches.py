@@ -197,13 +197,10 @@ def _rigid(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads
     rows, which, dam = rows[kept], which[kept], of_sample[kept]
     scales = _both_ways(runs.factor[rows])
     several = [blocks[place] for place in dam.tolist()] if blocks else []
+    all_rows = Rows(numbers[dam], several, which.astype(np.int64), scales, None if moves is None else moves[dam])
+    limits = None if blocks else limits_of(plan.case)
     with results.timed("kernel"):
-        table = run_rows(
-            Rows(numbers[dam], several, which.astype(np.int64), scales, None if moves is None else moves[dam]),
-            earthquakes,
-            None if blocks else limits_of(plan.case),
-            threads,
-        )
+        table = run_rows(all_rows, earthquakes, limits, threads)
     width = crack_widths(numbers[dam])
     named = with_openings(headlines(table), plan.case, width)
     if moves is not None:
@@ -218,17 +215,7 @@ def _rigid(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads
     again = np.flatnonzero(bouncy)
     if again.size:
         with results.timed("kernel"):
-            twins = run_rows(
-                Rows(
-                    numbers[dam[again]],
-                    [several[place] for place in again.tolist()] if blocks else [],
-                    which[again].astype(np.int64),
-                    (1.0 + HAIR) * scales[again],
-                ),
-                earthquakes,
-                None if blocks else limits_of(plan.case),
-                threads,
-            )
+            twins = run_rows(all_rows.twins(again, 1.0 + HAIR), earthquakes, limits, threads)
         results.undetermined[rows[again]] = ~determined(table["slip"][again], twins["slip"])
 
 
