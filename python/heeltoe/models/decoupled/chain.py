@@ -21,9 +21,9 @@ from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.flexible.body.bonded import elastic_dam, fingerprints
 from heeltoe.models.flexible.body.cost import Part, building, check_cost, parts_of
 from heeltoe.models.flexible.body.elastic import Sparse, dofs, side_by_side
-from heeltoe.models.flexible.body.loads import edge_shapes
 from heeltoe.models.flexible.body.modes import lowest
 from heeltoe.models.flexible.mesh.dam import BodyMesh
+from heeltoe.models.flexible.surroundings.edges import edge_shapes
 
 #: Modes that are kept: the lowest, up to so many, and none with a shorter period [s]. Nothing in an accelerogram is as
 #: fast; faster modes move with the ground, as all that is left out does.

@@ -19,7 +19,6 @@ from heeltoe.errors.error import InputError
 from heeltoe.mechanics.loads import nappe_heads
 from heeltoe.models.flexible.body.loads import (
     anchor_forces,
-    edge_shapes,
     ice_forces,
     nappe_forces,
     silt_forces,
@@ -29,6 +28,7 @@ from heeltoe.models.flexible.body.loads import (
 from heeltoe.models.flexible.body.virtual_water import virtual_masses
 from heeltoe.models.flexible.mesh.checks import CORNERS, MIDDLES, jacobians, shape_gradients
 from heeltoe.models.flexible.mesh.dam import BodyMesh, DamMesh
+from heeltoe.models.flexible.surroundings.edges import edge_shapes
 
 Sparse = Any
 """A matrix of scipy.sparse, which has no types of its own."""

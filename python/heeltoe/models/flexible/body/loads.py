@@ -19,16 +19,12 @@ from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import nappe_heads, uplift_profile, water_above_crack
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import BodyMesh
+from heeltoe.models.flexible.surroundings.edges import edge_shapes
 
 # Exact to degree 5: quadratic shape function, quadratic pressure and linear normal on an edge.
 _THREE = np.polynomial.legendre.leggauss(3)
 # An edge that rises by less than this part of the crest's width belongs to the crest.
 _LEVEL = 1e-6
-
-
-def edge_shapes(s: Floats) -> Floats:
-    """Return the shape functions of start, middle and end of an edge at -1 <= s <= 1, shape (len(s), 3)."""
-    return np.stack([s * (s - 1.0) / 2.0, 1.0 - s * s, s * (s + 1.0) / 2.0], axis=-1)
 
 
 def water_forces(mesh: BodyMesh, case: Case, *, upstream: bool) -> Floats:

@@ -21,8 +21,9 @@ from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.mechanics.virtual_water import slope_factor
-from heeltoe.models.flexible.body.loads import edge_shapes, edges, piece_place, pieces
+from heeltoe.models.flexible.body.loads import edges, piece_place, pieces
 from heeltoe.models.flexible.mesh.dam import BodyMesh
+from heeltoe.models.flexible.surroundings.edges import edge_shapes
 
 # Exact to degree 11: with depth = t^2, two shape functions are of degree 8, sqrt(depth) of 1, the change of variable
 # of 1.
