@@ -20,7 +20,7 @@ from heeltoe.units.sentences import written
 from heeltoe.units.systems import unit_system
 from heeltoe.units.write import angle, length, measured
 from heeltoe.views.animation.page import packed, part_data
-from heeltoe.views.figures.panels import pieces
+from heeltoe.views.figures.panels import SLIP_KINDS, pieces
 from heeltoe.views.figures.style import shaken_by
 from heeltoe.views.words.response import CRACK_COLUMNS, SEQUENCE_COLUMNS, crack_rows, law_lines, sequence_rows
 
@@ -28,7 +28,6 @@ from heeltoe.views.words.response import CRACK_COLUMNS, SEQUENCE_COLUMNS, crack_
 _BINS = 400
 # What is less all along is drawn as nothing.
 _LEAST = {"slip": JOINT_METER_M, "rotation": LEAST_RAD}
-_KINDS = {"sliding": "slide", "slide_rocking": "slide-rock", "drifting": "drift"}
 
 
 def drawn(response: Response, units: str) -> dict[str, Any]:
@@ -179,7 +178,7 @@ def _ribbon(response: Response) -> list[dict[str, Any]]:
 
 
 def _slips(response: Response, units: str) -> list[dict[str, Any]]:
-    slips = {kind: response.slip_by_mode_m[key] for key, kind in _KINDS.items()}
+    slips = {kind: response.slip_by_mode_m[key] for key, kind in SLIP_KINDS.items()}
     largest = max(float(np.max(np.abs(list(slips.values())))), 1e-12)
     return [
         {"kind": kind, "text": length(value, units), "share": abs(value) / largest, "upstream": value < 0.0}

@@ -15,6 +15,11 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
+def finite(value: float) -> float | None:
+    """Return a number; None in the place of what is none, or endless."""
+    return value if math.isfinite(value) else None
+
+
 def number(value: object) -> float:
     """Return a sum over an array as the number that it is, or as the column."""
     result: float = value if np.ndim(value) else float(value)  # type: ignore[arg-type, assignment]

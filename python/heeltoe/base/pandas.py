@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from heeltoe.errors.error import InputError
@@ -21,3 +21,8 @@ def dataframe(columns: Mapping[str, Any]) -> Any:
     except ImportError:
         raise InputError("pandas-package", "to_pandas") from None
     return DataFrame(dict(columns))
+
+
+def dataframe_of_rows(rows: Sequence[Mapping[str, Any]]) -> Any:
+    """Return rows with the same columns as :func:`dataframe` does."""
+    return dataframe({name: [row[name] for row in rows] for name in rows[0]})

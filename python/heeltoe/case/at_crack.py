@@ -37,6 +37,11 @@ class AnchorAtCrack:
     shear_stiffness: float
     capacity: float | None
 
+    @property
+    def yields(self) -> bool:
+        """Whether its force changes as the crack moves."""
+        return bool(self.axial_stiffness or self.shear_stiffness)
+
 
 def anchor_at_crack(anchor: Anchor, section: CutSection) -> AnchorAtCrack:
     """Return an anchor as a crack has it."""

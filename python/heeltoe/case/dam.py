@@ -156,9 +156,14 @@ class Anchor(Fields):
             yield from (InputError("fields-conflict", name, other=ends[0]) for name in crack)
         elif self.distance is None:
             yield InputError("anchor-form", "distance")
-        if not (self.prestress or self.axial_stiffness or self.shear_stiffness):
+        if not (self.prestress or self.yields):
             field = "distance" if not ends else ends[0]
             yield InputError("needs-other", field, other="prestress, axial_stiffness or shear_stiffness")
+
+    @property
+    def yields(self) -> bool:
+        """Whether its force changes as the crack moves."""
+        return bool(self.axial_stiffness or self.shear_stiffness)
 
     @property
     def ends(self) -> tuple[tuple[float, float], tuple[float, float]] | None:

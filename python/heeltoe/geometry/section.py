@@ -105,6 +105,11 @@ class CutSection:
         """x and z of the unit vector along the crack."""
         return number(np.cos(self.inclination)), number(np.sin(self.inclination))
 
+    @property
+    def centroid_from_heel(self) -> tuple[float, float]:
+        """The centroid (x, z), seen from the heel [m]."""
+        return self.centroid[0] - self.heel[0], self.centroid[1] - self.heel[1]
+
     def in_crack_frame(self, x: float, z: float) -> tuple[float, float]:
         """Return the components of a vector (x, z) along the crack, downstream, and across it, upwards."""
         if self.level:

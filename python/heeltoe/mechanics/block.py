@@ -224,7 +224,7 @@ def build_block(case: Case) -> Block:
     expect(case, Case, "not-a-case", "case")
     section = case.above
     concrete = concrete_mass(case)
-    offset = section.in_crack_frame(section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1])
+    offset = section.in_crack_frame(*section.centroid_from_heel)
     inertia = case.concrete.density * section.polar_inertia
     forces = static_forces(case)
     water = virtual_mass(case)

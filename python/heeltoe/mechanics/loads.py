@@ -99,7 +99,7 @@ def weight(case: Case) -> Resultant:
     """Return the weight of the concrete above the crack."""
     force = -concrete_mass(case) * case.gravity
     section = case.above
-    x, z = section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1]
+    x, z = section.centroid_from_heel
     return Resultant("weight", 0.0, force, force * x, force * z, force * x)
 
 

@@ -285,7 +285,7 @@ def _description(entry: Schema) -> str:
     return " ".join(str(entry.get("description", "")).replace("`", "").split())
 
 
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _WHOLE = re.compile(r"[+-]?\d{1,15}")
 _TRUTHS = {"yes": True, "no": False}
 
@@ -310,7 +310,7 @@ def typed(entry: object, field: Field, units: str) -> Any:
         return int(text)
     if field.kind == "truth":
         return _TRUTHS.get(text, text)
-    if field.kind == "quantity" and _NUMBER.fullmatch(text):
+    if field.kind == "quantity" and NUMBER.fullmatch(text):
         unit = unit_of(field, units)
         return f"{text} {unit}" if unit else float(text)
     return text

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from heeltoe.app.case.fields import NUMBER
 from heeltoe.app.case.files import is_catalogued
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.catalog import PREFIX
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 #: What a form is asked for; all are texts but the last.
 _TEXTS = ("source", "channel", "unit", "time_step", "pga", "magnitude", "distance", "seed", "period")
 _LONGEST = 200
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _WINDOW = "window"
 _OWN = "case"
 
@@ -156,7 +155,7 @@ def _source(way: Form, own: Form, sent: Mapping[str, str], field: str) -> dict[s
 
 def _with_unit(text: str, unit: str) -> str:
     """Return a number without a unit with the one that the page shows beside it."""
-    return f"{text} {unit}" if _NUMBER.fullmatch(text) else text
+    return f"{text} {unit}" if NUMBER.fullmatch(text) else text
 
 
 KINDS = ("sine", "half-sine", "cosine")

@@ -20,7 +20,7 @@ def varies(case: Case) -> bool:
         or case.uplift.during_shaking != "constant"
         or case.crack.law is not None
         or case.crack.roughness is not None
-        or any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors)
+        or any(anchor.yields for anchor in case.anchors)
     )
 
 
@@ -36,7 +36,7 @@ def varying(case: Case, block: Block) -> Varying:
     uplift = case.uplift
     moves = ("weight", "uplift", "anchors")
     dead = across_crack(total("dead", (force for force in block.forces if force.name not in moves)), section)
-    centroid = section.in_crack_frame(section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1])
+    centroid = section.in_crack_frame(*section.centroid_from_heel)
     water = section.in_crack_frame(face_at(section, block.water.height), block.water.height)
     horizontal = section.in_crack_frame(1.0, 0.0)
     following = across_crack(total("following", block.following), section)

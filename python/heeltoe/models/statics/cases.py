@@ -269,8 +269,7 @@ def _dry(case: Case) -> tuple[Resultant, ...]:
 def _inertia(case: Case, horizontal: float, vertical: float) -> tuple[Resultant, ...]:
     """Return the forces of a ground acceleration in g, downstream and upward."""
     weight = concrete_mass(case) * case.gravity
-    section = case.above
-    place = section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1]
+    place = case.above.centroid_from_heel
     forces = [
         Resultant.at("inertia", (-weight * horizontal, -weight * vertical), place),
         moving_force(case, horizontal * case.gravity),

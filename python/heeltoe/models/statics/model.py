@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from heeltoe.base.display import Shown
-from heeltoe.base.pandas import dataframe
+from heeltoe.base.pandas import dataframe_of_rows
 from heeltoe.case.field_usage import unused_fields
 from heeltoe.case.model import Case
 from heeltoe.case.warnings import case_warnings
@@ -93,8 +93,7 @@ class Statics(Shown):
 
     def to_pandas(self) -> Any:
         """Return the checks, one in each row, as a ``pandas.DataFrame``."""
-        rows = [check.to_json() for check in self.checks]
-        return dataframe({name: [row[name] for row in rows] for name in rows[0]})
+        return dataframe_of_rows([check.to_json() for check in self.checks])
 
     @property
     def ok(self) -> bool:
@@ -249,7 +248,7 @@ def _warnings_of_cases(case: Case, cases: Sequence[LoadCase]) -> list[Notice]:
         notices.append(Notice("flood-low", usual_depth_m=usual_depth))
     if choice.residual_friction is not None and choice.residual_friction > _peak(case, usual):
         notices.append(Notice("residual-friction-high"))
-    if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
+    if any(anchor.yields for anchor in case.anchors):
         notices.append(Notice("anchors-as-prestress"))
     if choice.sections:
         notices.append(Notice("sections-apart", count=len(choice.sections)))

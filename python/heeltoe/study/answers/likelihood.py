@@ -175,12 +175,16 @@ def _likelihood(at: Floats, z: Floats, exceeding: Floats, under: Floats) -> Floa
     return np.asarray(np.sum(exceeding * log_ndtr(linear) + under * log_ndtr(-linear), axis=1))
 
 
-def _newton(at: Floats, z: Floats, exceeding: Floats, under: Floats) -> Floats:
-    linear = at[:, :1] + at[:, 1:] * z
+def _rise(linear: Floats, exceeding: Floats, under: Floats) -> tuple[Floats, Floats]:
+    """Return how the logarithm of the likelihood of some runs rises with the argument of their normal distribution, and
+    how that falls."""
     density = -0.5 * linear**2 - 0.5 * np.log(2.0 * np.pi)
     up, down = np.exp(density - log_ndtr(linear)), np.exp(density - log_ndtr(-linear))
-    first = exceeding * up - under * down
-    second = exceeding * up * (up + linear) + under * down * (down - linear)
+    return exceeding * up - under * down, exceeding * up * (up + linear) + under * down * (down - linear)
+
+
+def _newton(at: Floats, z: Floats, exceeding: Floats, under: Floats) -> Floats:
+    first, second = _rise(at[:, :1] + at[:, 1:] * z, exceeding, under)
     gradient = np.column_stack([first.sum(axis=1), (first * z).sum(axis=1)])
     s0, s1, s2 = (np.sum(second * z**power, axis=1) for power in range(3))
     # A trace of the diagonal keeps a flat likelihood from steps without end.
@@ -228,11 +232,8 @@ def _middles(start: Floats, width: float, x: Floats, event: Integers, runs: Floa
     """Return the median of each event that is most likely where its dispersion is `width`."""
     middle = start.copy()
     for _ in range(_ITERATIONS):
-        linear = (x - middle[event]) / width
-        density = -0.5 * linear**2 - 0.5 * np.log(2.0 * np.pi)
-        up, down = np.exp(density - log_ndtr(linear)), np.exp(density - log_ndtr(-linear))
-        first = np.bincount(event, exceeding * up - (runs - exceeding) * down)
-        second = np.bincount(event, exceeding * up * (up + linear) + (runs - exceeding) * down * (down - linear))
+        slope, bend = _rise((x - middle[event]) / width, exceeding, runs - exceeding)
+        first, second = np.bincount(event, slope), np.bincount(event, bend)
         step = -np.clip(first / np.maximum(second, 1e-12), -1.0, 1.0) * width
         middle += step
         if np.abs(step).max() < 1e-9:
@@ -255,11 +256,9 @@ def offsets(seen: Witnesses, median: float, record: float, other: float) -> tupl
 
     offset, width = np.zeros(seen.events), np.zeros(seen.events)
     for _ in range(_ITERATIONS):
-        linear = (z - offset[seen.event]) / other
-        density = -0.5 * linear**2 - 0.5 * np.log(2.0 * np.pi)
-        up, down = np.exp(density - log_ndtr(linear)), np.exp(density - log_ndtr(-linear))
-        slope = -counted(seen.exceeding * up - under * down) / other - offset / record**2
-        bend = counted(seen.exceeding * up * (up + linear) + under * down * (down - linear)) / other**2 + record**-2
+        first, second = _rise((z - offset[seen.event]) / other, seen.exceeding, under)
+        slope = -counted(first) / other - offset / record**2
+        bend = counted(second) / other**2 + record**-2
         width = bend**-0.5
         step = np.clip(slope / bend, -record, record)
         offset += step

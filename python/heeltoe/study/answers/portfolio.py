@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 import pyarrow as pa
 
-from heeltoe.base.arrays import Floats
+from heeltoe.base.arrays import Floats, finite
 from heeltoe.study.answers.fragility import LIMITED
 from heeltoe.study.answers.suite import below
 from heeltoe.study.run.aggregate import Walk
@@ -88,16 +87,12 @@ def _ranked(names: list[str], slips: Floats, exceeds: list[Floats]) -> list[dict
             "dam": dam,
             "exceeds": [float(share[dam]) for share in exceeds],
             "residual_slip_m": {
-                name: None if slips.shape[1] == 1 and name != "largest" else _known(float(column[dam]))
+                name: None if slips.shape[1] == 1 and name != "largest" else finite(float(column[dam]))
                 for name, column in numbers.items()
             },
         }
         for rank, dam in enumerate(order.tolist())
     ]
-
-
-def _known(value: float) -> float | None:
-    return value if math.isfinite(value) else None
 
 
 def ranks_table(portfolio: list[dict[str, Any]]) -> pa.Table:

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe.base.arrays import Floats
+from heeltoe.base.arrays import Floats, finite
 from heeltoe.models.runner import TRUSTED, severity
 from heeltoe.result.limits import CREST, UNITS
 from heeltoe.study.answers.fragility import LIMITED
@@ -139,13 +139,9 @@ def _record(motion: Mapping[str, Any], signs: Mapping[str, _Way]) -> dict[str, A
         "pga_g": motion["measures"]["pga"] * way.factor / STANDARD_GRAVITY,
         "sign": sign,
         "outcome": way.outcome,
-        **{key: _known(value) for key, value in way.demands.items()},
-        "other_sign_residual_slip_m": None if other is None else _known(other.demands["residual_slip_m"]),
+        **{key: finite(value) for key, value in way.demands.items()},
+        "other_sign_residual_slip_m": None if other is None else finite(other.demands["residual_slip_m"]),
     }
-
-
-def _known(value: float) -> float | None:
-    return value if math.isfinite(value) else None
 
 
 def _counted(record: Mapping[str, Any], key: str) -> float:
@@ -162,7 +158,7 @@ def _statistics(values: Floats) -> dict[str, float | None]:
         "mean": float(values.mean()),
         **{name: float(below(np.sort(values), share)) for name, share in _SHARES.items()},
     }
-    return {name: _known(number) for name, number in {**numbers, "largest": float(values.max())}.items()}
+    return {name: finite(number) for name, number in {**numbers, "largest": float(values.max())}.items()}
 
 
 def below(ordered: Floats, share: float) -> Floats:

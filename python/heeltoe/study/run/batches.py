@@ -186,8 +186,7 @@ def _rigid(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads
     if plan.case.further_cracks:
         _two_blocks(plan, runs, rows, results, threads)
         return
-    samples, first, of_sample = np.unique(runs.sample[rows], return_index=True, return_inverse=True)
-    values = {path: column[rows][first] for path, column in runs.values.items()}
+    samples, values, of_sample = _dams(runs, rows)
     motions, which = np.unique(runs.motion[rows], return_inverse=True)
     earthquakes = [plan.earthquakes[motion] for motion in motions.tolist()]
     with results.timed("blocks"):
@@ -238,8 +237,7 @@ def _outcomes(case: Case, table: Mapping[str, Floats]) -> Words:
 def _two_blocks(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads: int) -> None:
     from heeltoe.models.rigid.stack import run_two_blocks
 
-    samples, first, of_sample = np.unique(runs.sample[rows], return_index=True, return_inverse=True)
-    values = {path: column[rows][first] for path, column in runs.values.items()}
+    samples, values, of_sample = _dams(runs, rows)
     with results.timed("blocks"):
         dams = list(_cases(plan, values, samples.size))
 
@@ -291,6 +289,12 @@ def _led(outcome: Words, cracks: Sequence[OfCrack]) -> Ran:
     return outcome, OfCrack(named, chosen([crack.width for crack in cracks])), cracks
 
 
+def _dams(runs: Runs, rows: Integers) -> tuple[Integers, dict[str, NDArray[Any]], Integers]:
+    """Return the dams of some rows, the values of their fields, and which of them each row has."""
+    samples, first, of_sample = np.unique(runs.sample[rows], return_index=True, return_inverse=True)
+    return samples, {path: column[rows][first] for path, column in runs.values.items()}, of_sample
+
+
 def _blocks(
     plan: Plan, values: Mapping[str, NDArray[Any]], count: int
 ) -> tuple[Floats, list[Block], NDArray[np.bool_]]:
@@ -332,8 +336,7 @@ def _elastic(
     plan: Plan, runs: Runs, rows: Integers, results: PartResults, run: Callable[[Case, int, Floats], Ran]
 ) -> None:
     """Run dam by dam, and motion by motion: what is built for one of them serves all its strengths."""
-    samples, first, of_sample = np.unique(runs.sample[rows], return_index=True, return_inverse=True)
-    values = {path: column[rows][first] for path, column in runs.values.items()}
+    samples, values, of_sample = _dams(runs, rows)
     for place, case in enumerate(_cases(plan, values, samples.size)):
         if case is None:
             continue

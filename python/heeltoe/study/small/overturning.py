@@ -190,7 +190,7 @@ def _standing(case: Case) -> tuple[Block, CriticalAccelerations]:
 def _inverted_pendulum(block: Block) -> tuple[float, float]:
     """Return p and the slenderness of the concrete about the nearer corner (Housner 1963)."""
     section = block.section
-    x, z = section.in_crack_frame(section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1])
+    x, z = section.in_crack_frame(*section.centroid_from_heel)
     arm = min(x, block.width - x)
     radius = math.hypot(arm, z)
     per_mass = section.polar_inertia / section.area + radius**2

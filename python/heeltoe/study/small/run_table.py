@@ -16,7 +16,7 @@ import pyarrow as pa
 from pydantic import ValidationError
 
 from heeltoe.base.display import Shown
-from heeltoe.base.pandas import dataframe
+from heeltoe.base.pandas import dataframe_of_rows
 from heeltoe.case.model import Case
 from heeltoe.case.paths import quantity_of
 from heeltoe.case.read import read_case
@@ -75,8 +75,7 @@ class Table(ABC):
 
     def to_pandas(self) -> Any:
         """Return the same as a ``pandas.DataFrame``."""
-        rows = self.rows()
-        return dataframe({name: [row[name] for row in rows] for name in rows[0]})
+        return dataframe_of_rows(self.rows())
 
     def runs_json(self, runs: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
         """Return runs in full, with the values that belong to them."""

@@ -16,6 +16,7 @@ from matplotlib.transforms import Affine2D, IdentityTransform, Transform
 from heeltoe.base.arrays import Floats
 from heeltoe.views.animation import look
 from heeltoe.views.animation.frames import Scene, Trace
+from heeltoe.views.figures.panels import kind_of
 
 # Places as parts of the picture.
 _LEFT, _WIDTH, _TOP, _BOTTOM = 0.715, 0.269, 0.79, 0.125
@@ -102,7 +103,7 @@ class Charts:
         starts = np.concatenate([[0], change])
         ends = np.concatenate([change, [scene.history_mode.size - 1]])
         begin, end = scene.history_times[starts], scene.history_times[ends]
-        colours = [look.MODES[look.mode_kind(scene.modes[k])] for k in scene.history_mode[starts]]
+        colours = [look.MODES[kind_of(scene.modes[k])] for k in scene.history_mode[starts]]
         spans = list(zip(begin.tolist(), (end - begin).tolist(), strict=True))
         axes.broken_barh(spans, (0.0, 1.0), facecolors=colours)
         axes.set_ylim(0.0, 1.0)
@@ -112,7 +113,7 @@ class Charts:
         axes.spines[["top", "right"]].set_visible(False)
         self._time_axis(axes)
         axes.set_xlabel("time [s]", fontsize=9, loc="right", labelpad=1)
-        seen = {look.mode_kind(scene.modes[k]) for k in np.unique(scene.history_mode)}
+        seen = {kind_of(scene.modes[k]) for k in np.unique(scene.history_mode)}
         x = _LEFT
         for kind in (kind for kind in look.MODES if kind in seen):
             box = Rectangle((x, 0.029), 0.01, 0.018, transform=axes.figure.transFigure, facecolor=look.MODES[kind])
@@ -136,7 +137,7 @@ class Charts:
         self.seconds.set_text(f"{seconds}.")
         self.hundredths.set_text(f"{hundredths} s")
         self.mode.set_text(mode)
-        self.swatch.set_facecolor(look.MODES[look.mode_kind(mode)])
+        self.swatch.set_facecolor(look.MODES[kind_of(mode)])
         return [self.cursor, self.points, self.swatch, self.seconds, self.hundredths, self.mode]
 
 

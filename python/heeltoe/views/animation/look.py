@@ -25,13 +25,6 @@ TRACES = {
 SPEAKING = (*STATUS, *MODES.values(), *TRACES.values(), FORCE, FORCE_CUT, WATER, UPPER, LOWER, GROUND)
 # Units of force per length of dam; others are of stress.
 _FORCES = ("MN/m", "kip/ft")
-# The states of an elastic dam's crack as kinds of motion.
-_KINDS = {"sliding": "slide", "rocking": "rock", "slide-rocking": "slide-rock", "drifting": "drift"}
-
-
-def mode_kind(mode: str) -> str:
-    """Return the kind of a mode by its name in a response: "slide-rock on toe upstream" is a slide-rock."""
-    return _KINDS.get(mode, mode.split(" ")[0])
 
 
 def exaggeration_text(exaggeration: float) -> str:

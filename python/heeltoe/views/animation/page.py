@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from heeltoe.views.animation import look
 from heeltoe.views.animation.bodies import Part
 from heeltoe.views.animation.frames import ARROW, CUT, Scene
+from heeltoe.views.figures.panels import kind_of
 
 # Samples of a trace that a page of any size can show.
 _MOST_SAMPLES = 8000
@@ -59,7 +60,7 @@ def page_data(scene: Scene, speed: float) -> dict[str, Any]:
         "statuses": list(scene.statuses),
         "statusNames": list(look.STATUS_NAMES[: len(scene.statuses)]),
         "mode": packed(scene.mode, "int8"),
-        "modes": [{"name": mode, "kind": look.mode_kind(mode)} for mode in scene.modes],
+        "modes": [{"name": mode, "kind": kind_of(mode)} for mode in scene.modes],
         "historyTimes": packed(scene.history_times[::every], "float32"),
         "historyMode": packed(scene.history_mode[::every], "int8"),
         "traces": [

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from heeltoe.views.content.subject import NAMES
 from heeltoe.views.content.tree import Beside, Block, FigureBlock, glued
-from heeltoe.views.figures import OF_CRACKS
+from heeltoe.views.words.response import OF_CRACKS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

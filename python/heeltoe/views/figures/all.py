@@ -13,7 +13,6 @@ from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
-from heeltoe.views.figures import OF_CRACKS
 from heeltoe.views.figures.anchors import anchor_figure, moving_anchors
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.dense import filled_in
@@ -32,6 +31,7 @@ from heeltoe.views.figures.law import asperities_figure, friction_figure, law_fi
 from heeltoe.views.figures.panels import is_elastic
 from heeltoe.views.figures.path import path_figure
 from heeltoe.views.figures.spectrum import spectrum_figure
+from heeltoe.views.words.response import OF_CRACKS
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case

@@ -12,19 +12,13 @@ from heeltoe.mechanics.anchors import anchor_force
 from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.panels import is_elastic, largest, panels
-from heeltoe.views.figures.style import COLOURS, describe, styled
+from heeltoe.views.figures.style import COLOURS, LOOKS, describe, styled
 from heeltoe.views.figures.time_axis import time_axis
-
-_LOOKS = (("slip", "-"), ("rotation", "--"), ("toe", "-."), ("heel", ":"))
 
 
 def moving_anchors(case: Case) -> list[tuple[int, AnchorAtCrack]]:
     """Return number and place of the anchors that cross the crack and whose force changes as it moves."""
-    return [
-        (number, anchor)
-        for number, anchor in enumerate(case.anchors_at_crack, 1)
-        if anchor.axial_stiffness or anchor.shear_stiffness
-    ]
+    return [(number, anchor) for number, anchor in enumerate(case.anchors_at_crack, 1) if anchor.yields]
 
 
 @styled
@@ -41,7 +35,7 @@ def anchor_figure(case: Case, response: Response, units: str = "si") -> Figure:
     figure, (axes,) = panels([1.6], 1.55)
     describe(figure, response)
     for place, ((number, anchor), force) in enumerate(zip(anchors, forces, strict=True)):
-        colour, dash = _LOOKS[place % len(_LOOKS)]
+        colour, dash = LOOKS[place % len(LOOKS)]
         axes.plot(time, scale(force), color=COLOURS[colour], linestyle=dash, linewidth=1.1, label=f"anchor {number}")
         if anchor.capacity is not None:
             axes.axhline(

@@ -13,6 +13,7 @@ from heeltoe.result.response import Response
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import number
 from heeltoe.views.figures.panels import (
+    SLIP_KINDS,
     beside,
     draw_limits,
     draw_openings,
@@ -43,7 +44,7 @@ from heeltoe.views.figures.time_axis import time_axis
 _NO_OPENING = 1e-5
 #: Slip of one kind below this [m] has no place in a picture.
 NO_SLIP = 1e-6
-_SLIP_KINDS = {"slide": "sliding", "slide-rock": "slide_rocking", "drift": "drifting"}
+_SLIP_KEYS = {kind: key for key, kind in SLIP_KINDS.items()}
 
 
 @styled
@@ -140,7 +141,7 @@ def slip_by_mode_figure(response: Response, units: str = "si") -> Figure:
     """
     exact = "time_s" in response.event_log
     summed = slip_by_kind(response) if exact else {}
-    named = {kind: key for kind, key in _SLIP_KINDS.items() if abs(response.slip_by_mode_m[key]) > NO_SLIP}
+    named = {kind: key for kind, key in _SLIP_KEYS.items() if abs(response.slip_by_mode_m[key]) > NO_SLIP}
     scale = unit_system(units).scale("displacement", largest(*summed.values(), response.histories["slip_m"]))
     figure = Figure(figsize=(WIDTH, 3.6), layout="constrained")
     curves, bars = figure.subplots(1, 2, sharey=True, width_ratios=[3.0, 1.2])
@@ -199,13 +200,11 @@ def slip_by_kind(response: Response) -> dict[str, Floats]:
     last = np.searchsorted(at, time, side="right") - 1
     steps = np.diff(where, append=where[-1])
     result = {}
-    for kind in _SLIP_KINDS:
+    for kind in _SLIP_KEYS:
         mine = kinds == kind
         before = np.concatenate([[0.0], np.cumsum(np.where(mine, steps, 0.0))])
         result[kind] = before[last] + np.where(mine[last], slip - where[last], 0.0)
-    return {
-        kind: values for kind, values in result.items() if abs(response.slip_by_mode_m[_SLIP_KINDS[kind]]) > NO_SLIP
-    }
+    return {kind: values for kind, values in result.items() if abs(response.slip_by_mode_m[_SLIP_KEYS[kind]]) > NO_SLIP}
 
 
 @styled

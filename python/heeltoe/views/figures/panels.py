@@ -17,6 +17,8 @@ from heeltoe.units.systems import Scale, Units
 from heeltoe.units.write import length
 from heeltoe.views.figures.style import COLOURS, MODE_COLOURS, WIDTH
 
+#: Modes that make slip as kinds of motion, by their names in the numbers.
+SLIP_KINDS = {"sliding": "slide", "slide_rocking": "slide-rock", "drifting": "drift"}
 # The states of an elastic dam's crack as kinds of motion.
 _KINDS = {"sliding": "slide", "rocking": "rock", "slide-rocking": "slide-rock", "drifting": "drift"}
 # From which part of the time on the spread of what remains is drawn.

@@ -35,6 +35,8 @@ COLOURS = {
     "silt": "#E3D3B0",
     "crack": "#B22222",
 }
+#: Colours and dashes of curves beside each other that mean no one thing.
+LOOKS = (("slip", "-"), ("rotation", "--"), ("toe", "-."), ("heel", ":"))
 MODE_COLOURS = {
     "rest": "#BBBBBB",
     "slide": "#56B4E9",

@@ -20,13 +20,12 @@ from heeltoe.views.figures.section import (
     draw_further,
 )
 from heeltoe.views.figures.shaking import draw_horizontal
-from heeltoe.views.figures.style import COLOURS, WIDTH, styled
+from heeltoe.views.figures.style import COLOURS, LOOKS, WIDTH, styled
 from heeltoe.views.figures.time_axis import time_axis
 
 _HEIGHT = 2.8
 # Shares of the width: the section, and from where on the histories are.
 _SECTION, _HISTORIES = 0.41, 0.55
-_LOOKS = (("slip", "-"), ("rotation", "--"), ("toe", "-."), ("heel", ":"))
 
 
 @styled
@@ -85,7 +84,7 @@ def _draw_slips(axes: Axes, shown: tuple[Response, ...], units: Units) -> None:
     """Draw the slip of each run, of several cracks those at each, and say what remains of the first."""
     curves = _of_cracks(shown[0], units) or [(f"{item.model} model", item) for item in shown]
     scale = units.scale("displacement", largest(*(response.histories["slip_m"] for _, response in curves)))
-    for (label, response), (colour, dash) in zip(curves, _LOOKS, strict=False):
+    for (label, response), (colour, dash) in zip(curves, LOOKS, strict=False):
         time, slip = response.histories["time_s"], scale(response.histories["slip_m"])
         axes.plot(time, slip, color=COLOURS[colour], linestyle=dash, linewidth=1.2, label=label)
     if not any(response.histories["slip_m"].any() for _, response in curves):

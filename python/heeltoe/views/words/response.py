@@ -15,6 +15,9 @@ from heeltoe.result.tension import place_phrase
 from heeltoe.units.sentences import written
 from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
 
+#: Figures that each of several cracks has.
+OF_CRACKS = ("response", "slip-by-mode", "friction", "forces", "bearing", "path", "joint", "crack", "pressure")
+# Of a table of several cracks.
 CRACK_COLUMNS = ("crack at", "residual slip", "peak down", "peak up", "opening up", "opening down", "strikes")
 
 

@@ -102,7 +102,7 @@ def crack_anchors(case: Case, bodies: tuple[Body, ...], rock: RockBody | None = 
     """Return the anchors of a case that have a stiffness; prestress alone is a constant load."""
     result = []
     for anchor in case.anchors_at_crack:
-        if not (anchor.axial_stiffness or anchor.shear_stiffness):
+        if not anchor.yields:
             continue
         points = []
         for body in bodies:

@@ -45,8 +45,7 @@ def anchors_of(case: Case, run: DamRun) -> list[AnchorForce]:
     borne = iter(run.anchors.tolist())
     forces = []
     for anchor in case.anchors_at_crack:
-        stiff = anchor.axial_stiffness or anchor.shear_stiffness
-        tension, force = next(borne) if stiff else (anchor.prestress, anchor.prestress)
+        tension, force = next(borne) if anchor.yields else (anchor.prestress, anchor.prestress)
         forces.append(
             AnchorForce(
                 distance_m=anchor.distance, peak_tension_n=tension, peak_force_n=force, capacity_n=anchor.capacity

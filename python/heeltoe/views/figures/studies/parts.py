@@ -9,10 +9,10 @@ from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.study.answers.answers import MODES, farther, modes
 from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.units.write import length, number
+from heeltoe.views.figures.panels import SLIP_KINDS
 from heeltoe.views.figures.studies.common import LINES, farthest, headed, slip_scale, strength_of
 from heeltoe.views.figures.style import MODE_COLOURS, MODE_HATCHES, WIDTH, styled
 
-_KINDS = {"sliding": "slide", "slide_rocking": "slide-rock", "drifting": "drift"}
 _LABELS = {"sliding": "sliding", "slide_rocking": "slide-rocking", "drifting": "drifting"}
 _POINTS = 400
 # Numbers from this one on are too long to stand beside each other above bars.
@@ -67,7 +67,7 @@ def modes_figure(study: StudyResults, units: str = "si") -> Figure | None:
         for which in np.flatnonzero(occurring).tolist():
             mode = MODES[which]
             share = runs[filled, which] / total[filled]
-            kind = _KINDS[mode]
+            kind = SLIP_KINDS[mode]
             look = {"color": MODE_COLOURS[kind], "hatch": MODE_HATCHES[kind], "edgecolor": "white"}
             axes.bar(np.arange(filled.size), share, 0.85, bottom, label=_LABELS[mode], **look)
             bottom += share
