@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.base.display import hand_in
-from heeltoe.errors.suggestion import near
+from heeltoe.errors.sanitize import near
 
 # Where each public name is at home; type checkers read the same below, and tests/test_names.py compares.
 _HOME = {

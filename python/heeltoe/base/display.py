@@ -11,7 +11,7 @@ from collections.abc import Callable
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Protocol
 
-from heeltoe.errors.suggestion import near
+from heeltoe.errors.sanitize import near
 
 # Not at run time: who draws nothing does not wait for it.
 if TYPE_CHECKING:

@@ -1,8 +1,9 @@
-"""Texts of strangers made harmless: titles, names in records, names of files, which anybody may have written."""
+"""Texts of strangers: titles, names in records and of files, made harmless; names of ours that were nearly hit."""
 
 from __future__ import annotations
 
 import unicodedata
+from collections.abc import Iterable
 
 LONGEST = 200
 """More letters than this say nothing more."""
@@ -34,3 +35,16 @@ def _letter(letter: str) -> str:
     if kind in ("Zl", "Zp"):
         return " "
     return "" if kind == "Cf" and letter not in _JOINERS else letter
+
+
+def near(name: str, known: Iterable[str]) -> str:
+    """Return ``, did you mean "..."?`` for a name that is not known, or nothing where none that is known is near."""
+    # Not at the top: what imports the package need not wait for it.
+    from difflib import get_close_matches
+
+    names = list(known)
+    matches = (
+        get_close_matches(name, names, n=1)
+        or [candidate for candidate in names if name and candidate.startswith(f"{name}_")][:1]
+    )
+    return f', did you mean "{matches[0]}"?' if matches else ""

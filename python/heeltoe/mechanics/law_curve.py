@@ -12,7 +12,7 @@ from heeltoe.case.crack.crack import Crack
 from heeltoe.case.crack.law import Law
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
-from heeltoe.errors.suggestion import near
+from heeltoe.errors.sanitize import near
 from heeltoe.kernel.friction import shear_stress
 from heeltoe.mechanics.block import build_block
 from heeltoe.mechanics.friction import crack_law, references_of_law

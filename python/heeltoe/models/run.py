@@ -13,7 +13,7 @@ from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve_all
 from heeltoe.case.warnings import case_warnings
 from heeltoe.errors.error import InputError, expect
-from heeltoe.errors.suggestion import near
+from heeltoe.errors.sanitize import near
 from heeltoe.mechanics.friction import friction_of
 from heeltoe.models.drain_closure import drained, follows_drains, with_shares
 from heeltoe.models.rigid.omitted import omitted

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError, shown
-from heeltoe.errors.suggestion import near
+from heeltoe.errors.sanitize import near
 from heeltoe.models.statics.model import Statics
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.response import Response

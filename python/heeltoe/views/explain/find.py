@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from heeltoe.errors.error import InputError, shown
-from heeltoe.errors.suggestion import near
+from heeltoe.errors.sanitize import near
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.crest import CREST_PEAKS
 from heeltoe.views.explain.fields import fields_of_a_case, fields_of_a_study

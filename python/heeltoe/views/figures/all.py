@@ -133,7 +133,7 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
         drawings |= _laws(case, units)
     beside = result.beside
     if beside is not None and has_pictures(result) and has_pictures(beside):
-        from heeltoe.views.figures.beside import comparison_figure
+        from heeltoe.views.figures.histories import comparison_figure
 
         drawings["comparison"] = lambda: comparison_figure(result, beside, units)
     drawings |= _drawings(result, units)
