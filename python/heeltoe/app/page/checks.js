@@ -1,5 +1,6 @@
 /** Beside the answer: the static checks of the same dam, and how much its result depends on the shaking. */
 import { element } from "./dom.js";
+import { LongRun } from "./job.js";
 import { table } from "./table.js";
 
 const MODELS = /** @type {Record<string, string>} */ ({ rigid: "rigid block", decoupled: "rigid block on an elastic part", flexible: "elastic dam" });
@@ -65,20 +66,12 @@ export class StaticChecks {
 export class Spread {
   /** @param {import("./talk.js").Talk} talk @param {() => Record<string, number>} values */
   constructor(talk, values) {
-    this.talk = talk;
-    this.number = 0;
     this.model = /** @type {HTMLSelectElement} */ (element("select", { id: "spread-model" }));
-    this.start = element("button", { type: "button", onclick: () => talk.ask("spread", { values: values(), model: this.model.value }) }, "Run the spread");
-    this.cancel = element("button", { type: "button", hidden: true, onclick: () => talk.ask("cancel", { number: this.number }) }, "Cancel the spread");
-    this.bar = /** @type {HTMLProgressElement} */ (element("progress", { hidden: true, "aria-label": "The spread is computed" }));
-    this.status = element("p", { class: "faint", role: "status" });
+    const labels = { start: "Run the spread", cancel: "Cancel the spread", bar: "The spread is computed" };
+    const run = new LongRun(talk, "spread", labels, () => talk.ask("spread", { values: values(), model: this.model.value }), (job) => this.take(job));
+    this.status = run.status;
     this.content = element("div", { class: "content" });
-    this.root = element("details", { class: "card more", "data-checks": "spread" }, element("summary", {}, "Spread: the same run with slightly weaker and stronger shaking"), element("div", { class: "in-line" }, element("label", { for: "spread-model" }, "of the"), this.model, this.start, this.cancel), this.bar, this.status, this.content);
-    talk.on("job", (job) => this.take(job));
-    talk.on("job refused", ({ what, text }) => {
-      if (what !== "spread") return;
-      this.status.textContent = text;
-    });
+    this.root = element("details", { class: "card more", "data-checks": "spread" }, element("summary", {}, "Spread: the same run with slightly weaker and stronger shaking"), element("div", { class: "in-line" }, element("label", { for: "spread-model" }, "of the"), this.model, run.start, run.cancel), run.bar, run.status, this.content);
   }
 
   /** @param {string[]} models Those that the case has the data for. */
@@ -98,12 +91,6 @@ export class Spread {
 
   /** @param {any} job */
   take(job) {
-    if (job.what !== "spread" || job.number < this.number) return;
-    this.number = job.number;
-    const running = job.state === "running";
-    this.cancel.hidden = this.bar.hidden = !running;
-    this.start.toggleAttribute("disabled", running);
-    this.status.textContent = running ? `${job.status} (${Math.round(job.seconds)} s)` : job.status;
     if (job.state !== "done") return;
     const { rows, columns, sentence, warnings } = job.result;
     this.root.classList.remove("stale");

@@ -2,6 +2,7 @@
  * evidence, which tells how far its numbers may be off, it runs on a button, says how far it is, and can be cancelled. */
 import { Card } from "./card.js";
 import { element } from "./dom.js";
+import { LongRun } from "./job.js";
 
 /** How long no slider has moved when the run begins: a hand that stops for a moment drags on. */
 const RESTS_AFTER_MS = 300;
@@ -17,7 +18,6 @@ export class FlexibleRun {
     this.talk = talk;
     this.values = values;
     this.done = done;
-    this.number = 0;
     this.position = 0;
     /** Position of the sliders of the run with evidence, and of what is shown. */
     this.asked = -1;
@@ -30,18 +30,15 @@ export class FlexibleRun {
     this.can = false;
     this.card = new Card("flexible");
     this.card.hide(true);
-    this.start = element("button", { type: "button", class: "main", onclick: () => this.run() }, "Run the elastic dam with evidence");
-    this.cancel = element("button", { type: "button", hidden: true, onclick: () => talk.ask("cancel", { number: this.number }) }, "Cancel");
-    this.status = element("p", { class: "faint status", role: "status" });
-    this.bar = element("progress", { hidden: true, "aria-label": "The elastic dam is computed" });
+    const labels = { start: "Run the elastic dam with evidence", cancel: "Cancel", bar: "The elastic dam is computed" };
+    const run = new LongRun(talk, "flexible", labels, () => this.run(), (job) => this.take(job));
+    this.start = run.start;
+    this.start.classList.add("main");
+    this.status = run.status;
+    this.status.classList.add("status");
     this.about = element("p", { class: "faint status" }, EVIDENCE);
-    this.root = element("div", { class: "slider" }, this.start, this.cancel, this.bar, this.status, this.about);
+    this.root = element("div", { class: "slider" }, run.start, run.cancel, run.bar, run.status, this.about);
     talk.on("elastic", (answer) => this.hear(answer));
-    talk.on("job", (job) => this.take(job));
-    talk.on("job refused", ({ what, text }) => {
-      if (what !== "flexible") return;
-      this.status.textContent = text;
-    });
   }
 
   /** @param {string} why The elastic dam cannot be run; empty where it can. */
@@ -109,12 +106,6 @@ export class FlexibleRun {
 
   /** @param {any} job */
   take(job) {
-    if (job.what !== "flexible" || job.number < this.number) return;
-    this.number = job.number;
-    const running = job.state === "running";
-    this.cancel.hidden = this.bar.hidden = !running;
-    this.start.toggleAttribute("disabled", running);
-    this.status.textContent = running ? `${job.status} (${Math.round(job.seconds)} s)` : job.status;
     if (job.state !== "done") return;
     if (this.asked === this.position) this.show(job.result, this.asked, true);
     else this.status.textContent = "The sliders have moved since: the run with evidence was of where they were.";

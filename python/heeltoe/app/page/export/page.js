@@ -1,5 +1,6 @@
 /** The page "Export": files of the case and of its results, and the commands that make them elsewhere. */
 import { element } from "../dom.js";
+import { LongRun } from "../job.js";
 import { save } from "../save.js";
 import { check, select } from "../studies/fields.js";
 
@@ -46,17 +47,15 @@ function copied(label, lines) {
 
 /** @param {import("../talk.js").Talk} talk */
 export function exportPage(talk) {
-  let job = /** @type {any} */ (null);
   let visible = false;
   const model = select({ id: "export-model", label: "Model", options: Object.entries(MODELS) });
   const report = check("report, PDF and HTML");
   const csv = check("histories as CSV, not Parquet");
   const animation = check("animation");
   report.input.checked = true;
-  const make = element("button", { type: "button", class: "main", onclick: () => talk.ask("make", wanted()) }, "Make the files");
-  const cancel = element("button", { type: "button", hidden: true, onclick: () => talk.ask("cancel", { number: job.number }) }, "Cancel");
-  const bar = element("progress", { hidden: true, "aria-label": "The files are made" });
-  const status = element("p", { class: "faint", role: "status" });
+  const labels = { start: "Make the files", cancel: "Cancel", bar: "The files are made" };
+  const run = new LongRun(talk, "export", labels, () => talk.ask("make", wanted()), take);
+  run.start.classList.add("main");
   const old = element("p", { class: "caveat", role: "status", hidden: true }, "The case has changed since these files were made: make them again.");
   const files = element("div", { class: "files" });
   const command = element("pre", { tabindex: "0" });
@@ -84,28 +83,21 @@ export function exportPage(talk) {
     files.replaceChildren(element("p", { class: "verdict" }, result.verdict), all, element("div", { class: "wide" }, table));
   }
 
+  /** @param {any} job */
+  function take(job) {
+    run.status.classList.toggle("wrong", !["running", "done", "cancelled"].includes(job.state));
+    if (job.state === "done") show(job.result);
+    else files.replaceChildren();
+    if (!run.running) ask();
+  }
+
   talk.on("export", (message) => {
     command.textContent = message.command;
     program.textContent = message.program;
     for (const option of model.input.options) option.disabled = message.cannot.includes(option.value);
-    make.toggleAttribute("disabled", !message.ready || (job && job.state === "running"));
-    if (!message.ready) status.textContent = "The case has no motion: choose one in the tab Motion.";
+    run.start.toggleAttribute("disabled", !message.ready || run.running);
+    if (!message.ready) run.status.textContent = "The case has no motion: choose one in the tab Motion.";
     old.hidden = message.same || !files.hasChildNodes();
-  });
-  talk.on("job", (message) => {
-    if (message.what !== "export" || (job && message.number < job.number)) return;
-    job = message;
-    const running = job.state === "running";
-    cancel.hidden = bar.hidden = !running;
-    make.toggleAttribute("disabled", running);
-    status.textContent = running ? `${job.status} (${Math.round(job.seconds)} s)` : job.status;
-    status.classList.toggle("wrong", !running && !["done", "cancelled"].includes(job.state));
-    if (job.state === "done") show(job.result);
-    else files.replaceChildren();
-    if (!running) ask();
-  });
-  talk.on("job refused", (message) => {
-    if (message.what === "export") status.textContent = message.text;
   });
   for (const of of ["state", "rigid"]) talk.on(of, ask);
 
@@ -114,7 +106,7 @@ export function exportPage(talk) {
     label: "Export",
     /** @param {HTMLElement} root */
     mount(root) {
-      const options = element("div", { class: "export-options" }, model.root, element("div", { class: "ticks" }, report.root, csv.root, animation.root), element("div", { class: "actions" }, make, cancel), bar, status);
+      const options = element("div", { class: "export-options" }, model.root, element("div", { class: "ticks" }, report.root, csv.root, animation.root), element("div", { class: "actions" }, run.start, run.cancel), run.bar, run.status);
       options.addEventListener("input", ask);
       const file = element("button", { type: "button", onclick: () => fetchOf("case file", {}) }, "Download the case file");
       root.append(
