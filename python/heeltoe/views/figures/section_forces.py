@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -14,12 +16,10 @@ from heeltoe.units.systems import Units
 from heeltoe.units.write import number, scaled
 from heeltoe.views.figures.canvas import Canvas
 
+WATER = "#0072B2"
 FORCE_COLOURS = {
     "weight": "#000000",
-    "reservoir": "#0072B2",
-    "tailwater": "#0072B2",
-    "uplift": "#0072B2",
-    "nappe": "#0072B2",
+    **dict.fromkeys(("reservoir", "tailwater", "uplift", "nappe"), WATER),
     "ice": "#6A4C93",
     "silt": "#8A6D1B",
     "anchors": "#B22222",
@@ -32,35 +32,44 @@ _LITTLE = 1e-9
 
 def draw_uplift(canvas: Canvas, case: Case, units: Units) -> float:
     """Draw the pressure in the crack, downwards from it; return how deep the diagram is [m]."""
-    distance, pressure = uplift_profile(case).T
-    most = float(pressure.max())
+    profile = uplift_profile(case)
+    most = float(profile[:, 1].max())
     if most <= 0.0:
         return 0.0
-    depth, section = _DEEPEST * canvas.size, case.cut
+    depth = _DEEPEST * canvas.size
+    look = {"facecolor": "#E8F3FB", "edgecolor": WATER, "linewidth": 0.9, "zorder": 3}
+    draw_crack_pressure(canvas, case.cut, profile, (most, depth), units, look=look, width=1.0, word="pressure ")
+    return depth
+
+
+def draw_crack_pressure(
+    canvas: Canvas,
+    section: CutSection,
+    profile: Floats,
+    deepest: tuple[float, float],
+    units: Units,
+    *,
+    look: Mapping[str, Any],
+    width: float,
+    word: str = "",
+) -> None:
+    """Draw the pressure in a crack downwards from it, with its values: of a profile (k, 2) of distances from the heel
+    [m] and pressures [Pa], to the scale of the `deepest`, a pressure [Pa] and its depth in the drawing [m]."""
     heel = np.array(section.heel)
-    along = np.array(section.from_crack_frame(1.0, 0.0))
-    down = np.array(section.from_crack_frame(0.0, -1.0))
-    top = heel + np.outer(distance, along)
-    bottom = top + np.outer(depth * pressure / most, down)
-    canvas.fill(
-        np.vstack([top[[0, -1]], bottom[::-1]]),
-        facecolor="#E8F3FB",
-        edgecolor="#0072B2",
-        linewidth=0.9,
-        hatch="|||",
-        zorder=3,
-    )
-    canvas.line(bottom, keep_off=True, color="#0072B2", linewidth=1.0, zorder=3.1)
+    along, down = np.array(section.from_crack_frame(1.0, 0.0)), np.array(section.from_crack_frame(0.0, -1.0))
+    most, depth = deepest
+    top = heel + np.outer(profile[:, 0], along)
+    bottom = top + np.outer(depth * profile[:, 1] / most, down)
+    canvas.fill(np.vstack([top[[0, -1]], bottom[::-1]]), hatch="|||", **look)
+    canvas.line(bottom, keep_off=True, color=WATER, linewidth=width, zorder=3.1)
     scale = units.scale("pressure", most)
     labelled: set[tuple[float, float]] = set()
-    for place, end, value in zip(distance, bottom, pressure, strict=True):
-        key = (round(float(place), 6), round(float(value), 3))
+    for (place, value), end in zip(profile.tolist(), bottom, strict=True):
+        key = (round(place, 6), round(value, 3))
         if value > 1e-6 * most and key not in labelled:
+            text = scaled(value, scale) if labelled else f"{word}{scaled(value, scale)}"
             labelled.add(key)
-            text = f"pressure {scaled(value, scale)}" if len(labelled) == 1 else scaled(value, scale)
-            first = (-1, -1) if place <= 0.0 else (1, -1)
-            canvas.label(text, end, "#0072B2", first=first)
-    return depth
+            canvas.label(text, end, WATER, first=(-1 if place <= 0.0 else 1, -1))
 
 
 def draw_forces(canvas: Canvas, case: Case, units: Units) -> None:

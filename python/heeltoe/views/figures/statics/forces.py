@@ -20,7 +20,7 @@ from heeltoe.units.systems import Units, unit_system
 from heeltoe.units.write import number, scaled
 from heeltoe.views.figures.canvas import Canvas
 from heeltoe.views.figures.section import draw_bodies
-from heeltoe.views.figures.section_forces import FORCE_COLOURS
+from heeltoe.views.figures.section_forces import FORCE_COLOURS, WATER, draw_crack_pressure
 from heeltoe.views.figures.statics.stresses import draw_stresses
 from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
 
@@ -41,7 +41,6 @@ _ARM = {
 }
 _BODY = ("weight", "inertia")
 _UPSTREAM = ("reservoir", "ice", "silt", "hydrodynamic")
-_WATER = "#0072B2"
 _EARTHQUAKE = "#D55E00"
 
 # Where an arrow has its point [m], what it brings there [N/m], how far from the heel that acts [m], and whose it is.
@@ -139,7 +138,7 @@ def _arms(arrows: list[_Arrow], *, up: bool) -> list[tuple[float, str]]:
 
 def _colour(name: str) -> str:
     first = name.split(" ")[0]
-    return _EARTHQUAKE if first in ("inertia", "hydrodynamic") else FORCE_COLOURS.get(first, _WATER)
+    return _EARTHQUAKE if first in ("inertia", "hydrodynamic") else FORCE_COLOURS.get(first, WATER)
 
 
 def _draw_crack(canvas: Canvas, case: Case, load_case: LoadCase) -> None:
@@ -172,26 +171,15 @@ def _draw_pressures(canvas: Canvas, case: Case, load_case: LoadCase, units: Unit
     if most <= 0.0:
         return
     per, scale = _DEEPEST * canvas.size / most, units.scale("pressure", most)
-    look = {"facecolor": "none", "edgecolor": _WATER, "linewidth": 0.7, "zorder": 2.5}
+    look = {"facecolor": "none", "edgecolor": WATER, "linewidth": 0.7, "zorder": 2.5}
     for wet, pressure, side in faces:
         if pressure.size > 1 and pressure.max() > 0.0:
             outer = wet + np.outer(side * per * pressure, [1.0, 0.0])
             canvas.fill(np.vstack([wet, outer[::-1]]), hatch="---", alpha=0.8, **look)
             low = int(np.argmax(pressure))
-            canvas.label(scaled(float(pressure[low]), scale), outer[low], _WATER, first=(int(side), 1))
-    heel, along = np.array(section.heel), np.array(section.from_crack_frame(1.0, 0.0))
-    down = np.array(section.from_crack_frame(0.0, -1.0))
-    top = heel + np.outer(points[:, 0], along)
-    bottom = top + np.outer(per * points[:, 1], down)
+            canvas.label(scaled(float(pressure[low]), scale), outer[low], WATER, first=(int(side), 1))
     if points[:, 1].max() > 0.0:
-        canvas.fill(np.vstack([top[[0, -1]], bottom[::-1]]), hatch="|||", **look)
-        canvas.line(bottom, keep_off=True, color=_WATER, linewidth=0.8, zorder=3.1)
-    labelled: set[tuple[float, float]] = set()
-    for (x, height), place in zip(load_case.pressures, bottom, strict=True):
-        key = (round(x, 6), round(height, 3))
-        if height > 1e-6 * most and key not in labelled:
-            labelled.add(key)
-            canvas.label(scaled(height, scale), place, _WATER, first=(-1 if x <= 0.0 else 1, -1))
+        draw_crack_pressure(canvas, section, points, (most, per * most), units, look=look, width=0.8)
 
 
 def _wet(face: Floats, level: float) -> Floats:
