@@ -7,7 +7,7 @@ import asyncio
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry, number
+from heeltoe.app.desk import BadRequestError, Desk, Entry, Request, number
 from heeltoe.app.jobs import Job, Work
 from heeltoe.app.sessions import Session
 from heeltoe.app.workers import WorkerLostError
@@ -35,7 +35,7 @@ def changes_of(session: Session, values: object) -> dict[str, Any]:
     return changes
 
 
-async def rigid(desk: Desk, request: Asked) -> dict[str, Any]:
+async def rigid(desk: Desk, request: Request) -> dict[str, Any]:
     """Run the rigid block with the sliders where they are, and remember where that is."""
     from heeltoe.app.live import answer
 
@@ -46,7 +46,7 @@ async def rigid(desk: Desk, request: Asked) -> dict[str, Any]:
     return {"of": "rigid", **payload}
 
 
-async def decoupled(desk: Desk, request: Asked) -> dict[str, Any]:
+async def decoupled(desk: Desk, request: Request) -> dict[str, Any]:
     """Run the decoupled chain with the sliders where they are."""
     from heeltoe.app.live import answer
 
@@ -59,7 +59,7 @@ async def decoupled(desk: Desk, request: Asked) -> dict[str, Any]:
     return {"of": "decoupled", **payload}
 
 
-async def elastic(desk: Desk, request: Asked) -> dict[str, Any]:
+async def elastic(desk: Desk, request: Request) -> dict[str, Any]:
     """Run the elastic dam without evidence with the sliders where they are; without values the tab waits for it no
     longer. The next one takes the place of one that runs."""
     from heeltoe.app.live import elastic as work
@@ -76,7 +76,7 @@ async def elastic(desk: Desk, request: Asked) -> dict[str, Any]:
     return {"of": "elastic", **payload}
 
 
-async def flexible(desk: Desk, request: Asked) -> dict[str, Any]:
+async def flexible(desk: Desk, request: Request) -> dict[str, Any]:
     """Start the flexible model with the sliders where they are; it tells how far it is, and its result in the end."""
     from heeltoe.app.live import flexible as work
 
@@ -114,7 +114,7 @@ async def aside(desk: Desk, work: Callable[..., Any], *arguments: Any) -> Any:
         return refused(error)
 
 
-async def cancel(desk: Desk, request: Asked) -> dict[str, Any]:
+async def cancel(desk: Desk, request: Request) -> dict[str, Any]:
     """Cancel a long run of this tab."""
     job = desk.session.jobs.get(int(number(request, "number")))
     if job is None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.app.answer import aside, changes_of, start
-from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry, text
+from heeltoe.app.desk import BadRequestError, Desk, Entry, Request, text
 from heeltoe.app.wording import in_words_of_the_page, meant
 from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
@@ -30,7 +30,7 @@ _NOT_IN_RESPONSE: Any = {
 _RESPONSES: Kept[Amplification] = Kept(4)
 
 
-async def statics(desk: Desk, request: Asked) -> dict[str, Any]:
+async def statics(desk: Desk, request: Request) -> dict[str, Any]:
     """Judge the dam of the sliders by its criteria, before and after the earthquake, and by a response spectrum where
     one is asked for."""
     session = desk.session
@@ -45,14 +45,14 @@ async def statics(desk: Desk, request: Asked) -> dict[str, Any]:
     return {"of": "statics", **await desk.workers.quick(checked, session.case, changes, session.units, left)}
 
 
-async def crest(desk: Desk, request: Asked) -> dict[str, Any]:
+async def crest(desk: Desk, request: Request) -> dict[str, Any]:
     """Return how the crest of the dam of the sliders answers the ground by frequency."""
     session = desk.session
     changes = changes_of(session, request.get("values"))
     return {"of": "crest", **await aside(desk, crest_response, session.case, changes, session.units)}
 
 
-async def spread(desk: Desk, request: Asked) -> dict[str, Any]:
+async def spread(desk: Desk, request: Request) -> dict[str, Any]:
     """Start the runs with a little weaker and a little stronger shaking."""
     session, model = desk.session, request.get("model")
     if model not in _MODELS:

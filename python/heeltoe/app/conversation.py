@@ -9,7 +9,7 @@ from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry
+from heeltoe.app.desk import BadRequestError, Desk, Entry, Request
 from heeltoe.errors.error import HeeltoeError
 
 _LOG = logging.getLogger(__name__)
@@ -36,7 +36,7 @@ class Conversation:
         self._actions = actions
         self._busy: set[str] = set()
         # Of what only the newest is worth an answer: the one that waits while another is computed.
-        self._waiting: dict[str, Asked] = {}
+        self._waiting: dict[str, Request] = {}
         # Of what the next one replaces: the one that is computed.
         self._replaced: dict[str, asyncio.Task[None]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
@@ -77,7 +77,7 @@ class Conversation:
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
-    async def _answer(self, name: str, entry: Entry, request: Asked | None) -> None:
+    async def _answer(self, name: str, entry: Entry, request: Request | None) -> None:
         try:
             while request is not None:
                 answer = await self._answer_of(name, entry, request)
@@ -87,7 +87,7 @@ class Conversation:
             # Whatever has happened, the tab may ask for it again.
             self._busy.discard(name)
 
-    async def _answer_of(self, name: str, entry: Entry, request: Asked) -> dict[str, Any]:
+    async def _answer_of(self, name: str, entry: Entry, request: Request) -> dict[str, Any]:
         """Return the answer of an action; one that fails says so, and the log says where."""
         try:
             return await entry.action(self._desk, request)

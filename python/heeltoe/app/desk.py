@@ -11,7 +11,7 @@ from heeltoe.app.sessions import Session
 from heeltoe.app.settings import Settings
 from heeltoe.app.workers import Workers
 
-Asked = dict[str, Any]
+Request = dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Desk:
 
 
 #: Takes what is asked and returns the answer.
-Action = Callable[[Desk, Asked], Awaitable[dict[str, Any]]]
+Action = Callable[[Desk, Request], Awaitable[dict[str, Any]]]
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class BadRequestError(Exception):
     """A message that no page of this app sends."""
 
 
-def number(request: Asked, name: str) -> float:
+def number(request: Request, name: str) -> float:
     """Return a finite number of a message.
 
     Raises
@@ -77,7 +77,7 @@ def number(request: Asked, name: str) -> float:
     return float(value)
 
 
-def text(request: Asked, name: str) -> str:
+def text(request: Request, name: str) -> str:
     """Return a text of a message.
 
     Raises

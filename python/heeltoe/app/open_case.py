@@ -6,7 +6,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry, text
+from heeltoe.app.desk import BadRequestError, Desk, Entry, Request, text
 from heeltoe.app.sessions import Session
 from heeltoe.case.examples import examples_folder
 from heeltoe.case.model import Case
@@ -84,7 +84,7 @@ def _open(session: Session, name: str) -> None:
     session.kept.clear()
 
 
-async def open_example(desk: Desk, request: Asked) -> dict[str, Any]:
+async def open_example(desk: Desk, request: Request) -> dict[str, Any]:
     """Open an example in the place of the case that the tab has."""
 
     def opened() -> dict[str, Any]:
@@ -95,7 +95,7 @@ async def open_example(desk: Desk, request: Asked) -> dict[str, Any]:
     return payload
 
 
-async def set_units(desk: Desk, request: Asked) -> dict[str, Any]:
+async def set_units(desk: Desk, request: Request) -> dict[str, Any]:
     """Show everything in SI or in units of the United States."""
     name = text(request, "units")
     if name not in ("si", "us"):

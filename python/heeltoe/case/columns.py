@@ -39,7 +39,7 @@ _OPTIONS = {f"uplift.{name}": pattern for name, pattern in UPLIFT_OPTIONS.items(
 
 #: Columns by the paths of their fields.
 Columns = Mapping[str, Sequence[float] | Sequence[str] | NDArray[Any]]
-_Given = dict[str, NDArray[Any]]
+_Arrays = dict[str, NDArray[Any]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +95,7 @@ def by_columns(case: Case, columns: Columns, *, every: bool = False) -> Rows:
     return Rows(sound, tuple(parts))
 
 
-def _part(case: Case, here: _Given, *, every: bool) -> tuple[NDArray[np.bool_], Case | None]:
+def _part(case: Case, here: _Arrays, *, every: bool) -> tuple[NDArray[np.bool_], Case | None]:
     """Return which rows of one pattern are no cases, of which only the first is certain without `every`, and the others
     as a case; None where there is no other, or need not be."""
     wrong = _out_of_bounds(case, here)
@@ -121,11 +121,11 @@ def _part(case: Case, here: _Given, *, every: bool) -> tuple[NDArray[np.bool_], 
     return wrong, None if misfit.all() else _filled(one, _taken(here, kept[~misfit]))
 
 
-def _taken(fields: _Given, rows: Integers) -> _Given:
+def _taken(fields: _Arrays, rows: Integers) -> _Arrays:
     return {path: values[rows] for path, values in fields.items()}
 
 
-def _stands(case: Case, here: _Given, row: int) -> bool:
+def _stands(case: Case, here: _Arrays, row: int) -> bool:
     try:
         _row(case, here, row)
     except InputError:
@@ -133,9 +133,9 @@ def _stands(case: Case, here: _Given, row: int) -> bool:
     return True
 
 
-def _checked(columns: Columns) -> tuple[_Given, int]:
+def _checked(columns: Columns) -> tuple[_Arrays, int]:
     """Return the columns as arrays, and their length; one row where there are none."""
-    fields: _Given = {}
+    fields: _Arrays = {}
     count: int | None = None
     for path, values in columns.items():
         if path not in COLUMNS:
@@ -151,7 +151,7 @@ def _checked(columns: Columns) -> tuple[_Given, int]:
     return fields, 1 if count is None else count
 
 
-def _alike(fields: _Given, count: int) -> list[Integers]:
+def _alike(fields: _Arrays, count: int) -> list[Integers]:
     """Return the rows of each pattern of the uplift."""
     if PATTERN not in fields or count == 0:
         return [np.arange(count)] if count else []
@@ -159,7 +159,7 @@ def _alike(fields: _Given, count: int) -> list[Integers]:
     return [np.flatnonzero(which == group) for group in range(which.max() + 1)]
 
 
-def _row(case: Case, here: _Given, row: int) -> Case:
+def _row(case: Case, here: _Arrays, row: int) -> Case:
     """Return a row as a single case, read and checked as any; an option of another pattern, NaN, is not there."""
     pattern = pattern_of(here[PATTERN][row]) if PATTERN in here else case.uplift.pattern
     changes: dict[str, Any] = {}
@@ -172,7 +172,7 @@ def _row(case: Case, here: _Given, row: int) -> Case:
     return case.with_(changes)
 
 
-def _filled(case: Case, here: _Given) -> Case:
+def _filled(case: Case, here: _Arrays) -> Case:
     """Return a case with columns in the place of its numbers."""
     blocks: dict[str, dict[str, Any]] = {}
     for path, values in here.items():
@@ -184,7 +184,7 @@ def _filled(case: Case, here: _Given) -> Case:
     return case.model_copy(update=changes)
 
 
-def _out_of_bounds(case: Case, here: _Given) -> NDArray[np.bool_]:
+def _out_of_bounds(case: Case, here: _Arrays) -> NDArray[np.bool_]:
     """Return which rows have a number that its field does not take."""
     wrong = np.zeros(next(iter(here.values())).size if here else 1, dtype=np.bool_)
     pattern = pattern_of(here[PATTERN][0]) if PATTERN in here else case.uplift.pattern

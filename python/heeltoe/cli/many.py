@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from heeltoe.case.model import Case
-    from heeltoe.cli.run import Asked
+    from heeltoe.cli.run import RunOptions
     from heeltoe.study.answers.study_results import StudyResults
     from heeltoe.study.run.run import Outlook, Progress
 
@@ -157,7 +157,7 @@ class Suite:
         }
 
 
-def run_suite_command(path: str, case: Case, pga: str | None, suite: Suite, request: Asked) -> None:
+def run_suite_command(path: str, case: Case, pga: str | None, suite: Suite, request: RunOptions) -> None:
     """Run a suite, write and show it."""
     from heeltoe.study.run.suite import run_suite
 

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from heeltoe.study.small.run_table import SmallStudy
 
 #: Changes of fields, as options give them.
-Given = Sequence[str | Mapping[str, Any]]
+FieldChanges = Sequence[str | Mapping[str, Any]]
 
 
 class Run(TyperCommand):
@@ -150,7 +150,7 @@ def run(
     from heeltoe.case.read import read_case, read_fields
 
     suite = Suite(motions or [], sa, match, target, judge, vertical, resume)
-    request = Asked(model, spread, json_, out, units, csv, vtk, vary, report, details, xlsx)
+    request = RunOptions(model, spread, json_, out, units, csv, vtk, vary, report, details, xlsx)
     request.check()
     changes: list[str | Mapping[str, Any]] = [*(set_ or [])]
     changes += [] if evidence is None else [f"flexible.evidence={evidence}"]
@@ -174,7 +174,7 @@ def run(
 
 
 @dataclass(frozen=True)
-class Asked:
+class RunOptions:
     """What is asked for beside the case, as it was typed."""
 
     model: str
@@ -224,7 +224,7 @@ class Asked:
         return check_runs(self.spread or RUNS, "--spread")
 
 
-def _run(path: str, changes: Given, reverse: bool, output_step: str | None, request: Asked) -> None:
+def _run(path: str, changes: FieldChanges, reverse: bool, output_step: str | None, request: RunOptions) -> None:
     """Read the case with its changes, run it, write and show what is asked for."""
     from heeltoe.case.read import read_case
     from heeltoe.units.parse import parse
@@ -267,7 +267,9 @@ def _run(path: str, changes: Given, reverse: bool, output_step: str | None, requ
         raise typer.Exit(NO_RESULT)
 
 
-def _table(path: str, changes: Given, request: Asked, step: float | None, say: Callable[[str], None]) -> SmallStudy:
+def _table(
+    path: str, changes: FieldChanges, request: RunOptions, step: float | None, say: Callable[[str], None]
+) -> SmallStudy:
     """Run a table of runs."""
     from heeltoe.models.run import cost_of
     from heeltoe.models.run import run as run_model
@@ -286,7 +288,7 @@ def _table(path: str, changes: Given, request: Asked, step: float | None, say: C
 
 
 def _write(
-    result: Response | SmallStudy, case: Case, request: Asked, place: Path, say: Callable[[str], None]
+    result: Response | SmallStudy, case: Case, request: RunOptions, place: Path, say: Callable[[str], None]
 ) -> list[Path]:
     """Write files and report; what asks for a report alone has its figures in it."""
     from heeltoe.study.small.run_table import SmallStudy

@@ -92,7 +92,7 @@ def statics(
     details: Details = False,
 ) -> None:
     """Check the stability before, during (pseudo-static) and after the earthquake."""
-    request = _Asked(slip, model, motion, pga, vary or [], sheet, out, report, every_section, details, xlsx, spectrum)
+    request = _Options(slip, model, motion, pga, vary or [], sheet, out, report, every_section, details, xlsx, spectrum)
     request.check()
     check_units(units)
     changes = [*(set_ or []), *([] if criteria is None else [_judged_by(criteria)]), *motion_changes(motion, pga=pga)]
@@ -107,7 +107,7 @@ def _judged_by(criteria: str) -> str:
 
 
 @dataclass(frozen=True)
-class _Asked:
+class _Options:
     """What is asked for beside the case, as it was typed."""
 
     slip: str | None
@@ -149,7 +149,7 @@ class _Asked:
         return After(model=self.model or (AUTO if shaken else None))
 
 
-def _statics(path: str, changes: list[str], json_: str | None, units: str | None, request: _Asked) -> None:
+def _statics(path: str, changes: list[str], json_: str | None, units: str | None, request: _Options) -> None:
     """Read the case with its changes, judge it, write and show what is asked for."""
     from heeltoe.case.read import read_case
     from heeltoe.study.small.run_table import parse_axes
@@ -184,7 +184,7 @@ def _statics(path: str, changes: list[str], json_: str | None, units: str | None
 
 
 def _write(
-    results: Joints | StaticsTable, case: Case, request: _Asked, place: Path, units: str, say: Callable[[str], None]
+    results: Joints | StaticsTable, case: Case, request: _Options, place: Path, units: str, say: Callable[[str], None]
 ) -> list[Path]:
     """Write files and report; what asks for a report alone has its figures in it."""
     from heeltoe.study.small.statics import StaticsTable

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import PurePath
 from typing import Any
 
-from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry, number, text
+from heeltoe.app.desk import BadRequestError, Desk, Entry, Request, number, text
 from heeltoe.app.sessions import Session
 from heeltoe.app.transfers import upload_path
 from heeltoe.errors.error import InputError
@@ -18,19 +18,19 @@ _LARGEST_FILE, _LONGEST_NAME = 200_000, 120
 _MOST_CHANGES = 50
 
 
-async def show(desk: Desk, request: Asked) -> dict[str, Any]:
+async def show(desk: Desk, request: Request) -> dict[str, Any]:
     """Return the case as it was typed, what is wrong with it, and its drawing."""
     return await _done(desk, lambda: None)
 
 
-async def fields(desk: Desk, request: Asked) -> dict[str, Any]:
+async def fields(desk: Desk, request: Request) -> dict[str, Any]:
     """Return what a case can say."""
     from heeltoe.app.case.fields import form
 
     return {"of": "case fields", "blocks": await desk.workers.quick(form, desk.session.units)}
 
 
-async def edit(desk: Desk, request: Asked) -> dict[str, Any]:
+async def edit(desk: Desk, request: Request) -> dict[str, Any]:
     """Change fields, as they were typed."""
     from heeltoe.app.case.draft import edit as change
 
@@ -38,7 +38,7 @@ async def edit(desk: Desk, request: Asked) -> dict[str, Any]:
     return await _done(desk, lambda: change(session, _typed(session, changes), request.get("step")))
 
 
-async def put(desk: Desk, request: Asked) -> dict[str, Any]:
+async def put(desk: Desk, request: Request) -> dict[str, Any]:
     """Put in a block that the case does not have, or take one away."""
     from heeltoe.app.case.defaults import block
     from heeltoe.app.case.draft import edit as change
@@ -50,7 +50,7 @@ async def put(desk: Desk, request: Asked) -> dict[str, Any]:
     return await _done(desk, lambda: change(session, block(session.case, session.units, path, wanted=present)))
 
 
-async def add(desk: Desk, request: Asked) -> dict[str, Any]:
+async def add(desk: Desk, request: Request) -> dict[str, Any]:
     """Put one more item into a list of blocks."""
     from heeltoe.app.case.defaults import item
     from heeltoe.app.case.draft import edit as change
@@ -70,7 +70,7 @@ async def add(desk: Desk, request: Asked) -> dict[str, Any]:
     return await _done(desk, added)
 
 
-async def drag(desk: Desk, request: Asked) -> dict[str, Any]:
+async def drag(desk: Desk, request: Request) -> dict[str, Any]:
     """Move a handle of the drawing."""
     from heeltoe.app.case.draft import case_of, fields_in_force
     from heeltoe.app.case.draft import edit as change
@@ -87,14 +87,14 @@ async def drag(desk: Desk, request: Asked) -> dict[str, Any]:
     return await _done(desk, dragged)
 
 
-async def step(desk: Desk, request: Asked) -> dict[str, Any]:
+async def step(desk: Desk, request: Request) -> dict[str, Any]:
     """Take back the last step, or take it again."""
     from heeltoe.app.case.draft import back
 
     return await _done(desk, lambda: back(desk.session, forward=request.get("forward") is True))
 
 
-async def corners(desk: Desk, request: Asked) -> dict[str, Any]:
+async def corners(desk: Desk, request: Request) -> dict[str, Any]:
     """Say the section by its corners, in the place of its dimensions."""
     from heeltoe.app.case.draft import case_of, fields_of, valued
     from heeltoe.app.case.draft import edit as change
@@ -110,7 +110,7 @@ async def corners(desk: Desk, request: Asked) -> dict[str, Any]:
     return await _done(desk, write_corners)
 
 
-async def open_file(desk: Desk, request: Asked) -> dict[str, Any]:
+async def open_file(desk: Desk, request: Request) -> dict[str, Any]:
     """Open a case file that was sent, with the files beside it that were sent, too."""
     from heeltoe.app.case.draft import start
     from heeltoe.case.read import read_fields
@@ -136,7 +136,7 @@ async def open_file(desk: Desk, request: Asked) -> dict[str, Any]:
     return {**await _done(desk, opened), "file": " ".join(sentences)}
 
 
-async def save(desk: Desk, request: Asked) -> dict[str, Any]:
+async def save(desk: Desk, request: Request) -> dict[str, Any]:
     """Return the case file of what is in force, with the meaning of each field beside it."""
     from heeltoe.app.case.draft import fields_in_force
     from heeltoe.case.toml_writer import case_text
@@ -208,7 +208,7 @@ def _typed(session: Session, changes: Mapping[str, Any]) -> dict[str, Any]:
     return following(values, fields_of(session)[0])
 
 
-def _changes(request: Asked) -> dict[str, Any]:
+def _changes(request: Request) -> dict[str, Any]:
     entries = request.get("changes")
     if not isinstance(entries, dict) or not 0 < len(entries) <= _MOST_CHANGES or not all(map(_is_path, entries)):
         raise BadRequestError("changes are values by the paths of fields")

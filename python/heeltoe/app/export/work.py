@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from heeltoe.app.bundle import CASE, zipped
-from heeltoe.app.desk import Asked, BadRequestError
+from heeltoe.app.desk import BadRequestError, Request
 from heeltoe.models.run import AUTO, MODELS
 
 OUT = "result"
@@ -46,7 +46,7 @@ class Wanted:
         return ".csv" if self.csv else ".parquet"
 
 
-def wanted_of(request: Asked, units: str, own: str) -> Wanted:
+def wanted_of(request: Request, units: str, own: str) -> Wanted:
     """Return what a tab asks for.
 
     Raises

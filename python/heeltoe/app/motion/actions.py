@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import PurePath
 from typing import Any
 
-from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry, text
+from heeltoe.app.desk import BadRequestError, Desk, Entry, Request, text
 from heeltoe.app.motion.sequence import MOST
 from heeltoe.app.sessions import Session
 from heeltoe.app.transfers import forget, upload_path
@@ -19,7 +19,7 @@ _SLOW = "Reading takes too long, or more memory than there is: it has been ended
 common format."
 
 
-async def begin(desk: Desk, request: Asked) -> dict[str, Any]:
+async def begin(desk: Desk, request: Request) -> dict[str, Any]:
     """Return what the page begins with: what can be chosen, and what the case has."""
     return {"of": "motion", **await desk.workers.quick(_begin, desk.session, _place(request))}
 
@@ -36,7 +36,7 @@ def _begin(session: Session, place: int) -> dict[str, Any]:
     return payload | {"records": _records(session), "catalogue": _catalogue()}
 
 
-def _place(request: Asked, name: str = "place") -> int:
+def _place(request: Request, name: str = "place") -> int:
     """Return which motion of the case a page means."""
     place = request.get(name, 0)
     if isinstance(place, bool) or not isinstance(place, int) or not 0 <= place < MOST:
@@ -55,7 +55,7 @@ def _catalogue() -> list[str]:
     return list(dict.fromkeys(name for name, where in available() if (name, where) != MADE_TO_ORDER))
 
 
-async def record(desk: Desk, request: Asked) -> dict[str, Any]:
+async def record(desk: Desk, request: Request) -> dict[str, Any]:
     """Read a file that was sent as a record; what is none is thrown away."""
     from heeltoe.app.motion.look import channels
 
@@ -89,14 +89,14 @@ def _free_name(session: Session, called: str) -> str:
     return name
 
 
-async def look(desk: Desk, request: Asked) -> dict[str, Any]:
+async def look(desk: Desk, request: Request) -> dict[str, Any]:
     """Return what would shake the dam."""
     from heeltoe.app.motion.look import look as seen
 
     return {"of": "motion look", **await _read(desk, request, seen, desk.session.units)}
 
 
-async def use(desk: Desk, request: Asked) -> dict[str, Any]:
+async def use(desk: Desk, request: Request) -> dict[str, Any]:
     """Shake the case of the tab by what stands on the page: at the place of one of its motions, or after all."""
     from heeltoe.app.motion.look import refusal
     from heeltoe.app.motion.sequence import listed, with_one
@@ -114,7 +114,7 @@ async def use(desk: Desk, request: Asked) -> dict[str, Any]:
     return {**await _changed(desk, changes), "place": to}
 
 
-async def change(desk: Desk, request: Asked) -> dict[str, Any]:
+async def change(desk: Desk, request: Request) -> dict[str, Any]:
     """Change the list of the case's motions: move one, remove one, or say the pause before it."""
     from heeltoe.app.case.fields import field_of, typed
     from heeltoe.app.motion.sequence import listed, moved, paused, without
@@ -173,7 +173,7 @@ def _had(session: Session, place: int) -> Any:
     return motions[place] if place < len(motions) else None
 
 
-async def _read(desk: Desk, request: Asked, compute: Any, *arguments: Any) -> dict[str, Any]:
+async def _read(desk: Desk, request: Request, compute: Any, *arguments: Any) -> dict[str, Any]:
     """Compute with the case and the motion that the page asks for, where files are read."""
     from heeltoe.app.live import refused
     from heeltoe.app.motion.draft import motion_fields, read_form

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from heeltoe.app.answer import aside, start
-from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry, number, text
+from heeltoe.app.desk import BadRequestError, Desk, Entry, Request, number, text
 from heeltoe.app.sessions import Session
 from heeltoe.app.transfers import offer
 from heeltoe.errors.error import InputError
@@ -38,14 +38,14 @@ class Made:
     job: int
 
 
-async def form(desk: Desk, request: Asked) -> dict[str, Any]:
+async def form(desk: Desk, request: Request) -> dict[str, Any]:
     """Return what a study can be made of, and the studies there are."""
     from heeltoe.app.studies.draft import choices
 
     return {"of": "study form", "choices": await desk.workers.quick(choices, desk.session), **_listed(desk.session)}
 
 
-async def look(desk: Desk, request: Asked) -> dict[str, Any]:
+async def look(desk: Desk, request: Request) -> dict[str, Any]:
     """Return how many runs the study of the form has, and about how long they take; or what is wrong with it."""
     from heeltoe.app.live import refused
     from heeltoe.app.studies.draft import study_of_form
@@ -60,7 +60,7 @@ async def look(desk: Desk, request: Asked) -> dict[str, Any]:
     return {"of": "study look", **payload}
 
 
-async def run(desk: Desk, request: Asked) -> dict[str, Any]:
+async def run(desk: Desk, request: Request) -> dict[str, Any]:
     """Run the study of the form, or go on with one that was cancelled."""
     from heeltoe.app.studies.work import run as work
 
@@ -83,7 +83,7 @@ async def run(desk: Desk, request: Asked) -> dict[str, Any]:
     return {"of": "studies", **_listed(session)}
 
 
-async def _laid(desk: Desk, request: Asked) -> Made:
+async def _laid(desk: Desk, request: Request) -> Made:
     """Write the study of the form into a folder of its own.
 
     Raises
@@ -112,7 +112,7 @@ async def _laid(desk: Desk, request: Asked) -> Made:
     return Made(number, str(title), folder, 0)
 
 
-async def remove(desk: Desk, request: Asked) -> dict[str, Any]:
+async def remove(desk: Desk, request: Request) -> dict[str, Any]:
     """Remove a study with its runs."""
     session = desk.session
     made = _made(session, request)
@@ -122,7 +122,7 @@ async def remove(desk: Desk, request: Asked) -> dict[str, Any]:
     return {"of": "studies", **_listed(session)}
 
 
-async def answers(desk: Desk, request: Asked) -> dict[str, Any]:
+async def answers(desk: Desk, request: Request) -> dict[str, Any]:
     """Return what a study says, with its figures, as far as it has come."""
     from heeltoe.app.studies.work import answers as work
     from heeltoe.app.studies.work import kept_answers
@@ -134,7 +134,7 @@ async def answers(desk: Desk, request: Asked) -> dict[str, Any]:
     return {"of": "study answers", "number": made.number, **payload}
 
 
-async def download(desk: Desk, request: Asked) -> dict[str, Any]:
+async def download(desk: Desk, request: Request) -> dict[str, Any]:
     """Return where something of a study can be fetched."""
     from heeltoe.app.studies.work import STUDY, packed
 
@@ -149,7 +149,7 @@ async def download(desk: Desk, request: Asked) -> dict[str, Any]:
     )
 
 
-def _made(session: Session, request: Asked) -> Made:
+def _made(session: Session, request: Request) -> Made:
     made = session.studies.get(int(number(request, "number")))
     if made is None:
         raise BadRequestError("there is no such study")

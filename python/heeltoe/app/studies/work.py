@@ -43,7 +43,7 @@ _CORES = os.cpu_count() or 1
 _UNSTATED = {"record-unit-missing": "motions.unit", "record-step-missing": "motions.time_step"}
 Fields = dict[str, Any]
 # The case, a study as its file has it, and the files that were sent, of which the last names some.
-Asked = tuple[Fields, Fields, Sent]
+StudyRequest = tuple[Fields, Fields, Sent]
 _HEAD = "# A study for heeltoe: many runs of the dam in case.toml."
 
 
@@ -68,7 +68,7 @@ def lay_study(case: Fields, study: Fields, sent: Sent, folder: Path) -> Study:
     return read_study(folder / STUDY)
 
 
-def look(request: Asked, folder: Path, limit: int) -> dict[str, Any]:
+def look(request: StudyRequest, folder: Path, limit: int) -> dict[str, Any]:
     """Return how many runs a study has and about how long they take, or what is wrong with it."""
     case, study, sent = request
     try:
@@ -78,7 +78,7 @@ def look(request: Asked, folder: Path, limit: int) -> dict[str, Any]:
         return refused(error) if error.code not in _UNSTATED else _asked(request, folder, limit, error)
 
 
-def _asked(request: Asked, folder: Path, limit: int, error: InputError) -> dict[str, Any]:
+def _asked(request: StudyRequest, folder: Path, limit: int, error: InputError) -> dict[str, Any]:
     """Return the question for what a record does not state, at its field; for unit and time step at once of one that
     states neither."""
     (case, study, sent), record = request, error.field
@@ -96,7 +96,7 @@ def _asked(request: Asked, folder: Path, limit: int, error: InputError) -> dict[
     return refused(error)
 
 
-def lay(request: Asked, folder: Path, limit: int) -> None:
+def lay(request: StudyRequest, folder: Path, limit: int) -> None:
     """Write a study into a folder, where it waits for being run.
 
     Raises
@@ -107,7 +107,7 @@ def lay(request: Asked, folder: Path, limit: int) -> None:
     _laid(request, folder, limit)
 
 
-def _laid(request: Asked, folder: Path, limit: int) -> Plan:
+def _laid(request: StudyRequest, folder: Path, limit: int) -> Plan:
     from heeltoe.study.plan.plan import plan_of
 
     plan = plan_of(lay_study(*request, folder))

@@ -20,7 +20,7 @@ from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.flexible.body.bonded import elastic_dam, fingerprints
 from heeltoe.models.flexible.body.cost import Part, building, check_cost, parts_of
-from heeltoe.models.flexible.body.elastic import Sparse, dofs, side_by_side
+from heeltoe.models.flexible.body.elastic import Sparse, dofs, rigid_motions, side_by_side
 from heeltoe.models.flexible.body.modes import lowest
 from heeltoe.models.flexible.mesh.dam import BodyMesh
 from heeltoe.models.flexible.surroundings.edges import edge_shapes
@@ -167,10 +167,7 @@ def plane_fit(mesh: BodyMesh) -> Sparse:
     weights = np.zeros(len(points))
     for offset, share in enumerate((1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0)):
         weights[offset : len(points) - 2 + offset : 2] += share * spans
-    x, z = (points - (points[0] + points[-1]) / 2.0).T
-    rigid = np.zeros((2 * len(points), 3))
-    rigid[::2, 0] = rigid[1::2, 1] = 1.0
-    rigid[::2, 2], rigid[1::2, 2] = -z, x
+    rigid = rigid_motions(points - (points[0] + points[-1]) / 2.0)
     weighted = np.repeat(weights, 2)[:, None] * rigid
     fit = np.linalg.solve(rigid.T @ weighted, weighted.T)
     places = dofs(mesh.crack)

@@ -19,7 +19,7 @@ from heeltoe.mechanics.loads import Resultant, concrete_mass, scaled, static_for
 from heeltoe.mechanics.virtual_water import moving_force
 from heeltoe.models.statics.contact import Contact
 from heeltoe.models.statics.criteria import Loads
-from heeltoe.models.statics.load_case import Given, LoadCase, Solved, solve_case
+from heeltoe.models.statics.load_case import LoadCase, Question, Solved, solve_case
 from heeltoe.models.statics.own_criteria import rules_of
 from heeltoe.models.statics.sheet import sources_of, sources_of_inertia
 from heeltoe.models.statics.spectral import SpectralDemand
@@ -82,7 +82,7 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
         tried = []
         for name, up in ((", lifting", -1.0), (", pressing", 1.0)) if vertical else (("", 0.0),):
             ground = sign * horizontal, up * vertical
-            question = Given(
+            question = Question(
                 f"{called}pseudo-static {way}{name}",
                 loads,
                 case.crack.apparent_friction,
@@ -122,7 +122,7 @@ def response_spectrum(case: Case, before: Solved, demand: SpectralDemand) -> tup
     )
     solved = []
     for way, sign in (("downstream", 1.0), ("upstream", -1.0)):
-        question = Given(
+        question = Question(
             f"{name} {way}",
             "earthquake",
             case.crack.apparent_friction,
@@ -232,7 +232,7 @@ def post_seismic(case: Case, slip: float, source: str, ligament: tuple[float, fl
         )
         assumptions.append(Sentence(text))
     cohesion = 0.0 if bond is None else bond.cohesion
-    question = Given(
+    question = Question(
         "post-seismic", "post-earthquake", friction, cohesion, tuple(assumptions), sources_of(case), law, matches
     )
     return solve_case(question, case, _dry(case), contact, water)
@@ -287,7 +287,7 @@ def _still(name: str, loads: Loads, case: Case, assumptions: tuple[Sentence, ...
     contact = _contact(case)
     water = still_water(case, contact.start, contact.end)
     friction, cohesion = case.crack.apparent_friction, case.statics.cohesion
-    question = Given(name, loads, friction, cohesion, assumptions, sources_of(case), peak_of(case.crack))
+    question = Question(name, loads, friction, cohesion, assumptions, sources_of(case), peak_of(case.crack))
     return solve_case(question, case, _dry(case), contact, water)
 
 

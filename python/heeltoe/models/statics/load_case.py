@@ -175,7 +175,7 @@ Borne = Callable[[float], tuple[float, float]]
 
 
 @dataclass(frozen=True)
-class Given:
+class Question:
     """What is known of a load case before it is solved: coefficient of friction, cohesion of the bonded part [Pa]; or
     the law that says both by the mean normal stress [Pa] on what is in compression; whether the faces of the crack
     still match."""
@@ -200,7 +200,7 @@ class _Sliding(NamedTuple):
 
 
 def solve_case(
-    question: Given, case: Case, forces: tuple[Resultant, ...], contact: Contact, water: StillWater
+    question: Question, case: Case, forces: tuple[Resultant, ...], contact: Contact, water: StillWater
 ) -> Solved:
     """Find the state of the crack and the factors.
 

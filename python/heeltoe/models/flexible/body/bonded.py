@@ -14,7 +14,15 @@ from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
 from heeltoe.models.flexible.body.cost import building, check_cost, part_of
 from heeltoe.models.flexible.body.elastic import Dam, bonded_state, dam, factor, tied
-from heeltoe.models.flexible.body.modes import TOLD, Basis, Intact, Modes, enough_modes, error_frequency, intact_modes
+from heeltoe.models.flexible.body.modes import (
+    SHOWN_MODES,
+    Basis,
+    Intact,
+    Modes,
+    enough_modes,
+    error_frequency,
+    intact_modes,
+)
 from heeltoe.models.flexible.body.stress_places import StressPlaces, stress_places
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.models.flexible.mesh.kinks import kinked
@@ -123,7 +131,7 @@ def _build(case: Case) -> BondedDam:
     stiffness = tied(bonded, "stiffness")
     solve = factor(stiffness)
     bent, forces = bonded_state(bonded, solve)
-    intact = intact_modes(bonded, TOLD, stiffness, solve)
+    intact = intact_modes(bonded, SHOWN_MODES, stiffness, solve)
     modes, errors = _modes(case, bonded, error_frequency(float(intact.omega[0])))
     return BondedDam(
         bodies=bonded.bodies,

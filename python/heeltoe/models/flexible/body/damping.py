@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.models.flexible.body.bonded import BondedDam
-from heeltoe.models.flexible.body.elastic import Body, Dam, dofs, factor, tied
-from heeltoe.models.flexible.body.modes import TOLD, Modes, intact_modes, part_periods, rayleigh
+from heeltoe.models.flexible.body.elastic import Body, Dam, dofs, factor, rigid_motions, tied
+from heeltoe.models.flexible.body.modes import SHOWN_MODES, Modes, intact_modes, part_periods, rayleigh
 
 #: So many of the lowest modes of the bonded dam get exactly one ratio under `modal`; what is above gets more, in
 #: proportion to its frequency.
@@ -103,8 +103,8 @@ def damping_of(case: Case, dam: BondedDam) -> Damping:
     """
     modes = dam.modes
     choice, ratio = case.flexible.damping, case.concrete.damping
-    omega, bonded = _bonded(dam, _MODAL + 1 if choice == "modal" else TOLD)
-    periods = 2.0 * math.pi / omega[:TOLD]
+    omega, bonded = _bonded(dam, _MODAL + 1 if choice == "modal" else SHOWN_MODES)
+    periods = 2.0 * math.pi / omega[:SHOWN_MODES]
     coefficients: tuple[float, float] | None = rayleigh(periods[0], periods[min(2, len(periods) - 1)], ratio)
     if choice == "stiffness":
         coefficients = (0.0, 2.0 * ratio / omega[0])
@@ -135,7 +135,7 @@ def damping_of(case: Case, dam: BondedDam) -> Damping:
     signs = np.ones(len(rows[0]))
     if dry:
         signs[sum(len(lag[0]) for lag in lags) :] = -1.0
-    ratios = _ratios(sticking, (rows, signs), omega, bonded)[:TOLD]
+    ratios = _ratios(sticking, (rows, signs), omega, bonded)[:SHOWN_MODES]
     return Damping(sticking, free, rows, signs, coefficients, stiffness, periods, ratios)
 
 
@@ -150,7 +150,7 @@ def _bonded(dam: BondedDam, count: int) -> tuple[Floats, tuple[Floats, ...]]:
     """Return the lowest circular frequencies [1/s] of the dam with its crack bonded, and these modes (j, m) in the
     modes of each part."""
     intact = dam.intact
-    if count > TOLD:
+    if count > SHOWN_MODES:
         stiffness = tied(dam, "stiffness")
         intact = intact_modes(dam, count, stiffness, factor(stiffness))
     places = np.cumsum([body.load.size for body in dam.bodies])[:-1]
@@ -175,9 +175,9 @@ def _crack_motions(dam: Dam, modes: tuple[Modes, ...]) -> list[list[Floats]]:
         rows[crack][:, : basis.rigid] = 0.0
         if lower is not None:
             met = lower.mesh.faces[0]
-            plane = np.linalg.lstsq(_plane(points), rigid[face], rcond=None)[0]
+            plane = np.linalg.lstsq(rigid_motions(points), rigid[face], rcond=None)[0]
             points = lower.mesh.nodes[met]
-            rows[crack + 1] = -_fit(points, _plane(points) @ plane) @ modes[crack + 1].shapes[dofs(met)]
+            rows[crack + 1] = -_fit(points, rigid_motions(points) @ plane) @ modes[crack + 1].shapes[dofs(met)]
         result.append(rows)
     # A part that slides itself, with all that is above it, is not to be damped for that: it counts as following what is
     # below it, and so on down.
@@ -227,14 +227,6 @@ def _dry_rayleigh(omega: Floats, shares: Floats, ratio: float) -> tuple[float, f
     terms = np.column_stack([shares[chosen] / omega[chosen], omega[chosen]]) / 2.0
     mass, stiffness = np.linalg.lstsq(terms, np.full(2, ratio), rcond=None)[0]
     return float(mass), float(stiffness)
-
-
-def _plane(points: Floats) -> Floats:
-    """Return two displacements and a rotation of points, shape (2 k, 3)."""
-    values = np.zeros((2 * len(points), 3))
-    values[::2, 0] = values[1::2, 1] = 1.0
-    values[::2, 2], values[1::2, 2] = -points[:, 1], points[:, 0]
-    return values
 
 
 def _fit(points: Floats, shapes: Floats) -> Floats:

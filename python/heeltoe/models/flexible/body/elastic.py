@@ -193,6 +193,14 @@ def dofs(nodes: Integers) -> Integers:
     return np.stack([2 * nodes, 2 * nodes + 1], axis=1).reshape(-1)
 
 
+def rigid_motions(points: Floats) -> Floats:
+    """Return two displacements and a rotation of points (k, 2) about the origin, x and z in turn, shape (2 k, 3)."""
+    motions = np.zeros((2 * len(points), 3))
+    motions[::2, 0] = motions[1::2, 1] = 1.0
+    motions[::2, 2], motions[1::2, 2] = -points[:, 1], points[:, 0]
+    return motions
+
+
 def stresses(body: Body, displacements: Floats) -> Floats:
     """Return the stresses at the nodes.
 

@@ -14,7 +14,18 @@ from typing import Any
 import numpy as np
 
 from heeltoe.base.arrays import Floats, Integers
-from heeltoe.models.flexible.body.elastic import Body, Dam, Solve, Sparse, dofs, factor, factored, side_by_side, tied
+from heeltoe.models.flexible.body.elastic import (
+    Body,
+    Dam,
+    Solve,
+    Sparse,
+    dofs,
+    factor,
+    factored,
+    rigid_motions,
+    side_by_side,
+    tied,
+)
 
 #: Modes kept at first; they are doubled until so much of the crack's compliance at most is lost.
 FIRST_KEPT = 50
@@ -23,8 +34,8 @@ ENOUGH = 0.03
 _RANGE = 15.0
 # Combinations of static shapes with less than this part of the energy of others hold nothing new.
 _NOTHING = 1e-12
-#: Of so many modes of the intact dam the damping ratios are told.
-TOLD = 5
+#: Of so many modes of the intact dam the damping ratios are shown.
+SHOWN_MODES = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -279,10 +290,7 @@ def rayleigh(period_a: float, period_b: float, ratio: float) -> tuple[float, flo
 
 def _rigid_shapes(body: Body) -> Floats:
     """Return translations and rotation, orthonormal in the mass, which water makes larger in x; shape (2 n, 3)."""
-    x, z = (body.mesh.nodes - body.mesh.nodes.mean(axis=0)).T
-    shapes = np.zeros((2 * len(x), 3))
-    shapes[::2, 0] = shapes[1::2, 1] = 1.0
-    shapes[::2, 2], shapes[1::2, 2] = -z, x
+    shapes = rigid_motions(body.mesh.nodes - body.mesh.nodes.mean(axis=0))
     for i in range(3):
         shapes[:, i] -= _projected(shapes[:, i], shapes[:, :i], body.mass)
         shapes[:, i] /= math.sqrt(shapes[:, i] @ (body.mass @ shapes[:, i]))
