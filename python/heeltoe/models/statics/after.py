@@ -139,11 +139,16 @@ def about_the_sequence(
             yield Notice(code, name=which, share=share, efficiency=efficiency)
 
 
+def without_own_slip(case: Case) -> Case:
+    """Return a case without the residual slip that it names, where another one goes before it."""
+    if case.statics.residual_slip is None:
+        return case
+    return case.model_copy(update={"statics": case.statics.model_copy(update={"residual_slip": None})})
+
+
 def _judged(case: Case, stage: Stage) -> Stage:
     slip = stage.residual_slip_m
-    if case.statics.residual_slip is not None:
-        case = case.model_copy(update={"statics": case.statics.model_copy(update={"residual_slip": None})})
-    result = statics(case, slip, slip_source=plain(stage.name))
+    result = statics(without_own_slip(case), slip, slip_source=plain(stage.name))
     after = [check for check in result.checks if check.load_case == _AFTER]
     return replace(
         stage,

@@ -135,7 +135,7 @@ def _drop_damaged(store: Store, record: dict[str, Any]) -> None:
         store.path(part).unlink()
     notice = str(Notice("study-part-damaged", count=len(damaged)))
     record["warnings"] = [*record["warnings"], notice]
-    write_text(store.directory / STUDY, json_text(record), "--out")
+    _write_record(store.directory, record)
 
 
 def keep(store: Store, plan: Plan) -> None:
@@ -159,7 +159,7 @@ def keep(store: Store, plan: Plan) -> None:
         "case": plan.case.model_dump(mode="json", exclude_unset=True),
         "build": build_info(),
     }
-    write_text(store.directory / STUDY, json_text(record), "--out")
+    _write_record(store.directory, record)
 
 
 def keep_questions(directory: Path, plan: Plan) -> None:
@@ -172,7 +172,7 @@ def keep_questions(directory: Path, plan: Plan) -> None:
         "hazard": None if plan.hazard is None else plan.hazard.to_json(),
         "spectra": plan.spectra(),
     }
-    write_text(directory / STUDY, json_text(record), "--out")
+    _write_record(directory, record)
 
 
 def keep_seconds(directory: Path, seconds: Mapping[str, float]) -> None:
@@ -180,6 +180,10 @@ def keep_seconds(directory: Path, seconds: Mapping[str, float]) -> None:
     record = read_manifest(directory)
     before = record.get("seconds", {})
     record["seconds"] = before | {name: round(before.get(name, 0.0) + more, 3) for name, more in seconds.items()}
+    _write_record(directory, record)
+
+
+def _write_record(directory: Path, record: Mapping[str, Any]) -> None:
     write_text(directory / STUDY, json_text(record), "--out")
 
 

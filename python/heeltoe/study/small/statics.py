@@ -9,7 +9,7 @@ from typing import Any
 
 from heeltoe.case.model import Case
 from heeltoe.models.run import AUTO, cost_of, run
-from heeltoe.models.statics.after import joints_after
+from heeltoe.models.statics.after import joints_after, without_own_slip
 from heeltoe.models.statics.joints import Joints, statics_of_sections
 from heeltoe.models.statics.model import statics
 from heeltoe.result.response import Response
@@ -89,9 +89,8 @@ def _judge(case: Case, after: After, say: Say, made: Made) -> Joints:
         return statics_of_sections(case, lambda alone, place: statics(alone, slip_m, slip_source=after.source))
     if not after.runs(case):
         return statics_of_sections(case)
-    if case.statics.residual_slip is not None:
-        # What was asked for goes before what the case says.
-        case = case.model_copy(update={"statics": case.statics.model_copy(update={"residual_slip": None})})
+    # What was asked for goes before what the case says.
+    case = without_own_slip(case)
 
     def run_once(dam: Case, what: str) -> Sequence[Response]:
         model = after.model or AUTO
