@@ -113,6 +113,16 @@ impl Law {
         }
     }
 
+    /// Constant coefficients at rest and sliding.
+    pub(crate) fn coulomb([peak, residual]: [f64; 2]) -> Self {
+        let numbers = LawNumbers {
+            peak,
+            residual,
+            ..LawNumbers::default()
+        };
+        Law::new(Shape::Constant, &numbers, Vec::new())
+    }
+
     /// Whether the coefficient goes by the normal stress.
     pub(crate) fn by_stress(&self) -> bool {
         matches!(self.shape, Shape::Barton | Shape::Lift)

@@ -14,13 +14,11 @@ from heeltoe.kernel.friction import friction_law
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.rigid.varying import varying
 from heeltoe.models.run import earthquake
-from models.rigid.test_varying import exactly, random_dam, rectangle
+from models.rigid.test_varying import IDLE, exactly, random_dam, rectangle
 
 G = 9.80665
 NUMBERS = {"peak": 0.6, "residual": 0.3, "scale": 0.05}
 WEAKENING = friction_law("linear slip weakening", NUMBERS)
-#: An anchor that does nothing, with which there is no closed form.
-IDLE = np.array([[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]])
 
 
 def walked(case, time, ground, law, up=None, at=(), integrated=False):

@@ -13,8 +13,7 @@ from heeltoe.kernel.block import Limits, run_block
 from heeltoe.kernel.friction import friction_law
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.rigid.varying import varying
-from models.rigid.test_exact_laws import IDLE
-from models.rigid.test_varying import rectangle
+from models.rigid.test_varying import IDLE, rectangle
 
 FALLS = {"peak": 0.5, "residual": 0.3}
 LAWS = {

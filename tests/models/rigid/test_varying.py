@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,8 @@ from shared.dams import TYPICAL_SECTION
 
 G = 9.80665
 RULES = ("constant", "zero while open", "full while open", "follows opening")
+#: An anchor that does nothing, with which there is no closed form.
+IDLE = np.array([[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]])
 QUIET = GroundMotion.from_points([0.0, 1.0], [0.0, 0.0], name="quiet")
 
 
@@ -25,8 +28,8 @@ def rectangle(width, height, friction=1.0, **more):
     return {"section": {"polygon": corners}, "crack": crack, **more}
 
 
-def integrated(case, time, horizontal, vertical=None, turning=None, at=(), start=None, jam=False):
-    """Run the walk by integration whatever the case says."""
+def integrated(case, time, horizontal, vertical=None, turning=None, at=(), start=None, jam=False, idle=False):
+    """Run the walk by integration whatever the case says; across an `idle` anchor nothing has a closed form."""
     block = build_block(case)
     shaking = Shaking(
         np.asarray(time, dtype=float),
@@ -35,9 +38,10 @@ def integrated(case, time, horizontal, vertical=None, turning=None, at=(), start
         None if turning is None else np.asarray(turning, dtype=float),
     )
     limits = Limits(event_limit=20_000, jam=jam)
-    return run_block(
-        block.parameters(), shaking, np.asarray(at, dtype=float), limits, start=start, varying=varying(case, block)
-    )
+    what = varying(case, block)
+    if idle:
+        what = replace(what, anchors=IDLE)
+    return run_block(block.parameters(), shaking, np.asarray(at, dtype=float), limits, start=start, varying=what)
 
 
 def random_dam(seed, **more):
@@ -84,7 +88,7 @@ def test_without_anything_that_varies_it_is_the_exact_walk():
     compared = chaotic = 0
     for seed in range(150):
         case, time, ground, up = random_dam(seed)
-        by_events, integral = exactly(case, time, ground, up), integrated(case, time, ground, up, jam=True)
+        by_events, integral = exactly(case, time, ground, up), integrated(case, time, ground, up, jam=True, idle=True)
         assert integral.outcome == by_events.outcome
         if integral.outcome != "ok":
             continue
@@ -102,6 +106,24 @@ def test_without_anything_that_varies_it_is_the_exact_walk():
         assert ours.rotation_min == pytest.approx(exact.rotation_min, rel=1e-6, abs=1e-12), seed
     assert compared > 90
     assert chaotic < 15
+
+
+@pytest.mark.parametrize("rotation", ["small", "p-delta", "finite"])
+def test_a_dam_that_lies_slides_by_closed_forms(rotation):
+    slid = 0
+    for seed in range(60):
+        case, time, ground, up = random_dam(
+            seed, uplift={"during_shaking": "follows opening"}, analysis={"rotation": rotation}
+        )
+        exact = exactly(case, time, ground, up).summary
+        if exact.slip == 0.0 or exact.outcome or exact.time_rest + exact.time_sliding < time[-1] * (1.0 - 1e-12):
+            continue
+        slid += 1
+        ours = integrated(case, time, ground, up, jam=True).summary
+        assert ours.slip == pytest.approx(exact.slip, rel=1e-13, abs=1e-15), seed
+        assert ours.energy_friction == pytest.approx(exact.energy_friction, rel=1e-12)
+        assert ours.time_sliding == pytest.approx(exact.time_sliding, rel=1e-12)
+    assert slid > 5
 
 
 @pytest.mark.parametrize("rule", RULES)

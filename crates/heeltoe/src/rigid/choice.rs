@@ -114,7 +114,9 @@ pub(super) fn select(
 fn another(reactions: &impl Modes, present: Option<Mode>, moving: &Moving, felt: &mut Felt) -> Option<Mode> {
     for (tie, first) in [(TIE, None), (HAIR, present)] {
         for mode in first.into_iter().chain(Mode::ALL).chain([Mode::Drift]) {
-            if admissible(reactions.of(mode), moving, tie, felt) {
+            let [heel, toe] = mode.contacts();
+            let leaves = heel && !moving.closed[0] || toe && !moving.closed[1];
+            if !leaves && admissible(reactions.of(mode), moving, tie, felt) {
                 return Some(mode);
             }
         }

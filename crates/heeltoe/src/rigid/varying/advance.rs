@@ -10,7 +10,7 @@ use super::super::mode::{Mode, Slip};
 use super::super::walk::Cause;
 use super::block::Rotation;
 use super::shaking::Piece;
-use super::step::{middle, step, State};
+use super::step::{between, step, State};
 use super::walk::Varying;
 
 /// A step that is short enough for its polynomials to say that a motion ends as it begins, and one that is not made any
@@ -180,11 +180,9 @@ impl Varying<'_> {
         let Trial {
             start, end, length, ..
         } = trial;
-        let instant = self.seen_from(self.corner, start, &trial.piece.ground);
-        let (reactions, strength) = self.reactions(start, &instant);
         let mut first = Earliest::default();
-        self.see_limits(trial, self.limits_under(&reactions, &strength), &mut first);
-        let real = instant.contact_acceleration(&reactions);
+        self.see_limits(trial, &mut first);
+        let real = self.turning.contact_acceleration(self.corner, start, &trial.rate);
         self.see_contacts(trial, &fresh.unwrap_or(real), &real, &mut first);
         let over = std::f64::consts::FRAC_PI_2;
         if self.turning.rotation != Rotation::Small && end[2].abs() > over && first.0.is_none() {
@@ -222,27 +220,28 @@ impl Varying<'_> {
         Found::of(why, found.unwrap_or((f64::NAN, *start, 0.0)))
     }
 
+    /// The state at a moment of a step, as a polynomial has it.
+    pub(super) fn between(&self, trial: &Trial, t: f64) -> State {
+        if self.walk.mode == Mode::Rest {
+            return trial.start;
+        }
+        let (ends, rates) = ([&trial.start, &trial.end], [&trial.rate, &trial.rate_at_end]);
+        between(ends, rates, trial.length, t)
+    }
+
     /// See which normal force or side of the friction cone falls through zero.
-    fn see_limits(&self, trial: &Trial, at_start: [(f64, f64); 4], first: &mut Earliest) {
+    fn see_limits(&self, trial: &Trial, first: &mut Earliest) {
         let watched = self.watched();
         if watched.iter().all(Option::is_none) {
             return;
         }
         let length = trial.length;
-        let between = if self.walk.mode == Mode::Rest {
-            trial.start
-        } else {
-            middle(
-                [&trial.start, &trial.end],
-                [&trial.rate, &trial.rate_at_end],
-                length,
-            )
-        };
         let values = [
-            at_start,
-            self.limits(&between, &trial.piece.after(0.5 * length)),
-            self.limits(&trial.end, &trial.piece.after(length)),
-        ];
+            (&trial.start, 0.0),
+            (&self.between(trial, 0.5 * length), 0.5 * length),
+            (&trial.end, length),
+        ]
+        .map(|(state, t)| self.limits(state, &trial.piece.after(t)));
         for (which, why) in watched.into_iter().enumerate() {
             let Some(why) = why else { continue };
             let [(v0, size), (vm, _), (v1, _)] = values.map(|row| row[which]);

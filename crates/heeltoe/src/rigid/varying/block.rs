@@ -130,12 +130,7 @@ impl TurningBlock {
                 p.per_vertical_moment,
                 p.per_vertical_virial,
             ],
-            water: FollowingWater {
-                law,
-                points: pressure,
-                opening: p.opening,
-                full: p.full_pressure,
-            },
+            water: FollowingWater::new(law, pressure, p.opening, p.full_pressure),
             anchors,
         }
     }
@@ -216,6 +211,17 @@ impl TurningBlock {
                 state[4] + self.lift_velocity(-self.width, state[2], state[5]),
                 state[4],
             ],
+        }
+    }
+
+    /// Accelerations of slip, heel gap and toe gap where the state changes at `rate`.
+    pub(super) fn contact_acceleration(&self, corner: Corner, state: &State, rate: &State) -> Vector {
+        let [sine, cosine] = self.turned(state[2]);
+        let spin = state[5];
+        let other = rate[4] + self.ahead(corner) * (cosine * rate[5] - sine * spin * spin);
+        match corner {
+            Corner::Heel => [rate[3], rate[4], other],
+            Corner::Toe => [rate[3], other, rate[4]],
         }
     }
 

@@ -10,7 +10,6 @@ use super::super::block::{Vector, HEEL, SLIP, TOE};
 use super::super::mode::Mode;
 use super::super::reaction::reaction_to;
 use super::instant::Slope;
-use super::rubbing::Rubbing;
 use super::shaking::Ground;
 use super::step::State;
 use super::walk::Varying;
@@ -31,12 +30,11 @@ pub(super) struct Climb {
 impl Varying<'_> {
     /// What is felt at a state of such a slide; none of any other, or where friction makes the reactions infinite.
     pub(super) fn climb(&self, state: &State, ground: &Ground) -> Option<Climb> {
-        let (rough, rubbing) = (self.rough.as_ref()?, self.rubbing.as_ref()?);
+        let (rough, rubbing) = (self.rough.as_ref()?, &self.rubbing);
         let Mode::Slide(slip) = self.walk.mode else {
             return None;
         };
-        let even = |rubbing: &Rubbing| rubbing.settled() && !rubbing.bends();
-        if !self.plain || state[3] == 0.0 || !even(rubbing) || !self.gives_way(rough) {
+        if !self.plain || state[3] == 0.0 || !rubbing.settled() || !self.gives_way(rough) {
             return None;
         }
         let Slope { slope: k, wear } = self.slope(state);

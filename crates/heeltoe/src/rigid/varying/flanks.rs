@@ -14,6 +14,7 @@ use super::super::mode::{Corner, Mode, Slip};
 use super::super::reaction::Reactions;
 use super::super::walk::{Cause, Single};
 use super::instant::{Instant, Slope, Still};
+use super::ready::goes_upstream;
 use super::rough::Rough;
 use super::shaking::{Ground, Piece};
 use super::step::State;
@@ -226,12 +227,5 @@ impl Varying<'_> {
                 .kept
                 .push([rough.level + risen, rough.asperities.worn(work), work]);
         }
-    }
-}
-
-pub(super) fn goes_upstream(mode: Mode, falls: bool) -> bool {
-    match mode.slip() {
-        Some(slip) => slip == Slip::Upstream,
-        None => falls && mode == Mode::Drift,
     }
 }

@@ -114,7 +114,7 @@ impl Varying<'_> {
         let Mode::Slide(slip) = self.walk.mode else {
             return None;
         };
-        let rubbing = self.rubbing.as_ref()?;
+        let rubbing = &self.rubbing;
         let way = slip.sign();
         if !self.lies_plainly() || piece.left <= 0.0 {
             return None;

@@ -6,7 +6,6 @@ use super::super::block::{Vector, HEEL, SLIP, TOE};
 use super::super::mode::{Mode, Slip};
 use super::super::reaction::reaction_to;
 use super::instant::Instant;
-use super::rubbing::Rubbing;
 use super::step::State;
 use super::walk::Varying;
 use crate::friction::{Strength, Worn};
@@ -18,18 +17,18 @@ const FOUND: f64 = 1e-14;
 
 impl Varying<'_> {
     /// What the crack has been through at a state of the present step.
-    fn worn_at(&self, state: &State) -> Option<Worn> {
-        let rubbing = self.rubbing.as_ref()?;
+    fn worn_at(&self, state: &State) -> Worn {
+        let worn = self.rubbing.worn;
         let slips = self.walk.mode.slip().is_some();
         let way = if slips {
             (state[0] - self.state[0]).abs()
         } else {
             0.0
         };
-        Some(Worn {
-            path: rubbing.worn.path + way,
-            ..rubbing.worn
-        })
+        Worn {
+            path: worn.path + way,
+            ..worn
+        }
     }
 
     /// What friction bears about a normal force in a mode at a state of the present step.
@@ -39,9 +38,7 @@ impl Varying<'_> {
 
     /// The same on a flank whose slope is known.
     fn strength_on(&self, mode: Mode, normal: f64, state: &State, slope: f64) -> Strength {
-        let (Some(rubbing), Some(worn)) = (&self.rubbing, self.worn_at(state)) else {
-            return self.walk.block.strength();
-        };
+        let (rubbing, worn) = (&self.rubbing, self.worn_at(state));
         let bonded = worn.bonded && mode.contacts() == [true, true];
         let speed = state[3].abs();
         let strength = rubbing
@@ -53,8 +50,8 @@ impl Varying<'_> {
     /// Reactions in a mode at a state of the present step, and what friction bears there; none where friction makes the
     /// reactions infinite.
     pub(super) fn rubbed(&self, mode: Mode, state: &State, instant: &Instant) -> Option<(Vector, Strength)> {
-        let mut normal = self.rubbing.as_ref().map_or(0.0, |r| r.still * r.width);
-        let bends = self.rubbing.as_ref().is_some_and(Rubbing::bends);
+        let mut normal = self.rubbing.still * self.rubbing.width;
+        let bends = self.rubbing.bends();
         let mut strength = self.strength_on(mode, normal, state, instant.slope);
         let mut reactions = under(&strength, mode, instant)?;
         for _ in 0..TANGENTS {
@@ -72,7 +69,7 @@ impl Varying<'_> {
     /// How much more the base that slips now would be pulled after a short while, under the same normal forces.
     pub(super) fn changed_pull(&self, reactions: &Vector, later: &State) -> f64 {
         let slip = self.state[3];
-        if self.rubbing.is_none() || slip == 0.0 {
+        if self.rubbing.settled() || slip == 0.0 {
             return 0.0;
         }
         let normal = reactions[HEEL] + reactions[TOE];
@@ -89,9 +86,7 @@ impl Varying<'_> {
 
     /// The friction that an impulse meets.
     pub(super) fn struck(&self) -> Strength {
-        let Some(rubbing) = &self.rubbing else {
-            return self.walk.block.strength();
-        };
+        let rubbing = &self.rubbing;
         let speed = self.state[3].abs();
         let strength = Strength {
             coefficient: rubbing.law.coefficients(rubbing.still, speed, rubbing.worn.path),
@@ -102,43 +97,32 @@ impl Varying<'_> {
 
     /// Note how far the base has slipped on the way to `end`; true where that went past a corner of the law.
     pub(super) fn wear(&mut self, end: &State) -> bool {
-        let Some(worn) = self.worn_at(end) else {
-            return false;
-        };
-        self.rubbing.as_mut().is_some_and(|rubbing| {
-            let past = worn.path > rubbing.corner();
-            rubbing.worn = worn;
-            past
-        })
+        let worn = self.worn_at(end);
+        let past = worn.path > self.rubbing.corner();
+        self.rubbing.worn = worn;
+        past
     }
 
     /// Note that the path has come to a corner of the law: it lies exactly there.
     pub(super) fn turn_corner(&mut self, corner: f64) {
-        if let Some(rubbing) = &mut self.rubbing {
-            rubbing.worn.path = corner;
-        }
+        self.rubbing.worn.path = corner;
     }
 
     /// Note that a corner has lifted, where one has.
     pub(super) fn lift(&mut self) {
         let lies = self.walk.mode.contacts() == [true, true];
-        if let Some(rubbing) = &mut self.rubbing {
-            rubbing.worn.bonded &= lies;
-        }
+        self.rubbing.worn.bonded &= lies;
     }
 
     /// Break the bond; false where there is none.
     pub(super) fn break_bond(&mut self) -> bool {
-        let bonded = |rubbing: &mut Rubbing| std::mem::take(&mut rubbing.worn.bonded) && rubbing.bond() > 0.0;
-        self.rubbing.as_mut().is_some_and(bonded)
+        std::mem::take(&mut self.rubbing.worn.bonded) && self.rubbing.bond() > 0.0
     }
 
     /// Keep what the crack has been through at a state of the present step.
     pub(super) fn keep_worn(&mut self, state: &State) {
         let worn = self.worn_at(state);
-        if let (Some(rubbing), Some(worn)) = (&mut self.rubbing, worn) {
-            rubbing.kept.push([worn.path, f64::from(worn.bonded)]);
-        }
+        self.rubbing.kept.push([worn.path, f64::from(worn.bonded)]);
     }
 }
 

@@ -99,6 +99,23 @@ struct Turned {
     driven: Vector,
 }
 
+/// What moves the block, but for contact.
+struct Driven {
+    turned: Turned,
+    mass: [Vector; 3],
+    load: Vector,
+    centrifugal: Vector,
+}
+
+fn inverted(mass: &[Vector; 3]) -> [Vector; 3] {
+    let [[a, d, e], [_, b, f], [_, _, c]] = *mass;
+    inverse([a, b, c], [d, e, f])
+}
+
+fn sum(a: &Vector, b: &Vector) -> Vector {
+    std::array::from_fn(|i| a[i] + b[i])
+}
+
 fn dot(a: &Vector, b: &Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
@@ -110,16 +127,13 @@ fn times(m: &[Vector; 3], v: &Vector) -> Vector {
 impl TurningBlock {
     /// Masses, loads and reactions' equations at a state.
     pub(super) fn at(&self, corner: Corner, state: &State, ground: &Ground) -> Instant {
-        let finite = self.rotation == Rotation::Finite;
         let rate = state[5];
-        let turned = self.turned_about(corner, state[2]);
-        let mass = self.mass_matrix(&turned);
-        let centrifugal = if finite {
-            self.centrifugal(&turned, rate)
-        } else {
-            [0.0; 3]
-        };
-        let load = self.load(corner, state, ground, &turned);
+        let Driven {
+            turned,
+            mass,
+            load,
+            centrifugal,
+        } = self.driven(corner, state, ground);
         let ahead = self.ahead(corner);
         let other = [0.0, 1.0, ahead * turned.cosine];
         let own = [0.0, 1.0, 0.0];
@@ -127,10 +141,8 @@ impl TurningBlock {
             Corner::Heel => [[1.0, 0.0, 0.0], own, other],
             Corner::Toe => [[1.0, 0.0, 0.0], other, own],
         };
-        let [[a, d, e], [_, b, f], [_, _, c]] = mass;
-        let inverse_mass = inverse([a, b, c], [d, e, f]);
-        let driven = [0, 1, 2].map(|i| load[i] + centrifugal[i]);
-        let free = times(&inverse_mass, &driven);
+        let inverse_mass = inverted(&mass);
+        let free = times(&inverse_mass, &sum(&load, &centrifugal));
         let mut compliance = [[0.0; 3]; 3];
         for i in 0..3 {
             let moved = times(&inverse_mass, &gradient[i]);
@@ -139,7 +151,7 @@ impl TurningBlock {
             }
         }
         let mut free_acceleration = gradient.map(|row| dot(&row, &free));
-        if finite {
+        if self.rotation == Rotation::Finite {
             free_acceleration[corner.other().gap()] -= ahead * turned.sine * rate * rate;
         }
         Instant {
@@ -152,6 +164,39 @@ impl TurningBlock {
             centrifugal,
             slope: 0.0,
             wear: 0.0,
+        }
+    }
+
+    /// Acceleration of a rotation about a corner that stays where it is, and the moment of the loads about it.
+    pub(super) fn swing(&self, corner: Corner, state: &State, ground: &Ground) -> [f64; 2] {
+        let driven = self.driven(corner, state, ground);
+        let moment = driven.load[2];
+        [(moment + driven.centrifugal[2]) / driven.mass[2][2], moment]
+    }
+
+    /// Acceleration of the coordinates of a block in the air, and its loads.
+    pub(super) fn flight(&self, corner: Corner, state: &State, ground: &Ground) -> [Vector; 2] {
+        let Driven {
+            mass,
+            load,
+            centrifugal,
+            ..
+        } = self.driven(corner, state, ground);
+        [times(&inverted(&mass), &sum(&load, &centrifugal)), load]
+    }
+
+    /// Inlined, so that what is not asked for is not worked out.
+    #[inline(always)]
+    fn driven(&self, corner: Corner, state: &State, ground: &Ground) -> Driven {
+        let turned = self.turned_about(corner, state[2]);
+        Driven {
+            mass: self.mass_matrix(&turned),
+            load: self.load(corner, state, ground, &turned),
+            centrifugal: match self.rotation {
+                Rotation::Finite => self.centrifugal(&turned, state[5]),
+                _ => [0.0; 3],
+            },
+            turned,
         }
     }
 

@@ -25,6 +25,7 @@ mod located;
 mod plain;
 mod power;
 mod rates;
+mod ready;
 mod rest;
 mod rough;
 mod rubbing;

@@ -6,10 +6,7 @@
 //!
 //! `b* = (b_s, b_h - k b_s, b_t - k b_s)`, `F_s* = F_s + k (F_h + F_t)`.
 
-use std::cell::OnceCell;
-
 use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
-use super::super::choice::Modes;
 use super::super::course::{Course, Earliest};
 use super::super::event;
 use super::super::ledger::work;
@@ -17,35 +14,11 @@ use super::super::mode::Mode;
 use super::super::reaction::{Felt, Reaction};
 use super::super::walk::Cause;
 use super::advance::Trial;
-use super::flanks::goes_upstream;
 use super::instant::Slope;
-use super::rubbing::Rubbing;
+use super::ready::{Blocks, Ready};
 use super::shaking::{level, Piece};
 use super::step::State;
 use super::walk::Varying;
-
-/// Blocks with the friction of this moment: on both corners, where there may be a bond, and else.
-type Blocks = [Block; 2];
-
-/// The reactions of all modes, each worked out where it is asked for.
-pub(super) struct Ready {
-    downstream: Blocks,
-    /// On the flank upstream of where the block stands, and whether it falls that way; where it stands between two.
-    upstream: Option<(Blocks, bool)>,
-    known: [OnceCell<Reaction>; Mode::COUNT],
-}
-
-impl Modes for Ready {
-    fn of(&self, mode: Mode) -> &Reaction {
-        self.known[mode.index()].get_or_init(|| {
-            let blocks = match &self.upstream {
-                Some((blocks, falls)) if goes_upstream(mode, *falls) => blocks,
-                _ => &self.downstream,
-            };
-            Reaction::new(&blocks[usize::from(mode.contacts() != [true, true])], mode)
-        })
-    }
-}
 
 /// A cubic way on what is left of a piece of the record.
 pub(super) struct Cubic {
@@ -88,24 +61,27 @@ impl Varying<'_> {
     /// Whether what friction bears in the present contact is known without integrating: it does not go by the normal
     /// force, and the block stands or its law has come to a constant; no flank gives way.
     fn is_ready(&self) -> bool {
-        let settled = |rubbing: &Rubbing| !rubbing.bends() && (self.state[3] == 0.0 || rubbing.settled());
-        self.plain && self.rubbing.as_ref().is_some_and(settled) && self.slope(&self.state).wear == 0.0
+        let rubbing = &self.rubbing;
+        let known = !rubbing.bends() && (self.state[3] == 0.0 || rubbing.settled());
+        known && (self.plain || self.lies_level()) && self.slope(&self.state).wear == 0.0
+    }
+
+    /// Whether it lies on both corners, with nothing across the crack and on a ground that does not turn: as long as it
+    /// does, loads and geometry stay as they are.
+    fn lies_level(&self) -> bool {
+        self.level && self.turning.anchors.is_empty() && super::super::walk::Single::closed(self) == [true; 2]
     }
 
     /// Whether friction stays as it is in the present slip: neither its law changes nor the flank that is climbed.
     fn rubs_evenly(&self) -> bool {
-        self.rubbing.as_ref().is_some_and(Rubbing::settled)
-            && !self.rough.as_ref().is_some_and(|rough| self.gives_way(rough))
+        self.rubbing.settled() && !self.rough.as_ref().is_some_and(|rough| self.gives_way(rough))
     }
 
     /// The block as it is on its flank, with the friction of this moment.
     fn blocks(&self) -> Blocks {
         let Slope { slope, .. } = self.slope(&self.state);
         let block = self.walk.block.counted_from(slope);
-        let normal = self
-            .rubbing
-            .as_ref()
-            .map_or(0.0, |rubbing| rubbing.still * rubbing.width);
+        let normal = self.rubbing.still * self.rubbing.width;
         [Mode::Rest, Mode::Drift].map(|mode| block.rubbing(&self.strength(mode, normal, &self.state)))
     }
 
@@ -127,23 +103,19 @@ impl Varying<'_> {
             }
         };
         let falls = upstream.as_ref().is_some_and(|(_, falls)| *falls);
-        let ready = Ready {
-            downstream,
-            upstream,
-            known: Default::default(),
-        };
-        Some((ready, falls))
+        Some((Ready::new(downstream, upstream), falls))
     }
 
     /// The cubic way from the present state on, and the reactions by which it goes; none where it has another.
     fn cubic(&self, piece: &Piece) -> Option<(Cubic, Reaction)> {
         let mode = self.walk.mode;
         let goes = match mode {
-            Mode::Drift => self.plain && self.rubbing.is_some(),
+            Mode::Drift => true,
             Mode::Rest | Mode::Rock(_) => self.is_ready(),
             Mode::Slide(_) | Mode::SlideRock(..) => self.is_ready() && self.rubs_evenly(),
         };
-        if !goes || piece.left <= 0.0 {
+        // Once a corner has lifted, nothing but what never changes stays as it is.
+        if !goes || !self.plain && mode.contacts() != [true, true] || piece.left <= 0.0 {
             return None;
         }
         let [block, lifted] = self.blocks();

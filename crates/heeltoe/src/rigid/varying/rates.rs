@@ -41,6 +41,19 @@ impl Varying<'_> {
                 rise,
             ];
         }
+        let [x, z, spin] = [state[3], state[4], state[5]];
+        match self.walk.mode {
+            Mode::Rock(corner) if self.rough.is_none() => {
+                let [acceleration, moment] = self.turning.swing(corner, state, ground);
+                return [0.0, 0.0, spin, 0.0, 0.0, acceleration, moment * spin, 0.0, 0.0];
+            }
+            Mode::Drift if self.rough.is_none() => {
+                let [[a, b, c], load] = self.turning.flight(self.corner, state, ground);
+                let power = load[0] * x + load[1] * z + load[2] * spin;
+                return [x, z, spin, a, b, c, power, 0.0, 0.0];
+            }
+            _ => {}
+        }
         let slope = self.slope(state);
         let instant = self.on_flank(self.corner, state, ground, slope);
         let (reactions, _) = self.reactions(state, &instant);
@@ -56,17 +69,17 @@ impl Varying<'_> {
             acceleration[2] = 0.0;
         }
         let [a, b, c] = acceleration;
-        let rubbing = reactions[SLIP] * state[3];
+        let rubbing = reactions[SLIP] * x;
         [
-            state[3],
-            state[4],
-            state[5],
+            x,
+            z,
+            spin,
             a,
             b,
             c,
             instant.power(state),
             rubbing,
-            slope.slope * state[3],
+            slope.slope * x,
         ]
     }
 
@@ -81,14 +94,20 @@ impl Varying<'_> {
         }
     }
 
-    /// The same with the error of that step, as [`step`] has it.
-    pub(super) fn stepped(&self, start: &State, rate: &State, piece: &Piece, since: f64) -> (State, f64) {
+    /// The same with its rate of change and the error of that step, as [`step`] has it.
+    pub(super) fn stepped(
+        &self,
+        start: &State,
+        rate: &State,
+        piece: &Piece,
+        since: f64,
+    ) -> (State, State, f64) {
         if since == 0.0 || self.walk.mode == Mode::Rest {
-            return (*start, 0.0);
+            return (*start, *rate, 0.0);
         }
         let mut rates = |t: f64, y: &State| self.rates(y, &piece.after(t));
         let taken = step(start, rate, since, &self.scale, &mut rates);
-        (taken.end, taken.error)
+        (taken.end, taken.rate, taken.error)
     }
 
     /// Normal forces and what is left of the friction cone, both ways, at a state; sizes to judge them by.

@@ -12,13 +12,13 @@ impl Varying<'_> {
     /// the normal force, or bends downward, so that a limit is least at an end.
     pub(super) fn rest_until(&mut self, shaking: &TurningShaking, from: usize) -> usize {
         let clear = CLEAR * self.walk.block.force_scale;
-        let beyond = match self.rubbing.as_ref().filter(|rubbing| rubbing.bends()) {
-            Some(rubbing) if !rubbing.sags_nowhere() => return from,
-            Some(_) => shaking.first_beyond(from, |ground| {
+        let beyond = match self.rubbing.bends() {
+            true if !self.rubbing.sags_nowhere() => return from,
+            true => shaking.first_beyond(from, |ground| {
                 let limits = self.limits(&self.state, ground);
                 limits.iter().all(|(value, _)| *value > clear)
             }),
-            None => {
+            false => {
                 let reserve = self.reserve.unwrap_or_else(|| self.reserve_at_rest());
                 self.reserve = Some(reserve);
                 let [still, across, up, turning] = reserve;

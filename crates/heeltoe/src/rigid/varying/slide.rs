@@ -23,7 +23,7 @@ impl Varying<'_> {
         };
         let (way, state) = (slip.sign(), self.state);
         let line = self.line(way, piece)?;
-        let path = self.rubbing.as_ref()?.worn.path;
+        let path = self.rubbing.worn.path;
         let speed = way * state[3];
         let begins = fresh.filter(|_| speed == 0.0).map(|all| all[SLIP]);
         line.slide(way, path, speed, begins, piece)
@@ -37,7 +37,7 @@ impl Varying<'_> {
 
     /// What is felt sliding this way, where that is a straight line; kept as long as that holds.
     fn line(&self, way: f64, piece: &Piece) -> Option<Line> {
-        let rubbing = self.rubbing.as_ref()?;
+        let rubbing = &self.rubbing;
         let [across, up, spin] = piece.rate;
         // Where friction changes with the path and the normal force with the ground, their product does, too.
         let product = !rubbing.straight(false);

@@ -60,23 +60,31 @@ pub(super) fn step(
     }
 }
 
-/// Displacements, rotation and velocities in the middle of a step, on the polynomial of degree 5 through both ends with
+/// Displacements, rotation and velocities at a moment `t` of a step, on the polynomial of degree 5 through both ends with
 /// their velocities and accelerations; the works are left at zero.
-pub(super) fn middle(ends: [&State; 2], rates: [&State; 2], length: f64) -> State {
+pub(super) fn between(ends: [&State; 2], rates: [&State; 2], length: f64, t: f64) -> State {
     let mut at = [0.0; SIZE];
+    let s = t / length;
     for j in 0..3 {
         let [y0, y1] = ends.map(|y| y[j]);
-        let [v0, v1] = ends.map(|y| y[j + 3]);
-        let [a0, a1] = rates.map(|y| y[j + 3]);
-        at[j] = 0.5 * (y0 + y1) + length * (5.0 / 32.0 * (v0 - v1) + length / 64.0 * (a0 + a1));
-        at[j + 3] = 1.875 * (y1 - y0) / length - 0.4375 * (v0 + v1) + length / 32.0 * (a1 - a0);
+        let [v0, v1] = ends.map(|y| length * y[j + 3]);
+        let [a0, a1] = rates.map(|y| length * length * y[j + 3]);
+        // What is left at the end of the parabola from the start: of the displacement, its first and second rate.
+        let (y, v, a) = (y1 - y0 - v0 - 0.5 * a0, v1 - v0 - a0, a1 - a0);
+        let (c3, c4, c5) = (
+            10.0 * y - 4.0 * v + 0.5 * a,
+            -15.0 * y + 7.0 * v - a,
+            6.0 * y - 3.0 * v + 0.5 * a,
+        );
+        at[j] = y0 + s * (v0 + s * (0.5 * a0 + s * (c3 + s * (c4 + s * c5))));
+        at[j + 3] = (v0 + s * (a0 + s * (3.0 * c3 + s * (4.0 * c4 + s * 5.0 * c5)))) / length;
     }
     at
 }
 
 fn along(start: &State, length: f64, weights: &[f64], k: &[State; STAGES]) -> State {
     let mut at = *start;
-    for (weight, rate) in weights.iter().zip(k) {
+    for (weight, rate) in weights.iter().zip(k).filter(|(weight, _)| **weight != 0.0) {
         for (value, slope) in at.iter_mut().zip(rate) {
             *value += length * weight * slope;
         }
@@ -307,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_of_a_quintic_is_exact() {
+    fn between_its_ends_a_quintic_is_exact() {
         let (y, v, a) = (
             |t: f64| t.powi(5),
             |t: f64| 5.0 * t.powi(4),
@@ -315,7 +323,7 @@ mod tests {
         );
         let state = |t: f64| [y(t), 0.0, -y(t), v(t), 0.0, -v(t), 1.0, 1.0, 1.0];
         let rate = |t: f64| [v(t), 0.0, -v(t), a(t), 0.0, -a(t), 0.0, 0.0, 0.0];
-        let found = middle([&state(1.0), &state(3.0)], [&rate(1.0), &rate(3.0)], 2.0);
+        let found = between([&state(1.0), &state(3.0)], [&rate(1.0), &rate(3.0)], 2.0, 1.0);
         assert!((found[0] - 32.0).abs() < 1e-12 && (found[3] - 80.0).abs() < 1e-12);
         assert!((found[2] + 32.0).abs() < 1e-12 && (found[5] + 80.0).abs() < 1e-12);
         assert_eq!([found[1], found[4], found[6], found[7], found[8]], [0.0; 5]);

@@ -13,6 +13,7 @@ use super::super::walk::{Carried, Cause, Options, Single, Walk, Wanted};
 use super::block::{Rotation, TurningBlock};
 use super::instant::{Instant, Still};
 use super::line::{Flat, Line};
+use super::ready::Ready;
 use super::rough::Rough;
 use super::rubbing::{Gathered, Rubbing};
 use super::shaking::{level, Ground, Piece, TurningShaking};
@@ -55,10 +56,13 @@ pub(super) struct Varying<'a> {
     pub(super) flats: [Cell<Option<Flat>>; 2],
     /// The block on a rough crack seen from either corner, where its loads and its geometry stay as they are.
     pub(super) stills: [OnceCell<Still>; 2],
-    /// Friction that goes by a law, where it does.
-    pub(super) rubbing: Option<Rubbing<'a>>,
+    pub(super) rubbing: Rubbing<'a>,
+    /// Whether friction goes by a law, of which there is something to tell.
+    by_law: bool,
     /// Whether its loads and its geometry stay as they are, see [`super::plain`].
     pub(super) plain: bool,
+    /// Whether the ground never turns.
+    pub(super) level: bool,
     /// Asperities, where the crack is rough.
     pub(super) rough: Option<Rough>,
     pub(super) error: Gathered,
@@ -86,10 +90,12 @@ pub fn simulate(
     wanted: Wanted,
 ) -> Run {
     let [position, velocity] = start.unwrap_or([[0.0; 3]; 2]);
-    let rubbing = surface.map(|surface| Rubbing::new(surface.law, surface.worn, block));
+    let constant = Law::coulomb(block.strength().coefficient);
+    let (law, worn) = surface.map_or((&constant, Worn::FRESH), |surface| (surface.law, surface.worn));
+    let rubbing = Rubbing::new(law, worn, block);
     let rough = surface.and_then(|surface| surface.asperities);
-    let bond = rubbing.as_ref().map_or(0.0, Rubbing::bond);
-    let block = &block.under(turning.force_scale(shaking.peaks()).max(bond));
+    let scale = turning.force_scale(shaking.peaks());
+    let block = &block.under(scale.max(rubbing.bond()));
     let speed = (block.acceleration_scale() * block.width).sqrt();
     let allowed = |size: f64| TOLERANCE * size;
     let (length, turn) = (allowed(block.width), allowed(1.0));
@@ -120,7 +126,9 @@ pub fn simulate(
         flats: Default::default(),
         stills: Default::default(),
         rubbing,
+        by_law: surface.is_some(),
         plain: turning.stays(shaking),
+        level: shaking.is_level(),
         rough: rough.map(|(asperities, before)| Rough::new(asperities, before, position[SLIP], block.width)),
         error: Gathered::default(),
     };
@@ -142,7 +150,7 @@ impl Varying<'_> {
     /// Hand over what there is to tell.
     fn end(self) -> Run {
         let energy = self.kinetic_energy();
-        let worn = self.rubbing.map(|rubbing| rubbing.told(&self.error));
+        let worn = self.by_law.then(|| self.rubbing.told(&self.error));
         Run {
             worn,
             rough: self.rough.map(Rough::end),
@@ -153,10 +161,7 @@ impl Varying<'_> {
     /// Whether the block is one of the exact walk by now: its loads and its geometry never change, its friction no more,
     /// and there is no error in its velocity that would grow.
     fn is_exact(&self) -> bool {
-        self.plain
-            && self.rough.is_none()
-            && self.rubbing.as_ref().is_some_and(Rubbing::settled)
-            && self.error.speed == 0.0
+        self.plain && self.rough.is_none() && self.rubbing.settled() && self.error.speed == 0.0
     }
 
     /// Leave the rest of the motion to the exact walk.
@@ -164,7 +169,7 @@ impl Varying<'_> {
         self.see();
         let strength = self.struck();
         let block = self.walk.block.rubbing(&strength);
-        let wear = self.rubbing.map(|rubbing| rubbing.told(&self.error));
+        let wear = self.by_law.then(|| self.rubbing.told(&self.error));
         exact::go_on(self.walk.with(&block), &shaking.level, from, wear)
     }
 
@@ -330,13 +335,10 @@ impl Varying<'_> {
     pub(super) fn reactions_ahead(&self, piece: &Piece) -> Reactions {
         let now = self.instant(&piece.ground);
         let ahead = self.ahead(piece, &now);
-        match self.rubbing {
-            None => Reactions::new(&ahead),
-            Some(_) => Reactions::each(&ahead, |mode| {
-                let (_, strength) = self.rubbed(mode, &self.state, &now)?;
-                Some(ahead.rubbing(&strength))
-            }),
-        }
+        Reactions::each(&ahead, |mode| {
+            let (_, strength) = self.rubbed(mode, &self.state, &now)?;
+            Some(ahead.rubbing(&strength))
+        })
     }
 
     /// The mode in which the block can go on with its bond as it is.
@@ -344,12 +346,17 @@ impl Varying<'_> {
         if let Some((reactions, upstream)) = self.ready(piece) {
             return self.choose_among(&reactions, upstream, &level(piece));
         }
-        let (reactions, upstream) = self.reactions_about(piece);
         let level = Level {
             ground: [0.0; 2],
             rate: [1.0 / UNIT, 0.0],
             left: piece.left,
         };
+        if self.rough.is_none() && self.rubbing.settled() {
+            let ahead = self.ahead(piece, &self.instant(&piece.ground));
+            let block = ahead.rubbing(&self.strength(Mode::Rest, 0.0, &self.state));
+            return self.choose_among(&Ready::new([block.clone(), block], None), false, &level);
+        }
+        let (reactions, upstream) = self.reactions_about(piece);
         self.choose_among(&reactions, upstream, &level)
     }
 
