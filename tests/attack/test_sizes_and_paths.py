@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from heeltoe import GroundMotion, InputError, rigid
-from heeltoe.cli.common import as_given
+from heeltoe.cli.common import resolved_path
 from heeltoe.errors.sanitize import plain
 from heeltoe.models.flexible.mesh.file import _read
 from heeltoe.motion.processing import taper
@@ -34,7 +34,7 @@ def test_more_events_than_can_be_counted():
 
 
 def test_a_home_of_nobody_is_a_name():
-    assert as_given("~nouser/record") == "~nouser/record"
+    assert resolved_path("~nouser/record") == "~nouser/record"
 
 
 @pytest.mark.parametrize(

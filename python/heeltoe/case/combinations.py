@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from heeltoe.case.model import Case
 
 # Fields of a case that have a feature, with their values.
-Found = Iterator[tuple[str, object]]
-Finder = Callable[["Case"], Found]
+FeatureFields = Iterator[tuple[str, object]]
+Finder = Callable[["Case"], FeatureFields]
 
 
 @dataclass(frozen=True)
@@ -99,13 +99,13 @@ UNSUPPORTED = "unsupported"
 _MODELS = ("flexible", "rigid", "decoupled")
 
 
-def _cracks(case: Case, fewest: int = 2) -> Found:
+def _cracks(case: Case, fewest: int = 2) -> FeatureFields:
     if len(case.further_cracks) + 1 >= fewest:
         yield case.path_as_written("further_cracks"), len(case.further_cracks) + 1
 
 
 def _of_cracks(name: str) -> Finder:
-    def find(case: Case) -> Found:
+    def find(case: Case) -> FeatureFields:
         for place, crack in enumerate((case.crack, *case.further_cracks)):
             value = getattr(crack, name, None)
             if value:
@@ -118,7 +118,7 @@ def _of_cracks(name: str) -> Finder:
 def _options(*fields: str, unlike: tuple[object, ...] = (None,), among: tuple[object, ...] = ()) -> Finder:
     """Return what finds fields whose values are unlike some, or among others."""
 
-    def find(case: Case) -> Found:
+    def find(case: Case) -> FeatureFields:
         for path in fields:
             block, _, name = path.partition(".")
             owner = getattr(case, block)
@@ -130,7 +130,7 @@ def _options(*fields: str, unlike: tuple[object, ...] = (None,), among: tuple[ob
 
 
 def _anchors(*names: str) -> Finder:
-    def find(case: Case) -> Found:
+    def find(case: Case) -> FeatureFields:
         for place, anchor in enumerate(case.anchors):
             for name in names:
                 # A place at the heel is one, no stiffness is none.
@@ -140,22 +140,22 @@ def _anchors(*names: str) -> Finder:
     return find
 
 
-def _aftershocks(case: Case) -> Found:
+def _aftershocks(case: Case) -> FeatureFields:
     if case.aftershocks:
         yield "aftershocks", None
 
 
-def _closing_drains(case: Case) -> Found:
+def _closing_drains(case: Case) -> FeatureFields:
     if case.statics.drain_diameter is not None:
         yield "statics.drain_diameter", None
 
 
-def _cohesive_law(case: Case) -> Found:
+def _cohesive_law(case: Case) -> FeatureFields:
     if case.crack.law is not None and case.crack.law.cohesion is not None:
         yield "crack.law.cohesion", None
 
 
-def _cohesion_of_checks(case: Case) -> Found:
+def _cohesion_of_checks(case: Case) -> FeatureFields:
     if case.statics.cohesion:
         yield "statics.cohesion", None
 
@@ -289,7 +289,7 @@ FEATURES = {
 
 _ONE_CRACK = "it is implemented for one crack"
 _STRAIGHT = "it is implemented for a straight crack"
-_NOT_THERE = "the penalty method does not support it"
+_NO_PENALTY = "the penalty method does not support it"
 _OF_BLOCKS = ("rigid", "decoupled", "beside", "study", "table", "map", "rotation")
 #: The table. The first rule that a case breaks is told first.
 RULES = (
@@ -310,15 +310,15 @@ RULES = (
     Rule("a bonded joint", "kinks", (), _STRAIGHT),
     Rule("a bonded joint", "a friction law", (), "below the bond there is constant friction"),
     Rule("a bonded joint", "roughness", (), "below the bond the faces are plane"),
-    Rule("a bonded joint", "penalty contact", (), _NOT_THERE),
+    Rule("a bonded joint", "penalty contact", (), _NO_PENALTY),
     Rule("a bonded joint", "all nodes watched twice", (), "each node would have its bond twice"),
     Rule("uplift that changes during shaking", "kinks", (), _STRAIGHT),
     Rule("penalty contact", "kinks", (), _STRAIGHT),
     Rule("meshes from files", "kinks", (), _STRAIGHT),
     Rule("another number of elements below", "kinks", (), "both faces share the corners of the crack"),
     Rule("cohesion of the static checks", "a law with cohesion", (), "cohesion would be stated twice"),
-    Rule("damping of free parts", "penalty contact", (), _NOT_THERE),
-    Rule("compressible water", "penalty contact", (), _NOT_THERE),
+    Rule("damping of free parts", "penalty contact", (), _NO_PENALTY),
+    Rule("compressible water", "penalty contact", (), _NO_PENALTY),
     Rule("compressible water", "options of the thesis", (), "the water of the thesis is a mass"),
     Rule(
         "compressible water",
@@ -326,7 +326,7 @@ RULES = (
         (),
         "compressible water feels the vertical motion by itself",
     ),
-    Rule("elastic rock", "penalty contact", (), _NOT_THERE),
+    Rule("elastic rock", "penalty contact", (), _NO_PENALTY),
     Rule("elastic rock", "options of the thesis", (), "the dam of the thesis stands on a rigid plane"),
     Rule("three cracks", "", ("rigid",), "its blocks are two at most, one on the other"),
     Rule(
@@ -349,9 +349,9 @@ RULES = (
     Rule("virtual water that does not rotate", "several cracks", ("rigid",), "the virtual water of two blocks rotates"),
     Rule("Zangar's water pressure", "several cracks", ("rigid",), "the virtual water of two blocks is Westergaard's"),
     Rule("roughness", "", ("flexible",), "the faces of its cracks are smooth"),
-    Rule("a friction law", "penalty contact", ("flexible",), _NOT_THERE),
-    Rule("uplift that changes during shaking", "penalty contact", ("flexible",), _NOT_THERE),
-    Rule("an anchor with stiffness", "penalty contact", ("flexible",), _NOT_THERE),
+    Rule("a friction law", "penalty contact", ("flexible",), _NO_PENALTY),
+    Rule("uplift that changes during shaking", "penalty contact", ("flexible",), _NO_PENALTY),
+    Rule("an anchor with stiffness", "penalty contact", ("flexible",), _NO_PENALTY),
     Rule("aftershocks", "", ("motions",), "the motions of the study replace all motions of the case"),
     *(
         Rule(
@@ -430,7 +430,7 @@ def _unsupported(case: Case, user: str) -> Iterator[InputError]:
         yield from _errors(case, rule, user if rule.users else "")
 
 
-def _broken(case: Case, rule: Rule) -> Found:
+def _broken(case: Case, rule: Rule) -> FeatureFields:
     """Walk the fields with the feature of a rule, where the case has the other one, too."""
     if not rule.other or any(True for _ in FEATURES[rule.other].find(case)):
         yield from FEATURES[rule.feature].find(case)

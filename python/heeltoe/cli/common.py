@@ -125,7 +125,7 @@ def command_line() -> str:
     return shlex.join(["heeltoe", *sys.argv[1:]])
 
 
-def as_given(motion: str) -> str:
+def resolved_path(motion: str) -> str:
     """A path on the command line is relative to where the user stands, not to the case file."""
     path = Path(os.path.expanduser(motion))  # unlike that of paths, it leaves nobody's home as it is
     return str(path.resolve()) if os.path.isfile(path) else motion
@@ -133,7 +133,7 @@ def as_given(motion: str) -> str:
 
 def motion_changes(motion: str | None, **fields: str | None) -> list[str]:
     """Return the changes of a case that the options of its motion make."""
-    options = {"file": motion and json.dumps(as_given(motion)), **fields}
+    options = {"file": motion and json.dumps(resolved_path(motion)), **fields}
     return [f"motion.{name}={value}" for name, value in options.items() if value is not None]
 
 

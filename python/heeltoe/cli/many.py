@@ -16,10 +16,10 @@ from heeltoe.base.atomic_files import check_directory
 from heeltoe.cli.common import (
     LONGEST_PATH,
     NO_RESULT,
-    as_given,
     check_json,
     command_line,
     finish,
+    resolved_path,
     say_file,
     study_bar,
     units_of,
@@ -165,7 +165,7 @@ def run_suite_command(path: str, case: Case, pga: str | None, suite: Suite, requ
     place = request.out or (Path(f"{Path(path).stem}-suite") if request.report else None)
     if suite.resume and place is None:
         raise InputError("suite-resume", "--resume")
-    motions = [as_given(name) for name in suite.motions] or None
+    motions = [resolved_path(name) for name in suite.motions] or None
     runner = partial(run_suite, case, motions, model=request.model, out=place, resume=suite.resume, **suite.fields(pga))
     output = Output(
         place,

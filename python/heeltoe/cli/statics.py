@@ -20,7 +20,6 @@ from heeltoe.cli.common import (
     MotionSource,
     Peak,
     Workbook,
-    as_given,
     check_json,
     check_units,
     check_written,
@@ -29,6 +28,7 @@ from heeltoe.cli.common import (
     motion_changes,
     refuse,
     removed_files,
+    resolved_path,
     status,
     units_of,
 )
@@ -102,7 +102,7 @@ def statics(
 def _judged_by(criteria: str) -> str:
     """Return the change of a case that asks for criteria by their name, or by a file relative to here."""
     if criteria.endswith(".toml"):
-        return f"statics.criteria_file={json.dumps(as_given(criteria))}"
+        return f"statics.criteria_file={json.dumps(resolved_path(criteria))}"
     return f"statics.criteria={criteria}"
 
 

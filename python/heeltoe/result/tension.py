@@ -6,7 +6,7 @@ from heeltoe.result.numbers import StressPlace, Tension
 from heeltoe.units.sentences import written
 
 # What parts are called where there are several cracks.
-_SAID = {
+_PART_NAMES = {
     "uppermost": "the part above all cracks",
     "between": "the part between two cracks",
     "lowest": "the part below all cracks",
@@ -15,7 +15,7 @@ _SAID = {
 
 def place_phrase(stress: StressPlace) -> str:
     """Say where a largest stress is, its height apart."""
-    part = _SAID.get(stress.part, f"the part {stress.part} the crack")
+    part = _PART_NAMES.get(stress.part, f"the part {stress.part} the crack")
     face = "" if stress.place == "base" else " face"
     return f"inside {part}" if stress.place == "inside" else f"at the {stress.place}{face} of {part}"
 

@@ -126,10 +126,10 @@ def with_spread(response: R, case: Case, runs: int = RUNS, *, progress: Progress
     return replace(response, spread=spread, warnings=(*response.warnings, *_warnings(spread)))
 
 
-_Found = tuple[dict[str, Floats], NDArray[np.bool_]]
+_Headlines = tuple[dict[str, Floats], NDArray[np.bool_]]
 
 
-def _rigid(case: Case, shaking: Shaking, scales: Floats, leads: int, progress: Progress | None) -> _Found:
+def _rigid(case: Case, shaking: Shaking, scales: Floats, leads: int, progress: Progress | None) -> _Headlines:
     """Return the headline numbers of a block above the crack that `leads`, and which of the runs have a result."""
     block, width = build_block(case), build_block(case.single_crack_cases[leads]).width
     if by_itself(case) or shaking.turning is not None or case.further_cracks:
@@ -171,7 +171,7 @@ def _flexible(
     step: float,
     leads: int,
     progress: Progress | None,
-) -> _Found:
+) -> _Headlines:
     """Return the headline numbers of an elastic dam at the crack that `leads`, and which of the runs have a result;
     `parts` are the motions of a sequence between which its drains close."""
     if parts is not None:

@@ -64,7 +64,7 @@ _PROPERTIES: dict[type, tuple[str, ...]] = {
     Check: ("margin",),
 }
 # Attributes that the JSON does not have, or says by keys of their own.
-_NOT_THERE = {
+_WITHOUT_KEY = {
     "gravity", "vertical", "seconds", "sources", "ends_m", "moment_nm", "dam", "parts",
 }  # fmt: skip
 
@@ -80,7 +80,7 @@ def keys_of_the_json() -> Iterator[Meaning]:
         places.setdefault(name, []).append(where)
     for above, kind, where in _CLASSES:
         for name, text in attribute_meanings(kind).items():
-            if name not in _NOT_THERE and f"{above}{name}" != "asked":
+            if name not in _WITHOUT_KEY and f"{above}{name}" != "asked":
                 meanings.setdefault(f"{above}{name}", text)
                 places.setdefault(f"{above}{name}", []).append(where)
     others = [(f"{command} --json", keys) for command, keys in OF_OTHERS.items()]
