@@ -270,6 +270,15 @@ impl Summary {
         }
     }
 
+    /// Whether slip, gaps and rotation of a moment lie within the extremes.
+    pub(super) fn covers(&self, at: &Vector, turn: f64) -> bool {
+        let within = |value: f64, [least, most]: [f64; 2]| least <= value && value <= most;
+        within(at[SLIP], self.slip_range)
+            && within(turn, self.rotation_range)
+            && at[HEEL] <= self.largest_gap[0]
+            && at[TOE] <= self.largest_gap[1]
+    }
+
     /// Take slip, gaps and rotation of a moment into the extremes.
     pub(super) fn widen(&mut self, at: &Vector, turn: f64) {
         self.slip_range = [self.slip_range[0].min(at[SLIP]), self.slip_range[1].max(at[SLIP])];

@@ -9,6 +9,9 @@ use super::shaking::Piece;
 use super::step::{State, COUNTED};
 use super::walk::Varying;
 
+/// By how much more than the polynomial through the ends of a step the motion may have moved.
+const BEYOND: f64 = 1.0 + 1e-6;
+
 impl Varying<'_> {
     /// Take over the state `end` after so much of a step that began at `time`.
     pub(super) fn move_on(&mut self, trial: &Trial, end: &State, taken: f64, time: f64) {
@@ -121,6 +124,13 @@ impl Varying<'_> {
             }
             let bend = (v1 - v0 - a0 * taken) / (taken * taken);
             for t in event::sign_changes(v0, a0, bend, taken).into_iter().flatten() {
+                if trial.integrated {
+                    let about = self.between(trial, t).map(|value| BEYOND * value);
+                    let [position, _] = self.contact(&about);
+                    if self.walk.summary.covers(&position, about[2]) {
+                        continue;
+                    }
+                }
                 let at = self.moved(start, rate, piece, t);
                 let [position, _] = self.contact(&at);
                 self.walk.summary.widen(&position, at[2]);
