@@ -389,6 +389,25 @@ def test_of_many_joints_the_verdict_and_a_picture_say_which_cracks_first():
     )
 
 
+def test_many_joints_that_hold_stand_as_the_intact_dam_does():
+    fields = dam()
+    del fields["crack"]
+    fields["flexible"]["elements_across"] = 2
+    fields["section"] = {"height": "100 m", "crest_width": "8 m", "base_width": "80 m"}
+    fields["reservoir"]["depth"] = "100 m"
+    # Layers that bend more softly than the dam that they make up.
+    fields["joints"] = {
+        "every": "1.5 m",
+        "friction": 1.0,
+        "bond": STRONG | {"tensile_strength": "2 MPa", "cohesion": "3 MPa"},
+    }
+    many = build_flexible_dam(read_case(fields))
+    assert len(many.lines) == 67
+    assert many.start.stands
+    assert set(many.start.open_contacts) == {0}
+    assert np.abs(many.start.slips).max() < 1e-6
+
+
 def test_joints_that_all_hold_are_one_sentence():
     fields = dam()
     del fields["crack"]
