@@ -24,9 +24,10 @@ use super::contact::Pair;
 use super::dam::Dam;
 use super::ledger::Ledger;
 use super::modal_stepper::{Drive, ModalStepper};
+use super::panels::Panels;
 use super::reservoir::{Reservoir, Water};
 use super::scheme::TimeStep;
-use super::simd::{combine, in_groups, Group, Lanes, LANES};
+use super::simd::{in_groups, Group, Lanes, LANES};
 
 /// The dashpots of a run, and the water that is tied to the bodies as they are.
 pub(super) struct Dampers<'a> {
@@ -44,8 +45,9 @@ pub(super) struct Dampers<'a> {
     /// Impulses, and those of them that answer to contact.
     pull: Vec<f64>,
     further: Vec<f64>,
-    /// Room for what the rows feel, and for sums over them and over the crack nodes.
+    /// Room for what the rows feel, for the impulses on the crack nodes, and for sums over both.
     room: Vec<f64>,
+    impulses: Vec<f64>,
     rows_room: Vec<Group>,
     nodes_room: Vec<Group>,
     /// Energy the dashpots have taken.
@@ -54,10 +56,10 @@ pub(super) struct Dampers<'a> {
 
 /// What many rows are to the bodies, for one state of damping.
 struct Wide {
-    /// `N`, row by row, each filled up with zeros to whole groups.
-    gain: Vec<Group>,
+    /// `N`.
+    gain: Panels,
     /// `N W_dc`: a row for each crack node of both bodies.
-    felt: Vec<Group>,
+    felt: Panels,
     nodes: HeldNodes,
 }
 
@@ -65,6 +67,7 @@ struct Wide {
 /// back, row by row.
 pub(super) struct HeldNodes {
     matrix: Vec<Group>,
+    panels: Panels,
     columns: [usize; 2],
 }
 
@@ -105,11 +108,14 @@ impl Wide {
                 row.iter_mut().zip(&held).for_each(|(sum, held)| *sum -= x * held);
             }
         }
+        let (wide, groups) = (count.div_ceil(LANES), size.div_ceil(LANES));
+        let matrix = in_groups(&matrix, size);
         Wide {
-            gain: in_groups(gain, count),
-            felt: in_groups(&gained, count),
+            gain: Panels::new(&in_groups(gain, count), wide, wide),
+            felt: Panels::new(&in_groups(&gained, count), wide, wide),
             nodes: HeldNodes {
-                matrix: in_groups(&matrix, size),
+                panels: Panels::new(&matrix, groups, groups),
+                matrix,
                 columns,
             },
         }
@@ -122,16 +128,11 @@ impl HeldNodes {
         (self.columns[0] + self.columns[1]).div_ceil(LANES)
     }
 
-    /// Find the velocities of the crack nodes with the impulses of contact.
+    /// Find the velocities of the crack nodes with these impulses of contact.
     #[inline(always)]
-    fn answer<W: Lanes>(&self, bodies: &mut Sides<ModalStepper>, room: &mut [Group]) {
+    fn answer<W: Lanes>(&self, bodies: &mut Sides<ModalStepper>, impulses: &[f64], room: &mut [Group]) {
         room.fill([0.0; LANES]);
-        let mut rows = &self.matrix[..];
-        for body in bodies.iter() {
-            let (own, rest) = rows.split_at(body.impulse.len() * self.stride());
-            combine::<W>(own, &body.impulse, room);
-            rows = rest;
-        }
+        self.panels.combine::<W>(impulses, room);
         let mut answers: &[f64] = room.as_flattened();
         for body in bodies.iter_mut() {
             let (own, rest) = answers.split_at(body.impulse.len());
@@ -223,6 +224,7 @@ impl<'a> Dampers<'a> {
             pull: zeros.clone(),
             further: zeros.clone(),
             room: zeros,
+            impulses: bodies.iter().flat_map(|body| &body.impulse).copied().collect(),
             taken: 0.0,
         }
     }
@@ -256,7 +258,7 @@ impl<'a> Dampers<'a> {
         }
         if let Some(wide) = &self.wide {
             self.rows_room.fill([0.0; LANES]);
-            combine::<W>(&wide[damping].gain, &self.room, &mut self.rows_room);
+            wide[damping].gain.combine::<W>(&self.room, &mut self.rows_room);
             negate(self.rows_room.as_flattened(), &mut self.pull);
         } else {
             respond(&self.gain[damping], &self.room, &mut self.pull);
@@ -271,7 +273,9 @@ impl<'a> Dampers<'a> {
     #[inline(always)]
     pub(super) fn answer<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, damping: usize) {
         if let Some(wide) = &self.wide {
-            return wide[damping].nodes.answer::<W>(bodies, &mut self.nodes_room);
+            gather(bodies, &mut self.impulses);
+            let nodes = &wide[damping].nodes;
+            return nodes.answer::<W>(bodies, &self.impulses, &mut self.nodes_room);
         }
         for body in bodies.iter_mut() {
             body.find_answer::<W>(damping);
@@ -294,12 +298,9 @@ impl<'a> Dampers<'a> {
     pub(super) fn finish<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, drive: Drive) {
         if let Some(wide) = &self.wide {
             self.rows_room.fill([0.0; LANES]);
-            let mut rows = &wide[drive.damping].felt[..];
-            for body in bodies.iter() {
-                let (own, rest) = rows.split_at(body.impulse.len() * self.rows_room.len());
-                combine::<W>(own, &body.impulse, &mut self.rows_room);
-                rows = rest;
-            }
+            gather(bodies, &mut self.impulses);
+            let felt = &wide[drive.damping].felt;
+            felt.combine::<W>(&self.impulses, &mut self.rows_room);
             negate(self.rows_room.as_flattened(), &mut self.further);
         }
         add(&mut self.pull, &self.further);
@@ -357,6 +358,17 @@ pub(super) enum Holding<'s> {
 fn respond(gain: &[f64], rate: &[f64], pull: &mut [f64]) {
     for (pull, row) in pull.iter_mut().zip(gain.chunks_exact(rate.len())) {
         *pull = -row.iter().zip(rate).map(|(a, b)| a * b).sum::<f64>();
+    }
+}
+
+/// Copy the impulses on the crack nodes of both bodies.
+#[inline(always)]
+fn gather(bodies: &Sides<ModalStepper>, impulses: &mut [f64]) {
+    let mut rest = impulses;
+    for body in bodies.iter() {
+        let (own, more) = rest.split_at_mut(body.impulse.len());
+        own.copy_from_slice(&body.impulse);
+        rest = more;
     }
 }
 

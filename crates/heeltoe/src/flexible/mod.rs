@@ -27,6 +27,7 @@ pub mod many;
 mod modal_stepper;
 mod newmark;
 mod observe;
+mod panels;
 mod place;
 mod reservoir;
 mod result;

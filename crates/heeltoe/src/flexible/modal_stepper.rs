@@ -21,7 +21,8 @@ use std::borrow::Cow;
 use super::body::{ReducedBody, BUNDLE};
 use super::compliance::Compliance;
 use super::ledger::Sums;
-use super::simd::{combine, combine_first, fma, Group, Lanes, Plain, LANES};
+use super::panels::Panels;
+use super::simd::{combine, fma, Group, Lanes, Plain, LANES};
 use super::still::Still;
 
 /// What a body needs for a given step, for both states of damping.
@@ -29,13 +30,15 @@ pub(super) struct Operator {
     d: [Vec<Group>; 2],
     /// Compliance of crack and dashpots to impulses on them, row by row.
     w: [Vec<Group>; 2],
-    /// Where a boundary takes energy: `D`, row by row, and `shapes D` in the order of the shapes.
+    /// What impulses of the links are to the crack nodes.
+    linked: [Panels; 2],
+    /// Where a boundary takes energy: `D`, and `shapes D` in the order of the shapes.
     dense: Option<[Dense; 2]>,
 }
 
 /// `D` of a body whose boundary takes energy.
 struct Dense {
-    d: Vec<Group>,
+    d: Panels,
     shapes: Vec<Group>,
 }
 
@@ -44,9 +47,11 @@ impl Operator {
         let TimeStep { dt, theta } = step;
         if let Some(boundary) = &body.boundary {
             let dense = [0, 1].map(|state| Dense::new(body, boundary, state, step));
+            let w = [0, 1].map(|state: usize| body.compliance_to(&dense[state].shapes));
             return Operator {
                 d: [Vec::new(), Vec::new()],
-                w: [0, 1].map(|state: usize| body.compliance_to(&dense[state].shapes)),
+                linked: Operator::linked(body, &w),
+                w,
                 dense: Some(dense),
             };
         }
@@ -59,7 +64,17 @@ impl Operator {
                 .collect::<Vec<Group>>()
         });
         let w = [0, 1].map(|state: usize| body.compliance(&d[state]));
-        Operator { d, w, dense: None }
+        Operator {
+            d,
+            linked: Operator::linked(body, &w),
+            w,
+            dense: None,
+        }
+    }
+
+    fn linked(body: &ReducedBody, w: &[Vec<Group>; 2]) -> [Panels; 2] {
+        let (columns, stride) = (body.columns(), body.stride());
+        [0, 1].map(|state: usize| Panels::new(&w[state][columns * stride..], stride, columns.div_ceil(LANES)))
     }
 }
 
@@ -78,6 +93,8 @@ impl Dense {
         let inverse = inverse(a, size);
         let d: Vec<Group> = inverse.as_chunks::<LANES>().0.to_vec();
         let shapes = body.shapes_times(&d);
+        // Not the modes that fill up the last groups.
+        let d = Panels::new(&d[..body.modes * groups], groups, body.modes.div_ceil(LANES));
         Dense { d, shapes }
     }
 }
@@ -286,11 +303,13 @@ impl<'a> ModalStepper<'a> {
                 }
             }
             self.mean.fill([0.0; LANES]);
-            // Not the modes that fill up the last groups.
-            let (momentum, used) = (self.v_free.as_flattened(), body.modes.div_ceil(LANES));
-            let (d, mean) = (&dense[now.damping].d, &mut self.mean[..used]);
-            combine_first::<W>(d, body.groups(), &momentum[..body.modes], mean);
-            let sums = &mut self.sums;
+            let used = body.modes.div_ceil(LANES);
+            let momentum = self.v_free.as_flattened();
+            dense[now.damping]
+                .d
+                .combine::<W>(momentum, &mut self.mean[..used]);
+            // Copies, as in `finish`.
+            let (mut sums, back) = (self.sums, 1.0 / theta);
             for group in 0..body.groups() {
                 let (w, load, c) = (
                     body.omega_squared[group],
@@ -299,10 +318,10 @@ impl<'a> ModalStepper<'a> {
                 );
                 let gamma = [body.participation[0][group], body.participation[1][group]];
                 let (mean, g) = (self.mean[group], self.v_free[group]);
-                let (q, v) = (&mut self.q[group], &mut self.v[group]);
+                let (mut q, mut v) = (self.q[group], self.v[group]);
                 for l in 0..LANES {
                     let way = dt * mean[l];
-                    let v_new = (mean[l] - late * v[l]) / theta;
+                    let v_new = (mean[l] - late * v[l]) * back;
                     let work =
                         (load[l] * dt - gamma[0][l] * now.ground[0] - gamma[1][l] * now.ground[1]) * mean[l];
                     let damped = c[l] * mean[l] * way;
@@ -311,24 +330,27 @@ impl<'a> ModalStepper<'a> {
                     sums.input[l] += work;
                     sums.turnover[l] += work.abs();
                     sums.damping[l] += damped;
-                    sums.boundary[l] += mean[l] * (g[l] - elastic) / theta - damped;
+                    sums.boundary[l] += mean[l] * (g[l] - elastic) * back - damped;
                     sums.numerical[l] += (theta - 0.5) * (dv * dv + w[l] * way * way);
                     q[l] += way;
                     v[l] = v_new;
                 }
+                (self.q[group], self.v[group]) = (q, v);
             }
+            self.sums = sums;
         }
         for group in 0..body.groups() {
             let (w, load) = (body.omega_squared[group], self.left[group]);
             let gamma = [body.participation[0][group], body.participation[1][group]];
             let (q, v) = (self.q[group], self.v[group]);
-            let g = &mut self.v_free[group];
+            let mut g = [0.0; LANES];
             for l in 0..LANES {
                 let drive = (load[l] - w[l] * q[l]) * dt
                     - gamma[0][l] * next.ground[0]
                     - gamma[1][l] * next.ground[1];
                 g[l] = fma::<W>(theta, drive, v[l]);
             }
+            self.v_free[group] = g;
         }
         self.lanes.fill([0.0; LANES]);
         let bundles = dense[next.damping].shapes.chunks_exact(BUNDLE * width);
@@ -467,10 +489,8 @@ impl<'a> ModalStepper<'a> {
     /// Add to the velocities of the crack nodes without contact what impulses of the links change in them.
     #[inline(always)]
     pub(super) fn pull_free<W: Lanes>(&mut self, damping: usize, pull: &[f64]) {
-        let (columns, stride) = (self.body.columns(), self.body.stride());
-        let rows = &self.operator.w[damping][columns * stride..];
-        let groups = columns.div_ceil(LANES);
-        combine_first::<W>(rows, stride, &pull[..self.body.links()], &mut self.free[..groups]);
+        let groups = self.body.columns().div_ceil(LANES);
+        self.operator.linked[damping].combine::<W>(pull, &mut self.free[..groups]);
     }
 
     /// Find how crack and dashpots answer to `impulse`.

@@ -22,8 +22,9 @@
 //! which is a dashpot (see [`super::dampers`]) with a memory.
 
 use super::ledger::Ledger;
+use super::panels::Panels;
 use super::scheme::TimeStep;
-use super::simd::{combine, dot, in_groups, Group, Lanes, LANES};
+use super::simd::{dot, in_groups, Group, Lanes, LANES};
 
 /// A reservoir in its modes; `m` of them.
 pub struct Reservoir {
@@ -73,8 +74,8 @@ pub(super) struct Water<'a> {
     /// What the ground does to the modes in this step.
     drive: Vec<f64>,
     mean: Vec<f64>,
-    /// What leaves, in groups, and room for a sum over it.
-    leaving: [Vec<Group>; 2],
+    /// What leaves, and room for a sum over it.
+    leaving: [Panels; 2],
     room: Vec<Group>,
     /// Energies: put in by the ground, left through the floor and the far end, taken by the scheme, all that went in.
     input: f64,
@@ -85,7 +86,7 @@ pub(super) struct Water<'a> {
 
 impl<'a> Water<'a> {
     pub(super) fn new(of: &'a Reservoir, step: TimeStep) -> Self {
-        let zeros = vec![0.0; of.modes()];
+        let (zeros, groups) = (vec![0.0; of.modes()], of.modes().div_ceil(LANES));
         Water {
             of,
             step,
@@ -94,8 +95,11 @@ impl<'a> Water<'a> {
             ground: [0.0; 2],
             drive: zeros.clone(),
             mean: zeros,
-            leaving: of.leaving.each_ref().map(|matrix| in_groups(matrix, of.modes())),
-            room: vec![[0.0; LANES]; of.modes().div_ceil(LANES)],
+            leaving: of
+                .leaving
+                .each_ref()
+                .map(|matrix| Panels::new(&in_groups(matrix, of.modes()), groups, groups)),
+            room: vec![[0.0; LANES]; groups],
             input: 0.0,
             left: [0.0; 2],
             numerical: 0.0,
@@ -154,7 +158,7 @@ impl<'a> Water<'a> {
         }
         for (left, matrix) in self.left.iter_mut().zip(&self.leaving) {
             self.room.fill([0.0; LANES]);
-            combine::<W>(matrix, &self.mean, &mut self.room);
+            matrix.combine::<W>(&self.mean, &mut self.room);
             *left += dt * dot(&self.mean, &self.room.as_flattened()[..self.mean.len()]);
         }
         for (ground, change) in self.ground.iter_mut().zip(change) {
