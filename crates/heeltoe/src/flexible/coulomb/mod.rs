@@ -24,6 +24,7 @@ pub(super) use self::problem::{ContactOperator, Known, Problem};
 use self::factors::Kept;
 use self::inverse::Inverse;
 use self::linear::{settle, Linear};
+use self::sweep::Sweeps;
 use super::simd::Lanes;
 use super::status::Status;
 
@@ -132,17 +133,33 @@ impl Solver {
     ) -> Report {
         let mut report = Report::default();
         let mut found = false;
-        for (worst_only, slips, most) in CHANGES {
-            if !found && (self.thorough || !slips) {
-                found = self.search::<W>(problem, crack, (worst_only, slips), most, &mut report);
+        let thorough = self.thorough;
+        let mut changes = CHANGES.iter().filter(|(_, slips, _)| thorough || !slips);
+        let mut sweeps = Sweeps::default();
+        let (mut p, mut status) = (Vec::new(), Vec::new());
+        while !found {
+            let (worst_only, slips, most) = match changes.next() {
+                Some(change) => *change,
+                None => {
+                    if !report.swept {
+                        self.solved.clear();
+                        let status = &self.status;
+                        crack.fill(problem, |contact| status[contact] != Status::Absent);
+                        report.swept = true;
+                    }
+                    if self.sweep(problem, &mut sweeps) {
+                        break;
+                    }
+                    p.clone_from(&self.p);
+                    status.clone_from(&self.status);
+                    (false, false, 1)
+                }
+            };
+            found = self.search::<W>(problem, crack, (worst_only, slips), most, &mut report);
+            if report.swept && !found {
+                self.p.clone_from(&p);
+                self.status.clone_from(&status);
             }
-        }
-        if !found {
-            self.solved.clear();
-            let status = &self.status;
-            crack.fill(problem, |contact| status[contact] != Status::Absent);
-            self.sweep(problem);
-            report.swept = true;
         }
         if self.clip() || !found {
             crack.velocities::<W>(problem, &self.p, &mut self.u);

@@ -1,6 +1,8 @@
 //! The contact problem by sweeps over the contacts (Gauss and Seidel): slow but safe.
 //!
-//! Each contact is solved with the others held, `u = G_ii p_i + (u - G_ii p_i)_held`, until nothing changes.
+//! Each contact is solved with the others held, `u = G_ii p_i + (u - G_ii p_i)_held`, until nothing changes. Of many contacts
+//! the states settle long before the impulses do: once they have not changed for a while, the impulses that belong to them
+//! are for the solver to find, and to look at.
 
 use super::super::simd::Plain;
 use super::super::status::Status;
@@ -8,11 +10,32 @@ use super::{ContactOperator, Known, Problem, Solver};
 
 /// Most sweeps.
 const SWEEPS: u32 = 5000;
+/// Sweeps in turn with the same states after which they are looked at for the first time; each look in vain doubles them.
+const SETTLED: u32 = 16;
+
+/// How far the sweeps of a step have come.
+pub(super) struct Sweeps {
+    count: u32,
+    /// In turn with the same states, and after how many of these to look.
+    same: u32,
+    look: u32,
+}
+
+impl Default for Sweeps {
+    fn default() -> Self {
+        Sweeps {
+            count: 0,
+            same: 0,
+            look: SETTLED,
+        }
+    }
+}
 
 impl Solver {
-    /// Sweep until nothing changes.
-    #[inline(always)]
-    pub(super) fn sweep(&mut self, problem: &Problem) {
+    /// Sweep until nothing changes or there have been enough, or, which is false, until the states have settled.
+    // In line it would be compiled a dozen times over.
+    #[inline(never)]
+    pub(super) fn sweep(&mut self, problem: &Problem, sweeps: &mut Sweeps) -> bool {
         let (m, size) = (self.status.len(), problem.b.len());
         for contact in 0..m {
             let p_n = self.p[m + contact].max(0.0);
@@ -25,7 +48,9 @@ impl Solver {
                 0.0
             };
         }
-        for _ in 0..SWEEPS {
+        while sweeps.count < SWEEPS {
+            sweeps.count += 1;
+            let mut same = true;
             Known.velocities::<Plain>(problem, &self.p, &mut self.u);
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
             for contact in 0..m {
@@ -46,6 +71,7 @@ impl Solver {
                         .map(|along| [false, true].map(|slips| problem.added(contact, slips, along))),
                 };
                 let (status, new_t, new_n) = local.solve();
+                same &= self.status[contact] == status;
                 self.status[contact] = status;
                 let (dt, dn) = (new_t - p_t, new_n - p_n);
                 change = change.max(dt.abs()).max(dn.abs());
@@ -57,9 +83,15 @@ impl Solver {
                 }
             }
             if change <= 1e-13 * largest {
-                break;
+                return true;
+            }
+            sweeps.same = if same { sweeps.same + 1 } else { 0 };
+            if sweeps.same == sweeps.look {
+                (sweeps.same, sweeps.look) = (0, 2 * sweeps.look);
+                return false;
             }
         }
+        true
     }
 }
 
