@@ -24,7 +24,6 @@ pub(super) use self::problem::{ContactOperator, Known, Problem};
 use self::factors::Kept;
 use self::inverse::Inverse;
 use self::linear::{settle, Linear};
-use self::sweep::Sweeps;
 use super::simd::Lanes;
 use super::status::Status;
 
@@ -66,6 +65,27 @@ const SLACK: f64 = 1e-11;
 const ROUNDED: f64 = 1e-11;
 /// From so many contacts on an inverse that goes from set to set costs less than factors.
 pub(super) const MANY: usize = 40;
+
+/// Sweeps in turn with the same states after which they are looked at for the first time; each look in vain doubles them.
+const SETTLED: u32 = 16;
+
+/// How far the sweeps of a step have come.
+struct Sweeps {
+    count: u32,
+    /// In turn with the same states, and after how many of these to look.
+    same: u32,
+    look: u32,
+}
+
+impl Default for Sweeps {
+    fn default() -> Self {
+        Sweeps {
+            count: 0,
+            same: 0,
+            look: SETTLED,
+        }
+    }
+}
 
 /// State of the contacts and the factors that belong to it.
 #[derive(Default)]

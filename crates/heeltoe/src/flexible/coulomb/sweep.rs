@@ -6,30 +6,10 @@
 
 use super::super::simd::Plain;
 use super::super::status::Status;
-use super::{ContactOperator, Known, Problem, Solver};
+use super::{ContactOperator, Known, Problem, Solver, Sweeps};
 
 /// Most sweeps.
 const SWEEPS: u32 = 5000;
-/// Sweeps in turn with the same states after which they are looked at for the first time; each look in vain doubles them.
-const SETTLED: u32 = 16;
-
-/// How far the sweeps of a step have come.
-pub(super) struct Sweeps {
-    count: u32,
-    /// In turn with the same states, and after how many of these to look.
-    same: u32,
-    look: u32,
-}
-
-impl Default for Sweeps {
-    fn default() -> Self {
-        Sweeps {
-            count: 0,
-            same: 0,
-            look: SETTLED,
-        }
-    }
-}
 
 impl Solver {
     /// Sweep until nothing changes or there have been enough, or, which is false, until the states have settled.
