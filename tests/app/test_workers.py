@@ -94,6 +94,34 @@ def test_what_reads_too_long_is_ended_and_the_next_is_read():
     assert asyncio.run(read()) == 3
 
 
+# Computes for a minute and loses the first exception, as a library may.
+SWALLOWING = """
+import time
+end = time.monotonic() + 60.0
+try:
+    while time.monotonic() < end: time.sleep(0.01)
+except Exception:
+    pass
+while time.monotonic() < end: time.sleep(0.01)
+"""
+
+
+def test_work_stops_though_a_library_loses_the_exception():
+    workers = Workers()
+
+    async def cancel():
+        first = await workers.until_cancelled(os.getpid)
+        running = asyncio.ensure_future(workers.until_cancelled(exec, SWALLOWING, {}))
+        await asyncio.sleep(0.5)
+        running.cancel()
+        assert await workers.until_cancelled(os.getpid) == first
+
+    try:
+        asyncio.run(asyncio.wait_for(cancel(), 30.0))
+    finally:
+        workers.close()
+
+
 def test_what_nobody_waits_for_stops_and_its_process_stays():
     case = example("typical-base", "flexible.elements_across=24", "flexible.time_step=0.01ms").without_evidence()
     workers = Workers()

@@ -13,6 +13,9 @@ from multiprocessing.connection import Connection
 from threading import Lock, Thread
 from typing import Any
 
+# Time between two interrupts of the same work [s].
+_AGAIN = 1.0
+
 
 class StoppedError(Exception):
     """Nobody waits for this computation any more."""
@@ -39,10 +42,11 @@ def listen(numbers: Connection) -> None:
 def _hear(numbers: Connection) -> None:
     with suppress(EOFError, OSError):
         while True:
-            number = numbers.recv()
+            # What is raised amid a library may get lost there: it is raised again until the work has stopped.
+            if numbers.poll(_AGAIN if _STATE.unwanted else None):
+                _STATE.unwanted.add(numbers.recv())
             with _STATE.lock:
-                _STATE.unwanted.add(number)
-                if number == _STATE.running:
+                if _STATE.running in _STATE.unwanted:
                     _thread.interrupt_main()
 
 
