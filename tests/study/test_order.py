@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from heeltoe.study.plan import rank_correlation
 from heeltoe.study.plan.rank_correlation import quantiles
 
 SHARES = (0.0, 0.05, 0.16, 0.5, 0.84, 0.95, 1.0)
@@ -26,9 +27,11 @@ def numbers(kind, random):
 KINDS = ("normal", "of all sizes", "mostly zero", "zeros of either sign", "few", "close", "smallest")
 
 
+@pytest.mark.parametrize("held", [0, 1000, 1 << 22])
 @pytest.mark.parametrize("between", [True, False])
 @pytest.mark.parametrize("kind", KINDS)
-def test_they_are_those_of_numpy(kind, between):
+def test_they_are_those_of_numpy(kind, between, held, monkeypatch):
+    monkeypatch.setattr(rank_correlation, "_HELD", held)
     random = np.random.default_rng(1)
     values, group = numbers(kind, random), random.integers(0, 4, 5000)
     group[group == 2] = 3

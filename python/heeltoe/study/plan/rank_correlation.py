@@ -1,20 +1,23 @@
 """Exact quantiles of numbers that are walked through again and again, never held: memory does not grow with them.
 
 A number is found from its first bits to its last: each walk counts how many begin with the bits that are known, and by
-the next of them.
+the next of them. Once few enough numbers begin so, the last walk holds these.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
 
-#: Bits that each walk finds.
-_BITS = 13
+#: Bits that each walk finds, and the first one where there are few groups.
+_BITS, _FIRST, _FEW = 13, 17, 32
+#: Numbers that are held together at most.
+_HELD = 1 << 22
 _SIGN = np.uint64(1) << np.uint64(63)
 
 #: Walks through groups from zero, and the number of each.
@@ -43,7 +46,7 @@ def quantiles(walk: Walk, groups: int, shares: Sequence[float], *, between: bool
     ndarray, shape (groups, shares)
         Not a number for a group without numbers.
     """
-    table = _first(walk, groups)
+    table, zeros = _first(walk, groups, _FIRST if groups <= _FEW else _BITS)
     size = table.sum(axis=1)
     filled, results = np.flatnonzero(size), np.full((groups, len(shares)), np.nan)
     if not filled.size:
@@ -57,7 +60,13 @@ def quantiles(walk: Walk, groups: int, shares: Sequence[float], *, between: bool
         at = np.asarray(shares) * size[filled][:, None] - 1.0
         below = above = np.clip(np.ceil(at), 0, None).astype(np.int64)
     ranks = np.stack([below, above])
-    values = _values_at(walk, table, np.broadcast_to(filled[None, :, None], ranks.shape).ravel(), ranks.ravel())
+    group, rank = np.broadcast_to(filled[None, :, None], ranks.shape).ravel(), ranks.ravel()
+    # Most numbers may be zero: of those that begin like it, it is the least.
+    before = table[:, : table.shape[1] // 2].sum(axis=1)
+    other = (rank < before[group]) | (rank >= (before + zeros)[group])
+    values = np.zeros(rank.size)
+    if other.any():
+        values[other] = _values_at(walk, table, group[other], rank[other])
     low, high = values.reshape(ranks.shape)
     results[filled] = _line(low, high, at - below) if between else low
     return results
@@ -78,44 +87,77 @@ def _values(keys: Keys) -> Floats:
     return np.where(keys & _SIGN, keys ^ _SIGN, ~keys).view(np.float64)
 
 
-def _first(walk: Walk, groups: int) -> Integers:
-    counts = np.zeros(groups << _BITS, dtype=np.int64)
+def _first(walk: Walk, groups: int, bits: int) -> tuple[Integers, Integers]:
+    """Count the numbers of each group by so many first bits, and those that are zero."""
+    counts, zeros = np.zeros(groups << bits, dtype=np.int64), np.zeros(groups, dtype=np.int64)
     for group, values in walk():
-        first = (_keys(values) >> np.uint64(64 - _BITS)).astype(np.int64)
-        counts += np.bincount((group << _BITS) | first, minlength=counts.size)
-    return counts.reshape(groups, -1)
+        if not group.size:
+            continue
+        least, most = int(group.min()), int(group.max()) + 1
+        first = (_keys(values) >> np.uint64(64 - bits)).astype(np.int64)
+        cells = slice(least << bits, most << bits)
+        counts[cells] += np.bincount(((group - least) << bits) | first, minlength=(most - least) << bits)
+        zeros += np.bincount(group[values == 0.0], minlength=groups)
+    return counts.reshape(groups, -1), zeros
 
 
 def _values_at(walk: Walk, table: Integers, group: Integers, rank: Integers) -> Floats:
     """Return the numbers of these ranks, from zero, in these groups; `table` counts their first bits."""
-    row, prefix, shift, bits = group, np.zeros(rank.size, dtype=np.uint64), 64 - _BITS, _BITS
+    bits = table.shape[1].bit_length() - 1
+    row, prefix, shift = group, np.zeros(rank.size, dtype=np.uint64), 64 - bits
     while True:
-        upto = np.cumsum(table, axis=1)[row]
-        digit = (upto <= rank[:, None]).sum(axis=1)
-        before = np.take_along_axis(upto, np.maximum(digit - 1, 0)[:, None], axis=1)[:, 0]
-        rank = rank - np.where(digit > 0, before, 0)
+        upto = np.cumsum(table, axis=1)
+        digit = np.array([np.searchsorted(upto[k], below, side="right") for k, below in zip(row, rank, strict=True)])
+        rank = rank - np.where(digit > 0, upto[row, np.maximum(digit - 1, 0)], 0)
         prefix = (prefix << np.uint64(bits)) | digit.astype(np.uint64)
         if not shift:
             return _values(prefix)
-        bits = min(_BITS, shift)
         # Several ranks of a group, and several groups, may begin alike: each pair is counted once.
         starts, start = np.unique(prefix, return_inverse=True)
-        pairs, row = np.unique(group * starts.size + start, return_inverse=True)
-        table = _next(walk, starts, pairs, shift, bits)
+        pairs, one, pair = np.unique(group * starts.size + start, return_index=True, return_inverse=True)
+        begun = _Begun(walk, starts, pairs, shift)
+        if table[row[one], digit[one]].sum() <= _HELD:
+            return _values(begun.ranked(pair, rank))
+        row, bits = pair, min(_BITS, shift)
+        table = begun.counted(bits)
         shift -= bits
 
 
-def _next(walk: Walk, starts: Keys, pairs: Integers, shift: int, bits: int) -> Integers:
-    """Count the next bits of the numbers that begin with one of some prefixes, in one of some groups."""
-    counts = np.zeros(pairs.size << bits, dtype=np.int64)
-    for group, values in walk():
-        keys = _keys(values)
-        begun = keys >> np.uint64(shift)
-        start = np.minimum(np.searchsorted(starts, begun), starts.size - 1)
-        alike = np.flatnonzero(starts[start] == begun)
-        pair = group[alike] * starts.size + start[alike]
-        place = np.minimum(np.searchsorted(pairs, pair), pairs.size - 1)
-        chosen = pairs[place] == pair
-        following = (keys[alike[chosen]] >> np.uint64(shift - bits)) & np.uint64((1 << bits) - 1)
-        counts += np.bincount((place[chosen] << bits) | following.astype(np.int64), minlength=counts.size)
-    return counts.reshape(pairs.size, -1)
+@dataclass(frozen=True)
+class _Begun:
+    """The numbers that begin, but for `shift` last bits, with one of some prefixes `starts`, in one of some groups; the
+    `pairs` of both are counted group by group."""
+
+    walk: Walk
+    starts: Keys
+    pairs: Integers
+    shift: int
+
+    def __iter__(self) -> Iterator[tuple[Integers, Keys]]:
+        """Walk through the places of their pairs and the numbers."""
+        for group, values in self.walk():
+            keys = _keys(values)
+            begun = keys >> np.uint64(self.shift)
+            start = np.minimum(np.searchsorted(self.starts, begun), self.starts.size - 1)
+            alike = np.flatnonzero(self.starts[start] == begun)
+            pair = group[alike] * self.starts.size + start[alike]
+            place = np.minimum(np.searchsorted(self.pairs, pair), self.pairs.size - 1)
+            chosen = self.pairs[place] == pair
+            yield place[chosen], keys[alike[chosen]]
+
+    def counted(self, bits: int) -> Integers:
+        """Count them by the next bits."""
+        counts = np.zeros(self.pairs.size << bits, dtype=np.int64)
+        for place, keys in self:
+            following = (keys >> np.uint64(self.shift - bits)) & np.uint64((1 << bits) - 1)
+            counts += np.bincount((place << bits) | following.astype(np.int64), minlength=counts.size)
+        return counts.reshape(self.pairs.size, -1)
+
+    def ranked(self, pair: Integers, rank: Integers) -> Keys:
+        """Return those of some ranks among their pairs."""
+        places, keys = (np.concatenate(parts) for parts in zip(*self, strict=True))
+        ends = np.cumsum(np.bincount(places, minlength=self.pairs.size))
+        keys = keys[np.argsort(places, kind="stable")]
+        for place, part in enumerate(np.split(keys, ends[:-1])):
+            part.partition(np.unique(rank[pair == place]))
+        return np.asarray(keys[ends[pair] - np.bincount(places, minlength=self.pairs.size)[pair] + rank])

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -20,8 +20,8 @@ from heeltoe.study.plan.crack_columns import column_of
 from heeltoe.study.run.store import Store
 from heeltoe.units.parse import parse
 
-#: Runs that are looked at together; of so many times as many all are kept once they have been read.
-_TOGETHER, _KEPT = 65_536, 4
+#: Runs that are looked at together; bytes of columns that are kept once they have been read.
+_TOGETHER, _KEPT = 65_536, 1 << 27
 
 
 @dataclass(frozen=True)
@@ -38,19 +38,25 @@ class Walk:
 
     store: Store
     manifest: Mapping[str, Any]
+    _kept: dict[tuple[tuple[int, ...], str], pa.ChunkedArray] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
     def __call__(self, *columns: str) -> Iterator[Stretch]:
         """Walk through the runs that are there, in their order."""
-        if self.store.count <= _KEPT * _TOGETHER:
-            for table in self._small:
-                yield Stretch(table.select(list(columns)), self.manifest)
-            return
         for parts in self._stretches():
-            yield Stretch(_read(self.store, parts, list(columns)), self.manifest)
+            yield Stretch(self._read(parts, columns), self.manifest)
 
-    @cached_property
-    def _small(self) -> list[pa.Table]:
-        return [_read(self.store, parts, None) for parts in self._stretches()]
+    def _read(self, parts: list[int], columns: Sequence[str]) -> pa.Table:
+        place = tuple(parts)
+        known = {name: self._kept[place, name] for name in columns if (place, name) in self._kept}
+        missing = [name for name in columns if name not in known]
+        if missing:
+            fresh = _read(self.store, parts, missing)
+            known |= dict(zip(missing, fresh.columns, strict=True))
+            if sum(column.nbytes for column in self._kept.values()) + fresh.nbytes <= _KEPT:
+                self._kept.update({(place, name): known[name] for name in missing})
+        return pa.table({name: known[name] for name in columns})
 
     def _stretches(self) -> Iterator[list[int]]:
         """Walk through numbers of parts that are there, some together."""
@@ -217,6 +223,6 @@ class Stretch:
         return np.array([known.get(word, 0) for word in words], dtype=np.int64)[code]
 
 
-def _read(store: Store, parts: list[int], columns: list[str] | None) -> pa.Table:
+def _read(store: Store, parts: list[int], columns: list[str]) -> pa.Table:
     tables = [pq.ParquetFile(store.path(part)).read(columns, use_threads=False) for part in parts]
     return pa.concat_tables(tables).unify_dictionaries().combine_chunks()
