@@ -87,7 +87,7 @@ def test_a_telephone_shows_what_is_dragged_and_what_it_does(page):
         plot, knob = page.locator("#page-answer .plot").first.bounding_box(), slider.bounding_box()
         assert -1 <= plot["y"] < plot["y"] + plot["height"] <= knob["y"] < 760
     # Nothing that is read below lies behind the plot.
-    for part in (".moving svg", ".card[data-details=rigid] [aria-label=Results]"):
+    for part in (".moving canvas", ".card[data-details=rigid] [aria-label=Results]"):
         page.locator(part).evaluate("each => each.scrollIntoView({ block: 'start' })")
         assert page.locator(part).evaluate(
             """each => {

@@ -10,69 +10,104 @@ from shared.dams import FAST, example
 pytest.importorskip("playwright")
 
 SLIP = ".card[data-details=rigid] tr[data-key=residual_slip_m] td"
-UPPER = ".moving .dam-upper"
+DAM = ".moving canvas"
+TIME = ".moving input[type=range]"
+NOW = ".moving .player-now"
 
 
 @pytest.fixture
 def answer(page):
     page.wait_for_selector(SLIP)
     page.wait_for_selector(".plot .main-svg")
-    page.wait_for_selector(UPPER, state="attached")
+    page.wait_for_selector(DAM)
     return page
 
 
-def place(page):
-    return page.get_attribute(UPPER, "d")
+def drawn(page):
+    """Return the picture of the dam once it is drawn as the controls stand."""
+    page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    return page.evaluate("(dam) => document.querySelector(dam).toDataURL()", DAM)
 
 
 def moment(page):
-    return float(page.input_value(".moving input[type=range]"))
+    return float(page.input_value(TIME))
+
+
+def choose(page, label, value):
+    page.select_option(f".moving label:has-text('{label}') select", value)
 
 
 def test_the_dam_follows_its_slider_and_the_sliders_of_the_case(answer, picture):
-    at_end = place(answer)
-    assert at_end != answer.get_attribute(".moving .dam-still", "d")
-    answer.focus(".moving input[type=range]")
+    # The block alone, which nothing replaces.
+    answer.wait_for_selector(".card[data-model=flexible] .headline")
+    choose(answer, "Shown", "rigid")
+    at_end = drawn(answer)
+    answer.focus(TIME)
     answer.keyboard.press("Home")
-    answer.wait_for_function(
-        "(was) => document.querySelector('.moving .dam-upper').getAttribute('d') !== was", arg=at_end
-    )
-    assert place(answer) == answer.get_attribute(".moving .dam-still", "d")
-    assert "0.00 s: rest" in answer.inner_text("#dam-says")
+    answer.wait_for_function("(now) => document.querySelector(now).innerText.startsWith('0.00 s')", arg=NOW)
+    at_start = drawn(answer)
+    assert at_start != at_end
+    assert "rest" in answer.inner_text(NOW)
     assert answer.evaluate("parseFloat(document.querySelector('.plot .cursor').style.left)") > 0
+    # What has not moved is where it is, however far displacements are drawn.
+    choose(answer, "Displacements drawn", "100")
+    assert drawn(answer) == at_start
+    assert "× 100" in answer.inner_text(NOW)
+    answer.keyboard.press("Tab")
+    answer.uncheck(".moving label:has-text('Forces') input")
+    assert drawn(answer) != at_start
+    answer.focus(TIME)
+    answer.keyboard.press("Shift+ArrowRight")
+    drawn(answer)
+    assert moment(answer) == pytest.approx(1.0)
     answer.keyboard.press("End")
-    answer.select_option(".moving select[data-label='Displacements drawn']", "100")
-    assert "× 100" in answer.inner_text("#dam-says")
-    before = place(answer)
+    before = drawn(answer)
     answer.fill("[aria-label='Friction coefficient, exactly']", "1.3")
-    answer.wait_for_function(
-        "(was) => document.querySelector('.moving .dam-upper').getAttribute('d') !== was", arg=before
-    )
+    answer.wait_for_function("([dam, was]) => document.querySelector(dam).toDataURL() !== was", arg=[DAM, before])
     picture(answer, "answer-moving")
 
 
+def test_the_elastic_dam_moves_by_its_own_modes(answer):
+    answer.wait_for_selector(".card[data-model=flexible] .headline")
+    choose(answer, "Shown", "flexible")
+    with_lines = drawn(answer)
+    assert "relative to the ground" in answer.inner_text(NOW)
+    answer.uncheck(".moving label:has-text('Elements') input")
+    assert drawn(answer) != with_lines
+    # A rigid block has no elements.
+    choose(answer, "Shown", "rigid")
+    drawn(answer)
+    assert answer.is_hidden(".moving label:has-text('Elements')")
+
+
 def test_plays_and_pauses(answer):
-    answer.select_option(".moving select[data-label=Speed]", "5")
+    choose(answer, "Speed", "5")
     answer.click(".moving >> text=Play")
     answer.wait_for_function(
-        "() => { const t = Number(document.querySelector('.moving input[type=range]').value); return t > 1 && t < 29; }"
+        "(time) => { const t = Number(document.querySelector(time).value); return t > 1 && t < 29; }", arg=TIME
     )
     answer.click(".moving >> text=Pause")
     then = moment(answer)
     answer.evaluate("() => new Promise((done) => setTimeout(done, 300))")
     assert moment(answer) == then
+    # Space does the same as the button.
+    answer.focus(TIME)
+    answer.keyboard.press("Space")
+    answer.wait_for_selector(".moving >> text=Pause")
+    answer.keyboard.press("Space")
+    answer.wait_for_selector(".moving >> text=Play")
 
 
 def test_who_wants_less_motion_sees_a_picture_now_and_then(answer):
     answer.emulate_media(reduced_motion="reduce")
-    answer.select_option(".moving select[data-label=Speed]", "0.1")
+    choose(answer, "Speed", "0.1")
     gaps = answer.evaluate(
         """() => new Promise((done) => {
             const times = [];
             const seen = new MutationObserver(() => times.push(performance.now()) > 3 && done(times));
-            seen.observe(document.querySelector("#dam-says"), { childList: true });
+            seen.observe(document.querySelector(".moving .player-now strong"), { childList: true });
             document.querySelector(".moving button").click();
-        }).then((times) => times.slice(1).map((each, place) => each - times[place]))"""
+        }).then((times) => times.slice(1).map((time, place) => time - times[place]))"""
     )
     assert min(gaps[1:]) > 400, gaps
     answer.click(".moving >> text=Pause")

@@ -135,8 +135,8 @@ def test_each_of_several_cracks_answers(case, picture):
     assert [all_inner_text.split("\t")[0] for all_inner_text in rows.all_inner_texts()] == ["90 m (leads)", "0 m"]
     # Both models say it, the page once.
     case.wait_for_selector("text=/^Dotted: crack at/")
-    # Each part is drawn as an outline of its own.
-    case.wait_for_function("() => document.querySelector('.dam-upper').getAttribute('d').split('Z').length === 3")
+    # Each part moves by itself.
+    case.wait_for_selector(".moving canvas[aria-label*='2 moving parts']")
     case.wait_for_selector("#page-answer .plot .main-svg")
     picture(case, "answer-cracks")
 

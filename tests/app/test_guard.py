@@ -65,14 +65,21 @@ def test_a_conversation_says_where_it_comes_from(ask):
 
 
 def test_every_answer_says_what_a_browser_may_do_with_it(ask):
-    for path in ("/", "/page/main.js", "/plotly.js", "/scene.js", "/nothing"):
+    for path in ("/", "/page/main.js", "/plotly.js", "/player/player.js", "/nothing"):
         policy = ask.get(path).headers["content-security-policy"]
         assert "script-src 'self';" in policy
         assert "default-src 'self'" in policy
 
 
 @pytest.mark.parametrize(
-    "path", ["/page/../server.py", "/page/%2e%2e/server.py", "/page/..%2fserver.py", "/page//etc/passwd"]
+    "path",
+    [
+        "/page/../server.py",
+        "/page/%2e%2e/server.py",
+        "/page/..%2fserver.py",
+        "/page//etc/passwd",
+        "/player/..%2fwrite.py",
+    ],
 )
 def test_nothing_else_is_read(ask, path):
     assert ask.get(path).status_code == 404

@@ -27,7 +27,7 @@ from shared.command import command
 from shared.dams import BLOCK, SHORT, example
 from shared.scenes import page_scene, unpacked
 
-PACKAGE = Path(heeltoe.__file__).parent / "views" / "animation"
+PLAYER = Path(heeltoe.__file__).parent / "views" / "animation" / "player"
 TITLE = '堰堤 </script><b>$x^2$ & "é" %%SCENE%%'
 BOTH = pytest.mark.parametrize("pair", ["rigid", "flexible"], indirect=True)
 
@@ -122,10 +122,11 @@ def test_the_page_draws_where_the_scene_says(elastic, tmp_path):
     case, response = elastic
     path = animate(case, response, tmp_path / "dam.html")
     (tmp_path / "scene.json").write_text(json.dumps(page_scene(path)), encoding="utf-8")
-    for script in ("scene.js", "player.js"):
+    for script in PLAYER.glob("*.js"):
         # As the modules that they are.
-        shutil.copy(PACKAGE / script, (tmp_path / script).with_suffix(".mjs"))
-        subprocess.run(["node", "--check", (tmp_path / script).with_suffix(".mjs")], check=True, timeout=60)
+        copy = tmp_path / script.with_suffix(".mjs").name
+        shutil.copy(script, copy)
+        subprocess.run(["node", "--check", copy], check=True, timeout=60)
     program = """
       import { readFileSync } from "node:fs";
       const model = await import(process.argv[1]);

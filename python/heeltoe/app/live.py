@@ -36,7 +36,7 @@ def answer(case: Case, changes: Mapping[str, Any], model: str, units: str) -> di
         if error.code != UNSUPPORTED:
             return refused(error)
         return {"absent": f"{error.problem[:1].upper()}{error.problem[1:]}; see the elastic dam."}
-    return drawn(response, units) | {"dam": dam(changed, response), "computed_s": perf_counter() - began}
+    return drawn(response, units) | {"dam": dam(changed, response, units), "computed_s": perf_counter() - began}
 
 
 def _earthquake(case: Case) -> Earthquake:
@@ -94,4 +94,4 @@ def _elastic(case: Case, response: Response, units: str) -> dict[str, Any]:
         "source": slip_source(response),
         "slips_m": {f"{crack.elevation:g}": crack.residual_slip_m for crack in response.cracks} if known else {},
     }
-    return drawn(response, units) | {"dam": dam(case, response), "left": left}
+    return drawn(response, units) | {"dam": dam(case, response, units), "left": left}

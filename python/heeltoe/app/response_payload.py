@@ -19,7 +19,7 @@ from heeltoe.result.verdict import limited, verdict
 from heeltoe.units.sentences import written
 from heeltoe.units.systems import unit_system
 from heeltoe.units.write import angle, length, measured
-from heeltoe.views.animation.page import packed, part_data
+from heeltoe.views.animation.page import packed
 from heeltoe.views.figures.panels import SLIP_KINDS, pieces
 from heeltoe.views.figures.style import shaken_by
 from heeltoe.views.words.response import CRACK_COLUMNS, SEQUENCE_COLUMNS, crack_rows, law_lines, sequence_rows
@@ -214,29 +214,20 @@ def thinned(rows: Sequence[Floats], bins: int) -> NDArray[np.int64]:
 
 _DAM_BINS = 200
 _COLUMNS = ("slip_m", "rotation_rad", "gap_heel_m", "gap_toe_m")
+# An elastic dam swings between the moments that matter of its cracks: of its run so many are shown.
+_MOST_FRAMES = 1500
 
 
-def dam(case: Case, response: Response) -> dict[str, Any] | None:
-    """Return the moving parts of a dam, from the crest down; None for a response without results.
-
-    The parts of an elastic dam are drawn as rigid blocks, by the motion of their cracks.
-    """
-    from heeltoe.views.animation.bodies import Moments, rigid_parts
-    from heeltoe.views.animation.frames import chosen_exaggeration, water_level
+def dam(case: Case, response: Response, units: str) -> dict[str, Any] | None:
+    """Return what the player of the moving dam draws; None for a response without results."""
+    from heeltoe.views.animation.frames import build_scene
+    from heeltoe.views.animation.page import scene_data
 
     if not response.summary or not response.histories:
         return None
-    cracks = [crack.histories for crack in response.cracks]
-    if len(cracks) != len(case.single_crack_cases):
-        return None
     samples = response.histories["time_s"]
-    times = samples[thinned([history[name] for history in cracks for name in _COLUMNS], _DAM_BINS)]
-    parts = rigid_parts(case, cracks, Moments.of(samples, times))
-    return {
-        "parts": [part_data(part) for part in parts],
-        "base": case.cut.base_elevation,
-        "water": water_level(case.cut, case.reservoir),
-        "tailwater": water_level(case.cut, case.tailwater),
-        "exaggeration": chosen_exaggeration(response, parts, case.cut),
-        "times": packed(times, "float32"),
-    }
+    if response.elastic:
+        times = samples[:: -(-samples.size // _MOST_FRAMES)]
+    else:
+        times = samples[thinned([crack.histories[name] for crack in response.cracks for name in _COLUMNS], _DAM_BINS)]
+    return scene_data(build_scene(case, response, times, None, units))

@@ -28,8 +28,8 @@ from heeltoe.app.transfers import gone, take
 from heeltoe.app.workers import Workers
 
 _PAGE = Path(__file__).parent / "page"
-# What moves the dam, in the files of animations and here.
-_SCENE = Path(__file__).parents[1] / "views" / "animation" / "scene.js"
+# What plays the moving dam, on the pages of animations and here.
+_PLAYER = Path(__file__).parents[1] / "views" / "animation" / "player"
 # The code with which a websocket is closed where there are too many.
 _TRY_LATER = 1013
 
@@ -81,11 +81,11 @@ def application(settings: Settings) -> Starlette:
         routes=[
             Route("/", _index),
             Route("/plotly.js", _plotly),
-            Route("/scene.js", _scene),
             Route("/upload", upload, methods=["POST"]),
             Route("/download/{key}", download),
             WebSocketRoute("/talk", talk),
             Mount("/page", StaticFiles(directory=_PAGE)),
+            Mount("/player", StaticFiles(directory=_PLAYER)),
         ],
         middleware=[Middleware(Guard, settings=settings)],
         lifespan=life,
@@ -122,10 +122,6 @@ def _teller(socket: WebSocket, session: Session) -> Any:
 
 async def _index(request: Request) -> Response:
     return FileResponse(_PAGE / "index.html", headers={"Cache-Control": "no-cache"})
-
-
-async def _scene(request: Request) -> Response:
-    return FileResponse(_SCENE, media_type="text/javascript", headers={"Cache-Control": "no-cache"})
 
 
 async def _plotly(request: Request) -> Response:

@@ -3,7 +3,7 @@ import { colour, element } from "./dom.js";
 import { look, axis } from "./plot/look.js";
 import { loadPlotly } from "./plot/plot.js";
 import { row, table } from "./table.js";
-import { unpacked } from "../scene.js";
+import { unpacked } from "../player/scene.js";
 
 /** Colour and dash of each water. @type {Record<string, [string, string]>} */
 const WATERS = { empty: ["faint", "dot"], incompressible: ["decoupled", "dash"], compressible: ["rigid", "solid"] };

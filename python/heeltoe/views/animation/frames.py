@@ -69,6 +69,8 @@ class Scene:
         (f,) moments [s].
     exaggeration
         How many times as far as they are all displacements are drawn.
+    relative_to
+        To what displacements are relative.
     parts
         The part above the crack and, if there is one, the part below.
     forces
@@ -98,6 +100,7 @@ class Scene:
     subtitle: str
     times: Floats
     exaggeration: float
+    relative_to: str
     parts: tuple[Part, ...]
     forces: Floats
     force_unit: str
@@ -143,6 +146,7 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
         exaggeration = chosen_exaggeration(response, parts, section)
     modes = tuple(dict.fromkeys(response.mode))
     number = {name: place for place, name in enumerate(modes)}
+    moving = [part for part in parts if len(part.shapes)]
     mode = np.array([number[name] for name in response.mode])
     within = (histories["time_s"] >= times[0]) & (histories["time_s"] <= times[-1])
     return Scene(
@@ -150,6 +154,7 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
         subtitle=_subtitle(response),
         times=times,
         exaggeration=exaggeration,
+        relative_to="the part below the crack" if len(moving) == 1 < len(parts) else "the ground",
         parts=parts,
         forces=forces,
         force_unit=scale.unit,
@@ -198,7 +203,7 @@ def _corners(
     friction = share * histories["friction_force_n"][at][:, None]
     forces = _turned(section, friction, normal)
     gaps = np.column_stack([histories[f"gap_{corner}_m"][at] for corner in ("heel", "toe")])
-    doing = np.array([_slips(mode) for mode in modes], dtype=np.int8)[at]
+    doing = np.array([_slips(modes[sample]) for sample in at], dtype=np.int8)
     status = np.where(gaps > 1e-9 * section.crack_width, np.int8(0), doing[:, None])
     return forces, status.astype(np.int8)
 

@@ -1,8 +1,10 @@
-"""The scene as one HTML page with everything in it: data, drawing, controls; nothing is loaded from anywhere."""
+"""The scene as the player takes it, and as one HTML page with the player and everything else in it: nothing is loaded
+from anywhere."""
 
 from __future__ import annotations
 
 import json
+import re
 from base64 import b64encode
 from html import escape
 from importlib.resources import files
@@ -17,50 +19,39 @@ from heeltoe.views.animation.bodies import Part
 from heeltoe.views.animation.frames import ARROW, CUT, Scene
 from heeltoe.views.figures.panels import kind_of
 
+# What plays the moving dam, on this page and in the app, which serves these files.
+_PLAYER = files("heeltoe.views.animation").joinpath("player")
+# In the order in which each finds what it needs; without their imports they are one module.
+_MODULES = ("element.js", "scene.js", "canvas.js", "dam.js", "player.js", "page.js")
+_IMPORT = re.compile(r"^import .*\n", re.MULTILINE)
 # Samples of a trace that a page of any size can show.
 _MOST_SAMPLES = 8000
 
 
 def write_page(scene: Scene, speed: float, path: Path) -> None:
     """Write a scene as a page that starts at this speed."""
-    here = files("heeltoe.views.animation")
 
     def text(name: str) -> str:
-        return here.joinpath(name).read_text(encoding="utf-8")
+        return _PLAYER.joinpath(name).read_text(encoding="utf-8")
 
     # In one pass over the template, so that nothing that is put in is taken for a place.
     content = {
         "TITLE": escape(scene.title),
         "SUBTITLE": escape(scene.subtitle),
-        "STYLE": text("page.css"),
+        "STYLE": text("page.css") + text("player.css"),
         "SCENE": _script_text(page_data(scene, speed)),
-        "MODEL": text("scene.js"),
-        "PLAYER": text("player.js"),
+        "SCRIPT": "\n".join(_IMPORT.sub("", text(name)) for name in _MODULES),
     }
     pieces = text("page.html").split("%%")
     path.write_text("".join(content.get(piece, piece) for piece in pieces), encoding="utf-8")
 
 
 def page_data(scene: Scene, speed: float) -> dict[str, Any]:
-    """Return what the page draws: plain numbers and texts, and arrays as :func:`packed`."""
+    """Return what the page shows: the scene, the histories beside it, and how fast it starts."""
     every = max(1, -(-scene.history_times.size // _MOST_SAMPLES))
-    return {
+    return scene_data(scene) | {
         "title": scene.title,
-        "times": packed(scene.times, "float32"),
-        "exaggeration": scene.exaggeration,
         "speed": speed,
-        "parts": [part_data(part) for part in scene.parts],
-        "above": scene.above,
-        "forces": packed(scene.forces, "float32"),
-        "forceScale": scene.force_scale,
-        "forceText": look.force_text(scene.force_scale, scene.force_unit, CUT),
-        "arrow": ARROW,
-        "cut": CUT,
-        "status": packed(scene.status, "int8"),
-        "statuses": list(scene.statuses),
-        "statusNames": list(look.STATUS_NAMES[: len(scene.statuses)]),
-        "mode": packed(scene.mode, "int8"),
-        "modes": [{"name": mode, "kind": kind_of(mode)} for mode in scene.modes],
         "historyTimes": packed(scene.history_times[::every], "float32"),
         "historyMode": packed(scene.history_mode[::every], "int8"),
         "traces": [
@@ -73,6 +64,30 @@ def page_data(scene: Scene, speed: float) -> dict[str, Any]:
             }
             for trace in scene.traces
         ],
+    }
+
+
+def scene_data(scene: Scene) -> dict[str, Any]:
+    """Return what the player draws: plain numbers and texts, and arrays as :func:`packed`."""
+    ground = scene.traces[0].values
+    peak = float(np.abs(ground).max()) or 1.0
+    return {
+        "times": packed(scene.times, "float32"),
+        "exaggeration": scene.exaggeration,
+        "relativeTo": scene.relative_to,
+        "parts": [_part_data(part) for part in scene.parts],
+        "above": scene.above,
+        "ground": packed(np.interp(scene.times, scene.history_times, ground) / peak, "float32"),
+        "forces": packed(scene.forces, "float32"),
+        "forceScale": scene.force_scale,
+        "forceText": look.force_text(scene.force_scale, scene.force_unit, CUT),
+        "arrow": ARROW,
+        "cut": CUT,
+        "status": packed(scene.status, "int8"),
+        "statuses": list(scene.statuses),
+        "statusNames": list(look.STATUS_NAMES[: len(scene.statuses)]),
+        "mode": packed(scene.mode, "int8"),
+        "modes": [{"name": mode, "kind": kind_of(mode)} for mode in scene.modes],
         "base": scene.base,
         "water": scene.water,
         "tailwater": scene.tailwater,
@@ -80,7 +95,7 @@ def page_data(scene: Scene, speed: float) -> dict[str, Any]:
     }
 
 
-def part_data(part: Part) -> dict[str, Any]:
+def _part_data(part: Part) -> dict[str, Any]:
     """Return one part of the dam and its motion, with arrays as :func:`packed`."""
     floats = {name: getattr(part, name) for name in ("points", "shapes", "amplitudes")}
     places = {name: getattr(part, name) for name in ("outline", "grid", "upstream", "downstream", "crack")}

@@ -2,7 +2,7 @@
 import { colour, element } from "../dom.js";
 import { axis, look } from "../plot/look.js";
 import { loadPlotly } from "../plot/plot.js";
-import { unpacked } from "../../scene.js";
+import { unpacked } from "../../player/scene.js";
 
 const TITLES = /** @type {Record<string, string>} */ ({ horizontal: "Horizontal", vertical: "Vertical" });
 const COLOURS = /** @type {Record<string, string>} */ ({ horizontal: "rigid", vertical: "decoupled" });

@@ -1,5 +1,5 @@
 /** What the plot of the answer draws, however it is drawn: curves in rows over one time axis, and the modes below them. */
-import { unpacked } from "../../scene.js";
+import { unpacked } from "../../player/scene.js";
 
 /** @typedef {{model: string, stale: boolean, answer: any}} Shown */
 /** @typedef {{row: string, of: string, name: string, stale: boolean, width: number, dash: string, x: Float32Array, y: Float32Array}} Line */

@@ -9,14 +9,11 @@ export function unpacked(field) {
   return new KINDS[field.kind](bytes.buffer);
 }
 
-/** Return the data of the page with all arrays unpacked; `count`s say how many there are of what. */
+/** Return what is played with all arrays unpacked; `count`s say how many there are of what. */
 export function readScene(data) {
   const scene = { ...data };
-  for (const name of ["times", "forces", "status", "mode", "historyTimes", "historyMode"]) {
-    scene[name] = unpacked(data[name]);
-  }
+  for (const name of ["times", "ground", "forces", "status", "mode"]) scene[name] = unpacked(data[name]);
   scene.crackCount = data.status.shape[1];
-  scene.traces = data.traces.map((trace) => ({ ...trace, values: unpacked(trace.values) }));
   scene.parts = data.parts.map(readPart);
   scene.start = scene.times[0];
   scene.end = scene.times[scene.times.length - 1];
@@ -24,9 +21,19 @@ export function readScene(data) {
 }
 
 /** Return a part with all arrays unpacked. */
-export function readPart(part) {
+function readPart(part) {
   const arrays = Object.fromEntries(Object.entries(part).map(([name, field]) => [name, unpacked(field)]));
   return { ...arrays, shapeCount: part.shapes.shape[0], pointCount: part.points.shape[0] };
+}
+
+/** Return the histories beside a scene with all arrays unpacked. */
+export function readHistories(data) {
+  const { traces, historyTimes, historyMode } = data;
+  return {
+    times: unpacked(historyTimes),
+    mode: unpacked(historyMode),
+    traces: traces.map((trace) => ({ ...trace, values: unpacked(trace.values) })),
+  };
 }
 
 /** Return the sample before a moment, how far it is on the way to the next, and the nearest sample. */
