@@ -12,11 +12,11 @@ from heeltoe import run
 from heeltoe.case.warnings import case_warnings
 from heeltoe.models.decoupled import model as decoupled
 from heeltoe.models.flexible import warnings as flexible
-from heeltoe.models.flexible.evidence.evidence import Evidence, Worth
 from heeltoe.models.rigid.walk import walk
 from heeltoe.models.rigid.warnings import warnings_of
 from heeltoe.models.run import earthquake
 from shared.dams import FAST, example
+from shared.evidence import evidence_of
 
 
 def codes(said):
@@ -60,22 +60,7 @@ def test_impacts_of_a_rigid_block():
     ],
 )
 def test_what_moves_the_slip_of_an_elastic_dam(moved, mean, failed, said):
-    evidence = Evidence(
-        asked="full",
-        mean=mean,
-        worth={"residual_slip_m": Worth(0.1, 0.1, *moved)},
-        time_step=1e-4,
-        other_step=2e-4,
-        across=8,
-        other_across=4,
-        third_across=None,
-        cracked=None,
-        failed=failed,
-        slips=(0.1, 0.1),
-        runs=8,
-        work=4.0,
-        spent=False,
-    )
+    evidence = evidence_of(moved, scatters=mean, failed=failed)
     assert codes(flexible._about_the_evidence(evidence)) == said
 
 

@@ -421,6 +421,11 @@ class EvidenceNumbers(Block):
         HeadlineWorth | None, Number("What the cracked length of a joint is worth; null of a crack.", "m")
     ] = None
 
+    @property
+    def scatters(self) -> bool:
+        """Whether single runs scatter, so that the numbers to trust are means."""
+        return self.value_is == "mean"
+
 
 class ElasticCrack(CrackNumbers):
     """What a crack of an elastic dam did."""

@@ -20,12 +20,12 @@ from heeltoe.case.read import read_case
 from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
-from heeltoe.models.flexible.evidence.evidence import Evidence
 from heeltoe.models.flexible.evidence.refinement import answer
 from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake
 from heeltoe.result.contract import leading_crack
+from heeltoe.result.numbers import EvidenceNumbers
 from heeltoe.validation.row import Row
 from heeltoe.validation.sources import ENDS_WITH_MOTION
 from heeltoe.validation.thesis_dams import record_named
@@ -191,35 +191,35 @@ def judge(seed: int, kind: Kind = "plain") -> Judged | None:
     if file in _RECORDS:
         record_named(file)
     response = answer(ShakenDam(case, dam, earthquake(case).shaking), _FRAMES, "full")
-    crack = leading_crack([evidence.slip.value for evidence in response.evidences])
+    crack = leading_crack([evidence.residual_slip_m.value for evidence in response.evidences])
     evidence = response.evidences[crack]
     by_mesh, by_step = _moved(response.shaken, evidence, crack) if evidence.converged else (None, None)
     return Judged(
         kind,
         seed,
         dam.lower is not None,
-        evidence.slip.value,
-        evidence.slip.uncertainty,
+        evidence.residual_slip_m.value,
+        evidence.residual_slip_m.uncertainty,
         evidence.converged,
-        evidence.mean,
-        evidence.spent,
-        evidence.slip.most,
+        evidence.scatters,
+        evidence.budget_spent,
+        evidence.moved_most_by,
         evidence.runs,
-        evidence.across,
+        evidence.elements_across,
         by_mesh,
         by_step,
     )
 
 
-def _moved(shaken: ShakenDam, evidence: Evidence, crack: int) -> tuple[float, float]:
+def _moved(shaken: ShakenDam, evidence: EvidenceNumbers, crack: int) -> tuple[float, float]:
     """Return by how much twice the elements and a quarter of the step move the slip of a crack [m]."""
-    trials = Trials(shaken, evidence.time_step, _FRAMES)
-    scales = SCALES if evidence.mean else SCALES[:1]
+    trials = Trials(shaken, evidence.time_step_s, _FRAMES)
+    scales = SCALES if evidence.scatters else SCALES[:1]
     # Means are over runs at the longer of the two steps.
-    halvings = -1 if evidence.mean and evidence.other_step > evidence.time_step else 0
+    halvings = -1 if evidence.scatters and evidence.other_time_step_s > evidence.time_step_s else 0
     finer, shorter = Level(1, halvings), Level(0, halvings + 2)
     mesh, step = (
-        float(trials.numbers(level, scales, crack)["residual_slip_m"].mean()) - evidence.slip.value
+        float(trials.numbers(level, scales, crack)["residual_slip_m"].mean()) - evidence.residual_slip_m.value
         for level in (finer, shorter)
     )
     return mesh, step

@@ -8,13 +8,13 @@ import pytest
 from heeltoe import InputError, flexible, read_case
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.evidence import refinement
-from heeltoe.models.flexible.evidence.evidence import Evidence, Worth
 from heeltoe.models.flexible.evidence.refinement import _finer, _moved_by_mesh
 from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import with_mesh
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
+from shared.evidence import evidence_of
 
 FIELDS = {
     "section": {"height": "30 m", "crest_width": "4 m", "base_width": "24 m"},
@@ -104,23 +104,7 @@ def test_evidence_that_there_is_none_is_refused():
     ],
 )
 def test_what_is_refined(moved, given, finer):
-    result = Evidence(
-        asked="full",
-        mean=False,
-        worth={"residual_slip_m": Worth(0.1, 0.1, *moved)},
-        cracked=None,
-        time_step=1e-4,
-        other_step=2e-4,
-        across=8,
-        other_across=4,
-        third_across=None,
-        failed=0,
-        slips=(),
-        runs=8,
-        work=4.0,
-        spent=False,
-    )
-    assert _finer(result, Level(0, 0), dam(**given).flexible) == finer
+    assert _finer(evidence_of(moved), Level(0, 0), dam(**given).flexible) == finer
 
 
 def test_other_meshes_of_a_case():

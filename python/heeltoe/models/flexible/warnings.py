@@ -13,8 +13,7 @@ from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.flexible.body.bond import zone_mesh
 from heeltoe.models.flexible.body.modes import ENOUGH
 from heeltoe.models.flexible.body.reduced import FlexibleDam, along_crack
-from heeltoe.models.flexible.evidence.evidence import MOVED_BY, Evidence
-from heeltoe.models.flexible.evidence.growth import Growth
+from heeltoe.models.flexible.evidence.evidence import MOVED_BY
 from heeltoe.models.flexible.result.history import CrackHistory
 from heeltoe.models.flexible.result.tables import anchors_of
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
@@ -23,6 +22,7 @@ from heeltoe.models.flexible.surroundings.rock import ENOUGH as ENOUGH_OF_ROCK
 from heeltoe.models.flexible.surroundings.rock import HIGHEST
 from heeltoe.models.runner import about_the_anchors, largest_rotation, outcome_of
 from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
+from heeltoe.result.numbers import EvidenceNumbers, SelfExcitation
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
 
@@ -81,8 +81,8 @@ def warnings_of(
     shaken: ShakenDam,
     run: DamRun,
     histories: Sequence[CrackHistory],
-    evidences: Sequence[Evidence],
-    growth: Growth | None,
+    evidences: Sequence[EvidenceNumbers],
+    growth: SelfExcitation | None,
     safety: float | None,
     outcome: str,
     leads: int = 0,
@@ -149,7 +149,7 @@ def _about_the_start(case: Case, dam: FlexibleDam, safety: float | None) -> Iter
         yield Notice("no-rest")
 
 
-def _about_the_evidences(evidences: Sequence[Evidence], dam: FlexibleDam, leads: int) -> Iterator[Notice]:
+def _about_the_evidences(evidences: Sequence[EvidenceNumbers], dam: FlexibleDam, leads: int) -> Iterator[Notice]:
     if not evidences:
         yield Notice("evidence-none")
         return
@@ -162,38 +162,38 @@ def _about_the_evidences(evidences: Sequence[Evidence], dam: FlexibleDam, leads:
             yield Notice(
                 "further-crack-uncertain",
                 elevation_m=section.heel[1] - section.base_elevation,
-                slip_m=evidence.slip.value,
-                uncertainty_m=evidence.slip.uncertainty,
+                slip_m=evidence.residual_slip_m.value,
+                uncertainty_m=evidence.residual_slip_m.uncertainty,
             )
             break
 
 
-def _about_the_evidence(evidence: Evidence) -> Iterator[Notice]:
-    slip = evidence.slip
+def _about_the_evidence(evidence: EvidenceNumbers) -> Iterator[Notice]:
+    slip, runs = evidence.residual_slip_m, len(evidence.residual_slips_m)
     if evidence.failed:
-        yield Notice("evidence-failures", failed=evidence.failed, runs=len(evidence.slips))
+        yield Notice("evidence-failures", failed=evidence.failed, runs=runs)
     if not evidence.converged:
-        stopped = "the budget ended the refinement" if evidence.spent else "refining would not help, or is not its own"
+        spent = "the budget ended the refinement"
         yield Notice(
             "not-converged",
             slip_m=slip.value,
             uncertainty_m=slip.uncertainty,
-            allowed_m=evidence.allowed,
-            most=MOVED_BY[slip.most],
-            stopped=stopped,
+            allowed_m=evidence.allowed_m,
+            most=MOVED_BY[evidence.moved_most_by],
+            stopped=spent if evidence.budget_spent else "refining would not help, or is not its own",
         )
-    if evidence.mean:
-        yield Notice("runs-scatter", slip_m=slip.value, scatter_m=slip.shaking or 0.0, runs=len(evidence.slips))
+    if evidence.scatters:
+        yield Notice("runs-scatter", slip_m=slip.value, scatter_m=slip.shaking or 0.0, runs=runs)
 
 
-def _about_the_growth(growth: Growth | None, raw: DamSummary) -> Iterator[Notice]:
-    if growth is not None and growth.damped_slip is not None:
+def _about_the_growth(growth: SelfExcitation | None, raw: DamSummary) -> Iterator[Notice]:
+    if growth is not None and growth.twice_damped_slip_m is not None:
         yield Notice(
             "self-excited",
-            growth_1_s=growth.rate,
-            sliding_s=growth.sliding_time,
+            growth_1_s=growth.growth_1_s,
+            sliding_s=growth.sliding_time_s,
             slip_m=raw.slip,
-            damped_slip_m=growth.damped_slip,
+            damped_slip_m=growth.twice_damped_slip_m,
         )
 
 

@@ -18,6 +18,7 @@ from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import build_block
+from heeltoe.models.flexible.evidence.evidence import trusted
 from heeltoe.models.flexible.evidence.refinement import Answer
 from heeltoe.models.flexible.model import answer_at_rest
 from heeltoe.models.flexible.run.expected import analysing, frame_step_of
@@ -322,11 +323,11 @@ def _pilot(motion: int, response: Answer, ground: Earthquake, other_sign: Pilot 
         options.elements_across,
         options.elements_across_below,
         first_step,
-        first_step if evidence is None else evidence.time_step,
+        first_step if evidence is None else evidence.time_step_s,
         ground.silence,
         motion,
-        None if evidence is None else evidence.numbers().to_json(),
-        [crack.values() if crack.mean else {} for crack in response.evidences],
+        None if evidence is None else evidence.to_json(),
+        [trusted(crack) if crack.scatters else {} for crack in response.evidences],
         other_sign,
         options.elements_away,
     )

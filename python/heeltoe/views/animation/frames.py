@@ -14,7 +14,7 @@ from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.errors.sanitize import plain
 from heeltoe.geometry.section import CutSection
-from heeltoe.models.flexible.result.history import LEAST_DAMAGE, CrackHistory
+from heeltoe.models.flexible.result.history import LEAST_DAMAGE, CrackHistory, node_lengths
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Units, unit_system
@@ -216,19 +216,9 @@ def _slips(mode: str) -> int:
 
 
 def _nodes(section: CutSection, history: CrackHistory, moments: Moments) -> tuple[Floats, NDArray[np.int8]]:
-    """Return contact stresses [Pa] and status of the nodes of the upper face.
-
-    A node's force counts on the length over which an even stress gives it that force: of an element of length L the
-    ends have L/6, the node in its middle 2 L/3 (Simpson's rule).
-    """
+    """Return contact stresses [Pa] and status of the nodes of the upper face."""
     points = history.drawn[0]
-    along = np.hypot(*(points - points[0]).T)
-    lengths = np.zeros(along.size)
-    elements = along[2::2] - along[:-2:2]
-    lengths[:-2:2] += elements / 6.0
-    lengths[1::2] += elements * (2.0 / 3.0)
-    lengths[2::2] += elements / 6.0
-    force = history.forces()[moments.nearest] / lengths
+    force = history.forces()[moments.nearest] / node_lengths(np.hypot(*(points - points[0]).T))
     names = history.status_names()
     known = np.array([STATUSES.index(name) if name in STATUSES else -1 for name in names] + [-1], dtype=np.int8)
     # -1, of nodes that are not watched, finds the last.

@@ -3,6 +3,9 @@ other."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
@@ -14,7 +17,7 @@ from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats
 from heeltoe.kernel.dam import CONTACT_STATUSES
-from heeltoe.models.flexible.result.history import LEAST_DAMAGE, CrackHistory
+from heeltoe.models.flexible.result.history import LEAST_DAMAGE, CrackHistory, node_lengths
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.panels import panels
@@ -38,7 +41,6 @@ _JOINT_COLOURS = {
     "broken, slips downstream": STATUS_COLOURS["slip downstream"],
     "broken, slips upstream": STATUS_COLOURS["slip upstream"],
 }
-_JOINT_STATES = tuple(_JOINT_COLOURS)
 # What a broken node does, of the statuses of contact; one with nothing opposite is open.
 _BROKEN = {"absent": 2, "open": 2, "stick": 3, "slip downstream": 4, "slip upstream": 5}
 # The largest pressures are blows of single nodes; the colours end before them, at this share of all [%].
@@ -52,32 +54,34 @@ def crack_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     history = response.crack
     figure, (crack,) = panels([1.6], 1.55)
     describe(figure, response)
-    seen = _status_map(crack, history, unit_system(units).scale("length"))
+    along, status = _whole_face(history)
+    colours = {"nothing opposite" if name == "absent" else name: STATUS_COLOURS[name] for name in CONTACT_STATUSES}
+    handles = _draw_states(crack, history.time, along, status, colours, unit_system(units).scale("length"))
     strong_part(crack, response)
-    names = {"absent": "nothing opposite"}
-    handles = [
-        Patch(facecolor=STATUS_COLOURS[name], edgecolor="#888888", label=names.get(name, name), linewidth=0.5)
-        for name in seen
-    ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(seen))
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure
 
 
-def _status_map(axes: Axes, history: CrackHistory, scale: Scale) -> list[str]:
-    """Colour every watched node of one whole face at every moment by its status; return which there are."""
-    names = CONTACT_STATUSES
-    along, status = _whole_face(history)
+def _draw_states(
+    axes: Axes, time: Floats, along: Floats, states: NDArray[Any], colours: Mapping[str, str], scale: Scale
+) -> list[Patch]:
+    """Colour every node (k,) of a face at every moment (f,) by its state (f, k), which counts `colours`; return the
+    legend of the states that occur."""
     axes.pcolormesh(
-        borders(history.time),
+        borders(time),
         scale(borders(along)),
-        status.T,
-        cmap=ListedColormap([STATUS_COLOURS[name] for name in names]),
-        norm=BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names)),
+        states.T,
+        cmap=ListedColormap(list(colours.values())),
+        norm=BoundaryNorm(np.arange(len(colours) + 1) - 0.5, len(colours)),
         # Hundreds of thousands of rectangles would make a drawing of many megabytes.
         rasterized=True,
     )
     _label_crack(axes, scale)
-    return [name for k, name in enumerate(names) if (status == k).any()]
+    return [
+        Patch(facecolor=colour, edgecolor="#888888", label=name, linewidth=0.5)
+        for k, (name, colour) in enumerate(colours.items())
+        if (states == k).any()
+    ]
 
 
 def _whole_face(history: CrackHistory) -> tuple[Floats, NDArray[np.uint8]]:
@@ -108,21 +112,9 @@ def joint_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     lengths.set_ylim(0.0, 1.05 * scale(response.crack_width_m))
     lengths.legend(loc="best")
     along, states = joint_states(history)
-    joint.pcolormesh(
-        borders(history.time),
-        scale(borders(along)),
-        states.T,
-        cmap=ListedColormap(list(_JOINT_COLOURS.values())),
-        norm=BoundaryNorm(np.arange(len(_JOINT_STATES) + 1) - 0.5, len(_JOINT_STATES)),
-        rasterized=True,
-    )
-    _label_crack(joint, scale)
+    handles = _draw_states(joint, history.time, along, states, _JOINT_COLOURS, scale)
     time_axis(joint, response)
-    states_seen = [name for k, name in enumerate(_JOINT_STATES) if (states == k).any()]
-    handles = [
-        Patch(facecolor=_JOINT_COLOURS[name], edgecolor="#888888", label=name, linewidth=0.5) for name in states_seen
-    ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(states_seen)))
+    figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(handles)))
     align_labels([lengths, joint])
     return figure
 
@@ -227,19 +219,9 @@ def pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
 
 
 def contact_pressure(history: CrackHistory) -> tuple[Floats, Floats]:
-    """Return moments (f,) [s] and the pressure (f, k) [Pa] on the nodes of the upper face, compression positive.
-
-    A node's length is that over which an even pressure gives it its force: on an element of length L with a node in
-    the middle, L/6 at the ends and 2 L/3 in between. Where there are more frames than a picture shows, neighbours are
-    averaged.
-    """
-    along = history.upper_position[0, 0]
-    sizes = along[2::2] - along[:-2:2]
-    tributary = np.zeros(along.size)
-    np.add.at(tributary, np.arange(0, along.size - 2, 2), sizes / 6.0)
-    np.add.at(tributary, np.arange(1, along.size - 1, 2), 2.0 * sizes / 3.0)
-    np.add.at(tributary, np.arange(2, along.size, 2), sizes / 6.0)
-    pressure = history.forces()[:, 1] / tributary
+    """Return moments (f,) [s] and the pressure (f, k) [Pa] on the nodes of the upper face, compression positive; where
+    there are more frames than a picture shows, the means of neighbours."""
+    pressure = history.forces()[:, 1] / node_lengths(history.upper_position[0, 0])
     several = -(-len(history.time) // _COLUMNS)
     if several == 1:
         return history.time, pressure

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -31,43 +31,6 @@ _SLOW = 1e-3
 
 #: From so much growth in all on, the slip depends on damping.
 _MATTERS = 1.0
-
-
-@dataclass(frozen=True)
-class Growth:
-    """How a vibration of a dam grows as it slides.
-
-    Attributes
-    ----------
-    rate
-        Growth of the fastest [1/s]; none where it is negative.
-    period
-        Of that vibration [s]; infinite where nothing swings.
-    sliding_time
-        How long it slides at the crack that slides longest [s].
-    damped_slip
-        Residual slip with twice the damping [m] at the crack that leads, where growth times time is so large that
-        damping matters.
-    """
-
-    rate: float
-    period: float
-    sliding_time: float
-    damped_slip: float | None
-
-    @property
-    def matters(self) -> bool:
-        """Whether the slip depends on damping."""
-        return self.rate * self.sliding_time > _MATTERS
-
-    def numbers(self) -> SelfExcitation:
-        """Return what the result says of it."""
-        return SelfExcitation(
-            growth_1_s=self.rate,
-            period_s=self.period if math.isfinite(self.period) else None,
-            sliding_time_s=self.sliding_time,
-            twice_damped_slip_m=self.damped_slip,
-        )
 
 
 def growth_of(dam: FlexibleDam, friction: Sequence[float | None]) -> tuple[float, float]:
@@ -210,7 +173,7 @@ _FEW = 3
 
 
 @one_blas_thread()
-def self_excitation(shaken: ShakenDam, run: DamRun, leads: int = 0) -> Growth | None:
+def self_excitation(shaken: ShakenDam, run: DamRun, leads: int = 0) -> SelfExcitation | None:
     """Return how a vibration of the dam grows as it slides; None where it never slides. Of several cracks that slide,
     the fastest growth counts of all of them sliding at once and of one by itself while the others stick; of many, of
     the one that leads by itself.
@@ -241,9 +204,14 @@ def self_excitation(shaken: ShakenDam, run: DamRun, leads: int = 0) -> Growth | 
             growth_of(shaken.dam, [value if place in moving else None for place, value in enumerate(friction)])
             for moving in sets
         )
-    growth = Growth(rate, period, max(times), None)
-    if not growth.matters or run.outcome != "ok":
-        return growth
-    raw = run.summaries[leads]
-    other = replace(shaken, dam=damped(shaken.case, shaken.dam, 2.0))
-    return replace(growth, damped_slip=other.run(raw.end_time / raw.steps).summaries[leads].slip)
+    damped_slip = None
+    if rate * max(times) > _MATTERS and run.outcome == "ok":
+        raw = run.summaries[leads]
+        other = replace(shaken, dam=damped(shaken.case, shaken.dam, 2.0))
+        damped_slip = other.run(raw.end_time / raw.steps).summaries[leads].slip
+    return SelfExcitation(
+        growth_1_s=rate,
+        period_s=period if math.isfinite(period) else None,
+        sliding_time_s=max(times),
+        twice_damped_slip_m=damped_slip,
+    )

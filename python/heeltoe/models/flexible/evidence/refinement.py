@@ -13,11 +13,12 @@ from heeltoe.case.options import Flexible
 from heeltoe.kernel.dam import DamRun
 from heeltoe.models.flexible.body.cost import wave_bodies
 from heeltoe.models.flexible.body.reduced import FlexibleDam
-from heeltoe.models.flexible.evidence.evidence import BUDGET, FLOOR_M, Evidence, Worth, allowed
+from heeltoe.models.flexible.evidence.evidence import BUDGET, FLOOR_M, allowed, most_moved_by, worth_of
 from heeltoe.models.flexible.evidence.trials import SCALES, SOFTENING, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import FEWEST_ACROSS
 from heeltoe.result.contract import CRACKED, HEADLINES
+from heeltoe.result.numbers import EvidenceNumbers, HeadlineWorth
 
 # Two meshes may agree by chance. Twice the elements of quadratic shape make what they leave a quarter at best, so of
 # what moves a number from the third mesh to the second at least this part is left; coarser meshes say nothing.
@@ -48,15 +49,15 @@ class Answer:
 
     shaken: ShakenDam
     run: DamRun
-    evidence: Evidence | None
+    evidence: EvidenceNumbers | None
     beside: tuple[ShakenDam, DamRun] | None = None
-    evidences: tuple[Evidence, ...] = ()
+    evidences: tuple[EvidenceNumbers, ...] = ()
 
     @property
     def slips(self) -> list[float]:
         """Residual slips to trust [m], of the cracks from the crest down: means where single runs scatter."""
         if self.evidences:
-            return [evidence.slip.value for evidence in self.evidences]
+            return [evidence.residual_slip_m.value for evidence in self.evidences]
         return [summary.slip for summary in self.run.summaries]
 
 
@@ -86,7 +87,7 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
         finer = _finer(_worst(evidence), level, options)
         if finer is None:
             break
-        if not _affordable(trials, finer, full=full, means=any(item.mean for item in evidence)):
+        if not _affordable(trials, finer, full=full, means=any(item.scatters for item in evidence)):
             evidence = stand.evidences(spent=True)
             break
         level = finer
@@ -106,20 +107,23 @@ def _affordable(trials: Trials, level: Level, *, full: bool, means: bool) -> boo
     return work <= BUDGET and trials.expected(level, work).within(trials.dam_of(0).case)
 
 
-def _worst(evidences: Sequence[Evidence]) -> Evidence:
+def _worst(evidences: Sequence[EvidenceNumbers]) -> EvidenceNumbers:
     """Return the evidence of the crack whose slip is the least certain, the first of them where several are as bad."""
-    return max(evidences, key=lambda evidence: (not evidence.converged, evidence.slip.uncertainty / evidence.allowed))
+    return max(
+        evidences,
+        key=lambda evidence: (not evidence.converged, evidence.residual_slip_m.uncertainty / evidence.allowed_m),
+    )
 
 
-def _finer(evidences: Evidence, level: Level, options: Flexible) -> Level | None:
+def _finer(evidence: EvidenceNumbers, level: Level, options: Flexible) -> Level | None:
     """Return the level at which the slip may be certain enough; None where it is, or nothing can make it so."""
-    slip = evidences.slip
-    if evidences.converged or (slip.shaking or 0.0) > evidences.allowed:
+    slip = evidence.residual_slip_m
+    if evidence.converged or (slip.shaking or 0.0) > evidence.allowed_m:
         return None
     # What the case gives is kept.
     step = 0.0 if options.time_step is not None else slip.step
     mesh = 0.0 if "elements_across" in options.model_fields_set else slip.mesh or 0.0
-    if max(step, mesh) < _MATTERS * evidences.allowed:
+    if max(step, mesh) < _MATTERS * evidence.allowed_m:
         return None
     return Level(level.mesh, level.halvings + 1) if step > mesh else Level(level.mesh + 1, level.halvings)
 
@@ -132,10 +136,10 @@ def _worth(
     mesh: float | None,
     varied: Sequence[Floats] | None,
     surroundings: float | None,
-) -> Worth:
+) -> HeadlineWorth:
     deviation = None if varied is None else max(float(runs.std(ddof=1)) for runs in varied)
     least = FLOOR_M if key.endswith("_m") else 0.0
-    return Worth(value, run, abs(run - other), mesh, deviation, least, surroundings)
+    return worth_of(value, run, abs(run - other), mesh, deviation, surroundings, least=least)
 
 
 def _moved_by_mesh(
@@ -212,7 +216,7 @@ class _Stand:
                     wanted.append((level, SCALES if means else _AS_IT_IS))
         return wanted
 
-    def evidences(self, *, spent: bool = False) -> tuple[Evidence, ...]:
+    def evidences(self, *, spent: bool = False) -> tuple[EvidenceNumbers, ...]:
         """Return what the run at this level is worth, crack by crack."""
         trials = self._trials
         trials.prepare([level for level in (self._level, self.mesh) if level is not None], self.wanted(means=False))
@@ -225,7 +229,7 @@ class _Stand:
         bond, own = dam.lines[crack].bond, self._bonds[crack]
         return bond is not None and own is not None and bond[0] < own.tensile_strength * (1.0 - 1e-12)
 
-    def _evidence(self, crack: int, *, spent: bool) -> Evidence:
+    def _evidence(self, crack: int, *, spent: bool) -> EvidenceNumbers:
         trials = self._trials
         run, other = trials.numbers(self._level, _AS_IT_IS, crack), trials.numbers(self._step, _AS_IT_IS, crack)
         varied = trials.numbers(self._cheap, SCALES, crack) if self._full else None
@@ -240,7 +244,7 @@ class _Stand:
         # Of runs that scatter those of both meshes tell by how much.
         ensembles = ([own] if beside is None else [own, beside]) if mean else None if varied is None else [varied]
 
-        def worth_of(key: str) -> Worth:
+        def worth(key: str) -> HeadlineWorth:
             return _worth(
                 key,
                 float(own[key].mean()) if mean else float(run[key][0]),
@@ -251,13 +255,12 @@ class _Stand:
                 None if farther is None or near is None else abs(float(farther[key].mean() - near[key].mean())),
             )
 
-        worth = {item.key: worth_of(item.key) for item in HEADLINES}
         dam = trials.dam_of(self._level.mesh).dam
         cracked = None
         if dam.lines[crack].bond is not None:
             # What one run cracks is what it says; no less is known than half an element.
             width = dam.sections[crack].crack_width
-            length = worth_of(CRACKED)
+            length = worth(CRACKED)
             least = 0.5 * width / self._options.elements_across
             if length.run + float(run[SOFTENING][0]) > width - least:
                 # Nothing is intact that would stop it.
@@ -265,20 +268,29 @@ class _Stand:
             if self._lowered(crack, dam):
                 # A strength that depends on the mesh is no evidence of how far the joint cracks.
                 least = max(length.run, width - length.run)
-            cracked = replace(length, value=length.run, least=least)
-        return Evidence(
+            moved = (length.step, length.mesh, length.shaking, length.surroundings)
+            cracked = worth_of(length.run, length.run, *moved, least=least)
+        slip = worth("residual_slip_m")
+        failed = 0 if varied is None else trials.failed(self._own if mean else self._cheap, SCALES)
+        slips = [] if ensembles is None else ensembles[0]["residual_slip_m"].tolist()
+        return EvidenceNumbers(
             asked="full" if self._full else "step",
-            mean=mean,
-            worth=worth,
-            cracked=cracked,
-            time_step=trials.step_of(self._level),
-            other_step=trials.step_of(self._step),
-            across=self._options.elements_across,
-            other_across=None if self.mesh is None else trials.across_of(self.mesh),
-            third_across=None if third is None or self._third is None else trials.across_of(self._third),
-            failed=0 if varied is None else trials.failed(self._own if mean else self._cheap, SCALES),
-            slips=() if ensembles is None else tuple(ensembles[0]["residual_slip_m"].tolist()),
+            converged=slip.uncertainty <= allowed(slip.value) and not failed,
+            value_is="mean" if mean else "run",
+            moved_most_by=most_moved_by(slip),
+            allowed_m=allowed(slip.value),
+            time_step_s=trials.step_of(self._level),
+            other_time_step_s=trials.step_of(self._step),
+            elements_across=self._options.elements_across,
+            other_elements_across=None if self.mesh is None else trials.across_of(self.mesh),
+            third_elements_across=None if third is None or self._third is None else trials.across_of(self._third),
+            scales=list(SCALES) if slips else [],
+            residual_slips_m=slips,
+            failed=failed,
             runs=trials.runs,
             work=trials.work,
-            spent=spent,
+            budget=BUDGET,
+            budget_spent=spent,
+            cracked_length_m=cracked,
+            **{item.key: worth(item.key) for item in HEADLINES},
         )

@@ -227,3 +227,21 @@ def _gaps(own: Floats, other: Floats) -> Floats:
     for frame, (mine, theirs) in enumerate(zip(own, other, strict=True)):
         result[frame] = mine[1] - np.interp(mine[0], theirs[0], theirs[1], left=np.nan, right=np.nan)
     return result
+
+
+def node_lengths(along: Floats) -> Floats:
+    """Return the lengths over which an even stress gives the nodes of a face their forces.
+
+    Of an element of length L the ends have L/6, the node in its middle 2 L/3 (Simpson's rule).
+
+    Parameters
+    ----------
+    along
+        (k,) places of the nodes, ends and middles in turn.
+    """
+    sizes = along[2::2] - along[:-2:2]
+    lengths = np.zeros(along.size)
+    lengths[:-2:2] += sizes / 6.0
+    lengths[1::2] += 2.0 * sizes / 3.0
+    lengths[2::2] += sizes / 6.0
+    return lengths

@@ -15,8 +15,7 @@ from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import StaticState, build_block, static_state
 from heeltoe.models.flexible.body.bond import zone_mesh
 from heeltoe.models.flexible.body.reduced import FlexibleDam, along_crack, apart
-from heeltoe.models.flexible.evidence.evidence import Evidence
-from heeltoe.models.flexible.evidence.growth import Growth
+from heeltoe.models.flexible.evidence.evidence import trusted
 from heeltoe.models.flexible.evidence.refinement import Answer
 from heeltoe.models.flexible.result.history import CrackHistory, watched_nodes
 from heeltoe.models.flexible.result.response import ElasticCrackResponse
@@ -33,8 +32,10 @@ from heeltoe.result.numbers import (
     ElasticCrack,
     ElasticDam,
     ElasticGive,
+    EvidenceNumbers,
     Mesh,
     Penetration,
+    SelfExcitation,
     Tension,
 )
 from heeltoe.result.response import Energy
@@ -92,7 +93,7 @@ def contactors_of(nodes: list[int], contactors: int) -> int:
 
 
 def crack_numbers(
-    case: Case, dam: FlexibleDam, run: DamRun, history: CrackHistory, evidence: Evidence | None
+    case: Case, dam: FlexibleDam, run: DamRun, history: CrackHistory, evidence: EvidenceNumbers | None
 ) -> ElasticCrack:
     """Return the numbers of a crack; `case` has it alone."""
     place = history.place
@@ -124,12 +125,12 @@ def crack_numbers(
         peak_normal_force_n=raw.peak_normal_force,
         before_shaking=start_of(dam, place) if case.flexible.contact == "coulomb" else None,
         penetration_m=Penetration(watched=raw.penetration, any_in_frames=history.deepest_penetration()),
-        evidence=None if evidence is None else evidence.numbers(),
+        evidence=evidence,
         friction_law=None if worn is None else law_result(worn, run, place),
         joint=bond_of(case, dam, run, place),
     )
     # Where single runs scatter, what is shown first is the mean of several.
-    means: dict[str, Any] = {} if evidence is None else {name: worth.value for name, worth in evidence.worth.items()}
+    means: dict[str, Any] = {} if evidence is None else trusted(evidence)
     return replace(numbers, **means)
 
 
@@ -163,7 +164,7 @@ def start_of(dam: FlexibleDam, place: int) -> BeforeShaking:
     return BeforeShaking(stands=start.stands, slip_m=start.slips[place], open_contacts=start.open_contacts[place])
 
 
-def dam_numbers(shaken: ShakenDam, run: DamRun, growth: Growth | None, tension: Tension | None) -> ElasticDam:
+def dam_numbers(shaken: ShakenDam, run: DamRun, growth: SelfExcitation | None, tension: Tension | None) -> ElasticDam:
     """Return the numbers of the dam as a whole."""
     raw, dam, case = run.summary, shaken.dam, shaken.case
     coefficients = dam.damping.coefficients
@@ -189,7 +190,7 @@ def dam_numbers(shaken: ShakenDam, run: DamRun, growth: Growth | None, tension: 
         contact_residual=raw.contact_residual,
         uplift_during_shaking=case.uplift.during_shaking,
         drainage_by_motion=None,
-        self_excitation=None if growth is None else growth.numbers(),
+        self_excitation=growth,
         tension=tension,
         water_pressure=face_pressures(dam, run.frames.time, run.water),
     )
