@@ -6,10 +6,12 @@ from functools import singledispatch
 from html import escape
 
 import numpy as np
+import shapely
 
 from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors.sanitize import plain
+from heeltoe.mechanics.section_shapes import section_shapes
 from heeltoe.models.statics.model import Statics
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.contract import HEADLINES
@@ -22,6 +24,14 @@ from heeltoe.views.words.numbers import Numbers, Value
 from heeltoe.views.words.response import listed
 
 _WIDTH, _HEIGHT = 420, 90
+_LOOKS = {
+    "water": 'fill="#CFE6F5"',
+    "silt": 'fill="#C9B27C"',
+    "ice": 'fill="#FFFFFF" stroke="#6A4C93"',
+    "ground": 'fill="#E0DACB"',
+    "below": 'fill="#B8B8B8" stroke="#000"',
+    "above": 'fill="#D0D0D0" stroke="#000"',
+}
 # A column of pixels shows no more than the least and the most in it.
 _COLUMNS = 420
 # Of what stands in one cell, a verdict for example.
@@ -121,25 +131,26 @@ def line(x: Floats, y: Floats, label: str) -> str:
 
 
 def _section(case: Case) -> str:
-    """Return the outline of the dam, its crack and its water as an inline SVG."""
-    corners = np.array(case.section.vertices())
-    left, low = corners.min(axis=0)
-    size = float(max(corners.max(axis=0) - corners.min(axis=0))) or 1.0
+    """Return the section of the dam with its water, silt and ice, and its cracks as an inline SVG."""
+    left, base, right, crest = case.outline.bounds
+    size = max(right - left, crest - base)
     scale = 160.0 / size
 
     def place(points: Floats) -> str:
-        return " ".join(f"{60 + (x - left) * scale:.1f},{165 - (z - low) * scale:.1f}" for x, z in points)
+        return " ".join(f"{60 + (x - left) * scale:.1f},{165 - (z - base) * scale:.1f}" for x, z in points)
 
-    water = ""
-    if case.reservoir is not None and case.reservoir.depth:
-        deep = case.reservoir.depth * scale
-        water = f'<rect x="0" y="{165 - deep:.1f}" width="60" height="{deep:.1f}" fill="#CFE6F5"/>'
-    crack = place(case.crack_line)
+    bodies = "".join(
+        f'<polygon points="{place(shapely.get_coordinates(part))}" {_LOOKS[kind]}/>'
+        for kind, shape in section_shapes(case)
+        for part in shapely.get_parts(shape)
+    )
+    cracks = "".join(
+        f'<polyline points="{place(alone.crack_line)}" fill="none" stroke="#B22222" stroke-width="2"/>'
+        for alone in case.single_crack_cases
+    )
     return (
         f'<svg style="display:block" width="240" height="172" viewBox="0 0 240 172" role="img" '
-        f'aria-label="section of the dam">{water}'
-        f'<polygon points="{place(corners)}" fill="#D0D0D0" stroke="#000"/>'
-        f'<polyline points="{crack}" fill="none" stroke="#B22222" stroke-width="2"/></svg>'
+        f'aria-label="section of the dam">{bodies}{cracks}</svg>'
     )
 
 

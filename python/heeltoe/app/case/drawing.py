@@ -10,8 +10,8 @@ import shapely
 
 from heeltoe.case.at_crack import anchor_line
 from heeltoe.case.model import Case
-from heeltoe.geometry.beside import beside
 from heeltoe.mechanics.loads import uplift_profile
+from heeltoe.mechanics.section_shapes import section_shapes
 from heeltoe.units.systems import unit_system
 
 # How deep the diagram of the uplift hangs below the crack, as a part of the size of the dam.
@@ -35,31 +35,12 @@ def drawing(case: Case, units: str) -> dict[str, Any]:
 
 
 def _shapes(case: Case, size: float) -> Iterator[tuple[str, list[Any]]]:
-    left, base, right, _ = case.outline.bounds
-    far = 2.0 * size
-    for water, side in ((case.reservoir, "left"), (case.tailwater, "right")):
-        if water is not None and water.depth:
-            yield "water", _rings(beside(case.outline, base + water.depth, far, side))
-    if case.silt is not None and case.silt.depth:
-        yield "silt", _rings(beside(case.outline, base + case.silt.depth, far, "left"))
-    if case.ice is not None and case.reservoir is not None:
-        level = base + case.reservoir.depth
-        cover = beside(case.outline, level, far, "left")
-        depth = max(2.0 * case.ice.depth, 0.008 * size)
-        yield "ice", _rings(cover - shapely.box(left - 3.0 * far, base - far, right + far, level - depth))
-    yield "ground", _rings(shapely.box(left - far, base - size, right + far, base))
-    yield "below", _rings(case.outline)
-    yield "above", [case.above.polygon.tolist()]
+    for kind, shape in section_shapes(case):
+        yield kind, [shapely.get_coordinates(part)[:-1].tolist() for part in shapely.get_parts(shape)]
     for crack in case.single_crack_cases:
         uplift = _uplift(crack, size)
         if uplift:
             yield "uplift", [uplift]
-
-
-def _rings(shape: shapely.Geometry) -> list[Any]:
-    return [
-        shapely.get_coordinates(part.exterior)[:-1].tolist() for part in shapely.get_parts(shape) if not part.is_empty
-    ]
 
 
 def _uplift(case: Case, size: float) -> list[list[float]]:

@@ -101,8 +101,8 @@ class Canvas:
         self.axes.annotate("", points[1], points[0], arrowprops=style, zorder=6)
         self._take(points)
 
-    def dimension(self, start: ArrayLike, end: ArrayLike, text: str, *, shift: ArrayLike = (0.0, 0.0)) -> None:
-        """Draw a dimension line, `shift` [m] away from what it measures, with its text on it."""
+    def dimension(self, start: ArrayLike, end: ArrayLike, shift: ArrayLike = (0.0, 0.0)) -> None:
+        """Draw a dimension line, `shift` [m] away from what it measures, with its length on it."""
         ends = np.stack([np.asarray(start, dtype=float), np.asarray(end, dtype=float)])
         moved = ends + np.asarray(shift, dtype=float)
         for place, far in zip(ends, moved, strict=True):
@@ -114,7 +114,7 @@ class Canvas:
         along = self.axes.transData.transform(points)
         level = abs(along[1, 0] - along[0, 0]) > abs(along[1, 1] - along[0, 1])
         drawn = self.axes.annotate(
-            text,
+            f"{self.length(math.dist(*ends)):.4g} {self.length.unit}",
             points.mean(axis=0),
             xytext=(0.0, 0.0),
             textcoords="offset points",

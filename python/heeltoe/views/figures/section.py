@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import shapely
 from matplotlib.figure import Figure
@@ -9,9 +11,9 @@ from matplotlib.figure import Figure
 from heeltoe.base.arrays import Floats
 from heeltoe.case.at_crack import anchor_line
 from heeltoe.case.model import Case
-from heeltoe.geometry.beside import beside
 from heeltoe.mechanics.loads import uplift_profile
-from heeltoe.units.systems import Scale, Units, unit_system
+from heeltoe.mechanics.section_shapes import section_shapes
+from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.canvas import Canvas
 from heeltoe.views.figures.section_forces import draw_forces, draw_uplift
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
@@ -21,6 +23,15 @@ _LOW = 0.55
 # Margins of the picture [in].
 _LEFT, _BOTTOM, _EDGE = 0.62, 0.5, 0.18
 _TALLEST = 4.1
+_OUTLINE = {"edgecolor": "#222222", "linewidth": 1.1, "zorder": 2}
+_LOOKS: dict[str, dict[str, Any]] = {
+    "water": {"facecolor": COLOURS["water"], "linewidth": 0.0, "zorder": 1},
+    "silt": {"facecolor": COLOURS["silt"], "edgecolor": "#8A6D1B", "hatch": "...", "linewidth": 0.5, "zorder": 1.2},
+    "ice": {"facecolor": "white", "edgecolor": "#6A4C93", "hatch": "xxxx", "linewidth": 0.5, "zorder": 1.3},
+    "ground": {"facecolor": "white", "edgecolor": "#777777", "hatch": "////", "linewidth": 0.0, "zorder": 1},
+    "below": {"facecolor": COLOURS["concrete below"], **_OUTLINE},
+    "above": {"facecolor": COLOURS["concrete"], **_OUTLINE},
+}
 
 
 @styled
@@ -68,7 +79,7 @@ def section_figure(case: Case, units: str = "si") -> Figure:
     # Before all labels, which keep off them.
     anchored = draw_anchors(canvases[-1], case)
     depth = draw_uplift(canvases[-1], case, system)
-    draw_dimensions(canvases[0], case, system, depth if one else 0.0)
+    draw_dimensions(canvases[0], case, depth if one else 0.0)
     draw_crack(canvases[-1], case, small=False)
     if not one:
         draw_crack(canvases[0], case, small=True)
@@ -92,34 +103,22 @@ def corners(case: Case, size: float, *, below: float) -> tuple[Floats, Floats]:
 
 def draw_bodies(canvas: Canvas, case: Case) -> None:
     """Draw water, silt, ice and both parts of the dam on the ground."""
-    section, whole = case.above, case.outline
-    left, base, right, crest = whole.bounds
-    far = 10.0 * max(right - left, crest - base)
+    whole = case.outline
+    left, base, _, _ = whole.bounds
+    for kind, shape in section_shapes(case):
+        if kind == "ground":
+            start, _, end, _ = shape.bounds
+            shape = shapely.box(start, base - 0.03 * canvas.size, end, base)
+            canvas.line([[start, base], [end, base]], color="#555555", linewidth=0.8, zorder=1.5)
+        canvas.fill(shape, **_LOOKS[kind])
+        if kind in ("below", "above"):
+            canvas.keep_off(shapely.get_coordinates(shape))
     for water, side in ((case.reservoir, "left"), (case.tailwater, "right")):
-        if water is None or water.depth == 0.0:
-            continue
-        level = base + water.depth
-        canvas.fill(beside(whole, level, far, side), facecolor=COLOURS["water"], linewidth=0.0, zorder=1)
-        _draw_surface(canvas, whole, level, side)
-    if case.silt is not None and case.silt.depth > 0.0:
-        silt = beside(whole, base + case.silt.depth, far, "left")
-        canvas.fill(silt, facecolor=COLOURS["silt"], edgecolor="#8A6D1B", hatch="...", linewidth=0.5, zorder=1.2)
-        if canvas.length(base + 0.5 * case.silt.depth) > canvas.axes.get_ylim()[0]:
-            place = [left - 0.3 * canvas.size, base + 0.2 * case.silt.depth]
-            canvas.label("silt", place, "#6B5310", first=(0, 0))
-    if case.ice is not None and case.reservoir is not None:
-        ice = beside(whole, base + case.reservoir.depth, far, "left") - shapely.box(
-            left - 3.0 * far, base - far, right + far, base + case.reservoir.depth - 2.0 * case.ice.depth
-        )
-        canvas.fill(ice, facecolor="white", edgecolor="#6A4C93", hatch="xxxx", linewidth=0.5, zorder=1.3)
-    ground = shapely.box(left - far, base - 0.03 * canvas.size, right + far, base)
-    canvas.fill(ground, facecolor="white", edgecolor="#777777", hatch="////", linewidth=0.0, zorder=1)
-    canvas.line([[left - far, base], [right + far, base]], color="#555555", linewidth=0.8, zorder=1.5)
-    outline = {"edgecolor": "#222222", "linewidth": 1.1, "zorder": 2}
-    canvas.fill(whole, facecolor=COLOURS["concrete below"], **outline)
-    canvas.fill(section.polygon, facecolor=COLOURS["concrete"], **outline)
-    for ring in (shapely.get_coordinates(whole.exterior), np.vstack([section.polygon, section.polygon[:1]])):
-        canvas.keep_off(ring)
+        if water is not None and water.depth:
+            _draw_surface(canvas, whole, base + water.depth, side)
+    deep = 0.0 if case.silt is None else case.silt.depth
+    if deep and canvas.length(base + 0.5 * deep) > canvas.axes.get_ylim()[0]:
+        canvas.label("silt", [left - 0.3 * canvas.size, base + 0.2 * deep], "#6B5310", first=(0, 0))
 
 
 def _draw_surface(canvas: Canvas, whole: shapely.Polygon, level: float, side: str) -> None:
@@ -201,52 +200,26 @@ def draw_anchors(canvas: Canvas, case: Case) -> Floats | None:
     return ends[0] if ends else None
 
 
-def draw_dimensions(canvas: Canvas, case: Case, units: Units, below: float, *, small: bool = False) -> None:
+def draw_dimensions(canvas: Canvas, case: Case, below: float, *, small: bool = False) -> None:
     """Draw heights, widths and depths of water; `below` is how deep the uplift diagram is [m]. A small drawing has no
     room for those of crack and tailwater."""
-    section, whole = case.cut, case.outline
+    section, whole, size = case.cut, case.outline, canvas.size
     left, base, right, crest = whole.bounds
-    size, length = canvas.size, units.scale("length")
-
-    def length_text(value: float) -> str:
-        return f"{length(value):.4g} {length.unit}"
-
     corners = shapely.get_coordinates(whole.exterior)[:-1]
-    top = corners[corners[:, 1] == crest]
-    canvas.dimension(
-        [top[:, 0].max(), crest],
-        [top[:, 0].max(), base],
-        length_text(crest - base),
-        shift=[right - top[:, 0].max() + 0.16 * size, 0.0],
-    )
-    if np.ptp(top[:, 0]) > 0.0:
-        canvas.dimension(
-            [top[:, 0].min(), crest],
-            [top[:, 0].max(), crest],
-            length_text(float(np.ptp(top[:, 0]))),
-            shift=[0.0, 0.07 * size],
-        )
-    foot = corners[corners[:, 1] == base]
-    if np.ptp(foot[:, 0]) > 0.0:
+    top, foot = (corners[corners[:, 1] == level, 0] for level in (crest, base))
+    canvas.dimension([top.max(), crest], [top.max(), base], [right - top.max() + 0.16 * size, 0.0])
+    if np.ptp(top) > 0.0:
+        canvas.dimension([top.min(), crest], [top.max(), crest], [0.0, 0.07 * size])
+    if np.ptp(foot) > 0.0:
         # Below the uplift diagram, as far as that comes out of the dam.
         lowest = min(section.heel[1], section.toe[1]) - base
         drop = -(0.1 * size + max(0.0, below - lowest))
-        canvas.dimension(
-            [foot[:, 0].min(), base],
-            [foot[:, 0].max(), base],
-            length_text(float(np.ptp(foot[:, 0]))),
-            shift=[0.0, drop],
-        )
+        canvas.dimension([foot.min(), base], [foot.max(), base], [0.0, drop])
     if section.crack_elevation > base and not small:
-        canvas.dimension(
-            [section.toe[0], base],
-            section.toe,
-            length_text(section.toe[1] - base),
-            shift=[right - section.toe[0] + 0.07 * size, 0.0],
-        )
+        canvas.dimension([section.toe[0], base], section.toe, [right - section.toe[0] + 0.07 * size, 0.0])
     if case.reservoir is not None and case.reservoir.depth:
         at = left - 0.45 * size
-        canvas.dimension([at, base], [at, base + case.reservoir.depth], length_text(case.reservoir.depth))
+        canvas.dimension([at, base], [at, base + case.reservoir.depth])
     if case.tailwater is not None and case.tailwater.depth and not small:
         at = right + 0.28 * size
-        canvas.dimension([at, base], [at, base + case.tailwater.depth], length_text(case.tailwater.depth))
+        canvas.dimension([at, base], [at, base + case.tailwater.depth])

@@ -71,7 +71,7 @@ def _draw_section(axes: Axes, case: Case, units: Units) -> None:
     canvas.look_at(*corners(case, canvas.size, below=0.18))
     draw_bodies(canvas, case)
     anchored = draw_anchors(canvas, case)
-    draw_dimensions(canvas, case, units, 0.0, small=True)
+    draw_dimensions(canvas, case, 0.0, small=True)
     draw_crack(canvas, case, small=True)
     draw_further(canvas, case)
     draw_drains(canvas, case)
