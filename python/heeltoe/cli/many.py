@@ -134,14 +134,7 @@ class Suite:
 
     def options(self) -> dict[str, Any]:
         """Return what needs a suite."""
-        return {
-            "--sa": self.sa,
-            "--match": self.match,
-            "--target": self.target,
-            "--judge": self.judge,
-            "--vertical": self.vertical,
-            "--resume": self.resume,
-        }
+        return {f"--{name}": value for name, value in vars(self).items() if name != "motions"}
 
     def fields(self, pga: str | None) -> dict[str, Any]:
         """Return the fields of the block `[suite]` that are given."""
