@@ -78,7 +78,7 @@ def test_the_evidence_of_an_elastic_dam_is_carried_over():
 
 def test_a_curve_that_turns_is_said_to_and_crosses_more_than_once():
     def points(*results):
-        return [Point(float(k), result, 0.0, True, "", "ok") for k, result in enumerate(results)]
+        return [Point(value=k, result_m=result, met=True, sign="", outcome="ok") for k, result in enumerate(results)]
 
     assert _goes_one_way(points(0.0, 0.1, 0.2, None))
     assert _goes_one_way(points(0.3, 0.1, 0.1001, 0.0))

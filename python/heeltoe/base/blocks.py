@@ -4,6 +4,8 @@ JSON, JSON schema, ``heeltoe explain``, tables of the documentation, editors and
 
     class Penetration(Block):
         watched: Annotated[float, Number("Deepest of a watched node into the other face.", "m")]
+
+What follows from other fields is a property with such an annotation, and stands behind them.
 """
 
 from __future__ import annotations
@@ -86,14 +88,17 @@ class Entry(NamedTuple):
 
 @cache
 def entries(kind: type) -> tuple[Entry, ...]:
-    """Return the fields of a block that the JSON has, in their order: those with a :class:`Number`."""
+    """Return what the JSON has of a block, in its order: fields, then properties, with a :class:`Number`."""
     hints = get_type_hints(kind, include_extras=True)
+    entries = {item.name: hints[item.name] for item in fields(kind)}
+    for name, thing in vars(kind).items():
+        if isinstance(thing, property) and str(thing.fget.__annotations__.get("return")).startswith("Annotated"):
+            entries[name] = get_type_hints(thing.fget, include_extras=True)["return"]
     rows = []
-    for item in fields(kind):
-        hint = hints[item.name]
+    for name, hint in entries.items():
         numbers = [extra for extra in get_args(hint)[1:] if isinstance(extra, Number)] if _annotated(hint) else []
         if numbers:
-            rows.append(Entry(item.name, get_args(hint)[0], numbers[0]))
+            rows.append(Entry(name, get_args(hint)[0], numbers[0]))
     return tuple(rows)
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
+from typing import Annotated
 
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.blocks import Block, Number
 
 # What is so short beside the whole is no side.
 _NOTHING = 1e-9
@@ -18,28 +19,15 @@ _MOST = 8
 _Corner = tuple[float, float]
 
 
-@dataclass(frozen=True)
-class Piece:
-    """A rectangle, a triangle or another quadrilateral.
+class Piece(Block):
+    """A rectangle, a triangle or another quadrilateral."""
 
-    Attributes
-    ----------
-    shape
-        "rectangle", "triangle" or "quadrilateral".
-    width_m, height_m
-        Horizontal and upright side; of a quadrilateral its mean height.
-    area_m2
-        Its area.
-    x_m, z_m
-        Of its centroid, downstream and up.
-    """
-
-    shape: str
-    width_m: float
-    height_m: float
-    area_m2: float
-    x_m: float
-    z_m: float
+    shape: Annotated[str, Number('"rectangle", "triangle" or "quadrilateral".')]
+    width_m: Annotated[float, Number("Horizontal side.", "m")]
+    height_m: Annotated[float, Number("Upright side; of a quadrilateral its mean height.", "m")]
+    area_m2: Annotated[float, Number("Its area.", "m²")]
+    x_m: Annotated[float, Number("Of its centroid, downstream.", "m")]
+    z_m: Annotated[float, Number("Of its centroid, up.", "m")]
 
 
 def pieces(polygon: Floats) -> tuple[Piece, ...]:
@@ -92,4 +80,4 @@ def _piece(shape: str, width: float, height: float, corners: tuple[_Corner, ...]
     cross = x * np.roll(z, -1) - np.roll(x, -1) * z
     area = float(cross.sum()) / 2.0
     middle = [float(((axis + np.roll(axis, -1)) * cross).sum()) / (6.0 * area) for axis in (x, z)]
-    return Piece(shape, width, height, area, *middle)
+    return Piece(shape=shape, width_m=width, height_m=height, area_m2=area, x_m=middle[0], z_m=middle[1])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from heeltoe.base.blocks import Block, Number
 from heeltoe.units.parse import Acceleration
@@ -55,13 +55,15 @@ class LimitCheck(Block):
     ] = None
 
     @property
-    def unit(self) -> str:
-        """In what it is counted: m, rad or g."""
+    def unit(self) -> Annotated[str, Number("In what result and limit are counted: m, rad or g.")]:
+        """In what it is counted."""
         return UNITS.get(self.name, "m")
 
     @property
-    def utilisation(self) -> float | None:
-        """The result over what is allowed; None where nothing is allowed."""
+    def utilisation(
+        self,
+    ) -> Annotated[float | None, Number("The result over what is allowed; null where nothing is allowed.")]:
+        """The result over what is allowed."""
         return self.value / self.allowed if self.allowed else None
 
     @property
@@ -70,19 +72,16 @@ class LimitCheck(Block):
         return LABELS[self.name]
 
     @property
-    def met(self) -> bool:
-        """Whether the dam holds, and the result is within the limit."""
+    def met(self) -> Annotated[bool, Number("Whether the dam holds, and the result is within the limit.")]:
+        """Whether the limit is kept."""
         return not self.failed and self.value <= self.allowed
 
     @property
-    def certain(self) -> bool:
-        """Whether the limit is met, or not, wherever within its uncertainty the result lies."""
+    def certain(
+        self,
+    ) -> Annotated[bool, Number("Whether that is so wherever within its uncertainty the result lies.")]:
+        """Whether the uncertainty leaves no doubt."""
         return self.failed or abs(self.value - self.allowed) > self.uncertainty or not self.uncertainty
-
-    def to_json(self) -> dict[str, Any]:
-        """Return its fields, its unit, how much of the limit is used, and whether it is met, and for certain."""
-        more = {"unit": self.unit, "utilisation": self.utilisation, "met": self.met, "certain": self.certain}
-        return {**super().to_json(), **more}
 
 
 def check_limits(limits: Limits, response: Response) -> tuple[LimitCheck, ...]:

@@ -171,6 +171,10 @@ class Sentence:
     def __str__(self) -> str:
         return self.text()
 
+    def to_json(self) -> str:
+        """Return what it says in SI."""
+        return self.text()
+
 
 def written(template: str, units: str, /, **quantities: Any) -> str:
     """Return what a sentence with these quantities says in some units, see :class:`Sentence`."""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from typing import Annotated
 
+from heeltoe.base.blocks import Block, Number
 from heeltoe.case.model import Case
 from heeltoe.models.statics.criteria import Criterion
 from heeltoe.models.statics.load_case import LoadCase
@@ -16,56 +17,48 @@ _ROUNDING = 1e-9
 _ZONES = {1.0 / 6.0: "the middle third", 1.0 / 4.0: "the middle half", 1.0 / 2.0: "the base"}
 
 
-@dataclass(frozen=True)
-class Check:
-    """A requirement and what is there.
+class Check(Block):
+    """A requirement and what is there."""
 
-    Attributes
-    ----------
-    load_case
-        Name of the load case.
-    name
-        "equilibrium", "sliding factor", "flotation factor", "resultant", "compression" or, by a user's own criteria,
-        "overturning factor".
-    value, required
-        Factors; of the resultant its distance from the middle of the contact over the width of the contact; of the
-        compression the stress over the strength. None where there is no such number.
-    at_least
-        Whether the value must be at least, not at most, the required one.
-    met
-        Whether it is.
-    source
-        Document and paragraph.
-    note
-        What a reader must know about the required value.
-    sentence
-        All this in words, with by how much.
-    """
-
-    load_case: str
-    name: str
-    value: float | None
-    required: float | None
-    at_least: bool
-    met: bool
-    source: str
-    note: str
-    sentence: Sentence
+    load_case: Annotated[str, Number("Name of the load case.")]
+    name: Annotated[
+        str,
+        Number(
+            '"equilibrium", "sliding factor", "flotation factor", "resultant", "compression" or, by a user\'s own '
+            'criteria, "overturning factor".'
+        ),
+    ]
+    value: Annotated[
+        float | None,
+        Number(
+            "What there is: a factor, the distance of the resultant from the middle of the contact over its width, or "
+            "a stress over the strength; null where there is none."
+        ),
+    ]
+    required: Annotated[float | None, Number("What is asked for, in the same measure; null where nothing is.")]
+    at_least: Annotated[bool, Number("Whether the value must be at least, not at most, the required one.")]
+    met: Annotated[bool, Number("Whether it is.")]
+    source: Annotated[str, Number("Document and paragraph.")] = "equilibrium"
+    note: Annotated[str, Number("What a reader must know about the required value.")] = ""
+    sentence: Annotated[Sentence, Number("All this in words, with by how much.")]
 
     @property
-    def margin(self) -> float | None:
-        """What is there over what is asked for, capacity over demand: 1 just meets it, 0 where the block does not
-        stand; None where there is nothing to compare."""
+    def margin(
+        self,
+    ) -> Annotated[
+        float | None,
+        Number(
+            "What is there over what is asked for, capacity over demand: 1 just meets it, 0 where the block does not "
+            "stand; null where there is nothing to compare."
+        ),
+    ]:
+        """Capacity over demand."""
         if self.value is None or self.required is None:
             return None if self.met else 0.0
         if self.at_least:
             return self.value / self.required
         # What is far inside leaves a margin as large as numbers of a table may be.
         return self.required / max(self.value, self.required * 1e-3)
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain numbers and strings."""
-        return {**vars(self), "margin": self.margin, "sentence": str(self.sentence)}
 
 
 def check_case(outcome: LoadCase, case: Case) -> tuple[Check, ...]:
@@ -90,7 +83,13 @@ def check_case(outcome: LoadCase, case: Case) -> tuple[Check, ...]:
 def fallen(words: str, **quantities: float) -> Check:
     """Return the check of a block that the earthquake leaves nowhere to stand, as the words say."""
     text = Sentence.of(f"post-seismic: {words}", **quantities)
-    return Check("post-seismic", "equilibrium", None, None, True, False, "equilibrium", "", text)
+    return _stands("post-seismic", text, met=False)
+
+
+def _stands(load_case: str, sentence: Sentence, *, met: bool) -> Check:
+    return Check(
+        load_case=load_case, name="equilibrium", value=None, required=None, at_least=True, met=met, sentence=sentence
+    )
 
 
 def _equilibrium(outcome: LoadCase) -> Check:
@@ -111,9 +110,8 @@ def _equilibrium(outcome: LoadCase) -> Check:
             end = "toe" if eccentricity > 0.0 else "heel"
             words += f"; the resultant is {{away_m:.2f m}} {'beyond' if beyond > 0.0 else 'inside'} the {end}"
             quantities["away_m"] = abs(beyond)
-    met = outcome.outcome == "stands"
     sentence = Sentence.of("{load_case}: " + words, load_case=outcome.name, **quantities)
-    return Check(outcome.name, "equilibrium", None, None, True, met, "equilibrium", "", sentence)
+    return _stands(outcome.name, sentence, met=outcome.outcome == "stands")
 
 
 def _factor(outcome: LoadCase, row: Criterion) -> Check:
@@ -184,7 +182,17 @@ def _check(
     outcome: LoadCase, name: str, value: float | None, row: Criterion, met: bool, words: str, **quantities: float
 ) -> Check:
     sentence = Sentence.of("{load_case}: " + words, load_case=outcome.name, source=row.source, **quantities)
-    return Check(outcome.name, name, value, row.required, row.at_least, met, row.source, row.note, sentence)
+    return Check(
+        load_case=outcome.name,
+        name=name,
+        value=value,
+        required=row.required,
+        at_least=row.at_least,
+        met=met,
+        source=row.source,
+        note=row.note,
+        sentence=sentence,
+    )
 
 
 def _digits(difference: float) -> int:

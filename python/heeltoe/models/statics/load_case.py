@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict, dataclass, field
-from typing import Any, NamedTuple
+from dataclasses import dataclass, field
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
+from heeltoe.base.blocks import Block, Number, plain_json
 from heeltoe.case.model import Case
 from heeltoe.geometry.pieces import Piece, pieces
 from heeltoe.mechanics.block import ROUNDING_OF_FORCES, across_crack
@@ -20,146 +21,171 @@ from heeltoe.models.statics.sheet import Sheet, sheet
 from heeltoe.models.statics.water import StillWater
 from heeltoe.units.sentences import Sentence
 
+_NEWTON, _MOMENT = "N per metre of dam", "N m per metre of dam"
 
-@dataclass(frozen=True)
-class LoadCase:
+
+class ForceNumbers(Block):
+    """A force on the block, with its arms from the heel of the crack."""
+
+    name: Annotated[str, Number("What exerts the force.")]
+    horizontal_n: Annotated[float, Number("Its horizontal part, positive downstream.", _NEWTON)]
+    height_m: Annotated[
+        float | None,
+        Number("At which that acts; null where there is none, or where the pieces of the force are a couple.", "m"),
+    ]
+    vertical_n: Annotated[float, Number("Its vertical part, positive upward.", _NEWTON)]
+    distance_m: Annotated[float | None, Number("At which that acts, downstream of the heel; null as above.", "m")]
+    moment_about_heel_nm: Annotated[
+        float, Number("Moment about the heel of the crack, positive counter-clockwise.", _MOMENT)
+    ]
+    moment_about_toe_nm: Annotated[float, Number("Moment about the toe of the contact.", _MOMENT)]
+    source: Annotated[Sentence, Number("Where the force comes from.")]
+
+
+class LoadCase(Block):
     """What one case of loads does to the block above the crack. Per metre of dam, SI.
 
     Attributes
     ----------
-    name
-        "usual", "flood", "pseudo-static downstream", "pseudo-static upstream" (the way the block is pushed; with a
-        vertical coefficient ", lifting" or ", pressing" stands behind) or "post-seismic".
-    loads
-        What the criteria take it for: "usual", "unusual", "extreme", "earthquake", "post-earthquake".
-    forces
-        One by one: horizontal downstream, vertical upward, moment about the heel counter-clockwise; the uplift as it is
-        with the crack open as far as found.
-    outcome
-        "stands", "cracks through", "floats" or "slid off": only the first has stresses.
-    normal_force_n, shear_force_n
-        Across the crack, uplift taken off, and along it, positive downstream.
-    friction
-        Coefficient used.
-    cohesive_force_n
-        Cohesion on what is bonded, closed and in compression.
-    sliding_factor
-        (cohesive force + friction times normal force) over shear force; None where nothing pushes. Of a crack with
-        kinks that along the straight line from heel to toe, or that on its pieces where it is smaller.
-    pieces_bear
-        What the pieces of a crack with kinks bear: "more" or "less" than friction on that straight line, or "any push"
-        until they shear off; "" of a straight crack, where nothing pushes, and of faces that a slip has moved apart.
-    sliding_factor_on_pieces
-        That on them, where they bear more or less; None elsewhere.
-    steepest_rise_rad
-        Of the closed pieces, against the straight line, in the direction in which the block is pushed; zero where
-        `pieces_bear` is empty.
-    overturning_factor, overturning_about
-        Stabilising over overturning moments about the end of the contact that the forces push to; each force counts
-        as a whole on the side to which it turns the block. None where nothing overturns.
-    flotation_factor
-        Forces down over forces up; None where nothing pushes up.
-    resultant_from_heel_m
-        Where the normal force acts; None without one.
-    resultant_zone
-        "middle third", "middle half", "base" of the contact, or "outside".
-    heel_stress_pa, toe_stress_pa
-        Normal stress at the ends of what is closed, compression positive, water pressure taken off.
-    contact_from_m, contact_to_m
-        Where the block can stand, from its heel: all of the crack but what a slip has left.
-    cracked_length_m, cracked_from
-        How far the contact is open, from "heel" or "toe".
-    compressed_length_m
-        How much of it is in compression.
-    iterations
-        Of the search for the cracked length.
-    assumptions
-        What was taken for granted, a sentence each.
     sources
         Where the forces come from, by their names.
-    governs
-        Names of the checks of which this is the worse sign of a vertical seismic coefficient; None where there is no
-        other sign, and all checks are its own.
     ends_m
         Ends of the contact, each downstream of the heel of the crack and above it: its heel and its toe.
-    pressures
-        Of the water in the crack as far as it is found open: distance from the heel of the crack [m] and pressure
-        [Pa], straight in between; twice the same distance is a jump.
-    pieces
-        Rectangles and triangles of the section above the crack, counted from its heel, for taking its weight by hand;
-        nothing where it is one, or more than anyone adds.
     """
 
-    name: str
-    loads: Loads
-    forces: tuple[Resultant, ...]
-    outcome: str
-    normal_force_n: float
-    shear_force_n: float
-    friction: float
-    cohesive_force_n: float
-    sliding_factor: float | None
-    overturning_factor: float | None
-    overturning_about: str
-    flotation_factor: float | None
-    resultant_from_heel_m: float | None
-    resultant_zone: str
-    heel_stress_pa: float | None
-    toe_stress_pa: float | None
-    contact_from_m: float
-    contact_to_m: float
-    cracked_length_m: float
-    cracked_from: str
-    compressed_length_m: float
-    iterations: int
-    assumptions: tuple[Sentence, ...]
+    name: Annotated[
+        str,
+        Number(
+            '"usual", "flood", "pseudo-static downstream", "pseudo-static upstream" (the way the block is pushed; with '
+            'a vertical coefficient ", lifting" or ", pressing" stands behind) or "post-seismic".'
+        ),
+    ]
+    loads: Annotated[
+        Loads,
+        Number('What the criteria take it for: "usual", "unusual", "extreme", "earthquake", "post-earthquake".'),
+    ]
+    forces: Annotated[
+        tuple[Resultant, ...], Number("One by one; the uplift as it is with the crack open as far as found.")
+    ]
+    outcome: Annotated[str, Number('"stands", "cracks through", "floats" or "slid off": only the first has stresses.')]
+    normal_force_n: Annotated[float, Number("Force across the crack, uplift taken off.", _NEWTON)]
+    shear_force_n: Annotated[float, Number("Force along the crack, positive downstream.", _NEWTON)]
+    friction: Annotated[float, Number("Coefficient used.")]
+    cohesive_force_n: Annotated[float, Number("Cohesion on what is bonded, closed and in compression.", _NEWTON)]
+    sliding_factor: Annotated[
+        float | None,
+        Number(
+            "(cohesive force + friction times normal force) over shear force; null where nothing pushes. Of a crack "
+            "with kinks that along the straight line from heel to toe, or that on its pieces where it is smaller."
+        ),
+    ]
+    overturning_factor: Annotated[
+        float | None,
+        Number(
+            "Stabilising over overturning moments about the end of the contact that the forces push to, each force as "
+            "a whole on the side to which it turns the block; null where nothing overturns."
+        ),
+    ]
+    overturning_about: Annotated[str, Number("About which end: heel or toe.")]
+    flotation_factor: Annotated[float | None, Number("Forces down over forces up; null where nothing pushes up.")]
+    resultant_from_heel_m: Annotated[float | None, Number("Where the normal force acts; null without one.", "m")]
+    resultant_zone: Annotated[str, Number('"middle third", "middle half", "base" of the contact, or "outside".')]
+    heel_stress_pa: Annotated[
+        float | None,
+        Number("Normal stress at the heel of what is closed: compression positive, water taken off.", "Pa"),
+    ]
+    toe_stress_pa: Annotated[
+        float | None,
+        Number("Normal stress at the toe of what is closed: compression positive, water taken off.", "Pa"),
+    ]
+    contact_from_m: Annotated[float, Number("Where the contact begins, from the heel of the crack.", "m")]
+    contact_to_m: Annotated[float, Number("Where it ends: the whole crack but what a slip has left.", "m")]
+    cracked_length_m: Annotated[float, Number("How far the contact is open.", "m")]
+    cracked_from: Annotated[str, Number("From which end it is open: heel or toe.")]
+    compressed_length_m: Annotated[float, Number("How much of it is in compression.", "m")]
+    iterations: Annotated[int, Number("Of the search for the cracked length.")]
+    assumptions: Annotated[tuple[Sentence, ...], Number("What was taken for granted, a sentence each.")]
     sources: Mapping[str, Sentence]
     ends_m: tuple[tuple[float, float], tuple[float, float]]
-    pressures: tuple[tuple[float, float], ...]
-    governs: tuple[str, ...] | None = None
-    pieces: tuple[Piece, ...] = ()
-    pieces_bear: str = ""
-    sliding_factor_on_pieces: float | None = None
-    steepest_rise_rad: float = 0.0
+    pressures: Annotated[
+        tuple[tuple[float, float], ...],
+        Number(
+            "Of the water in the crack as far as it is found open: distance from the heel of the crack [m] and "
+            "pressure [Pa], straight in between; twice the same distance is a jump."
+        ),
+    ]
+    governs: Annotated[
+        tuple[str, ...] | None,
+        Number(
+            "Names of the checks of which this is the worse sign of a vertical seismic coefficient; null where there "
+            "is no other sign, and all checks are its own."
+        ),
+    ] = None
+    pieces: Annotated[
+        tuple[Piece, ...],
+        Number(
+            "Rectangles and triangles of the section above the crack, counted from its heel, for taking its weight by "
+            "hand; nothing where it is one, or more than anyone adds."
+        ),
+    ] = ()
+    pieces_bear: Annotated[
+        str,
+        Number(
+            'What the pieces of a crack with kinks bear: "more" or "less" than friction on that straight line, or "any '
+            'push" until they shear off; "" of a straight crack, where nothing pushes, and of faces that a slip has '
+            "moved apart."
+        ),
+    ] = ""
+    sliding_factor_on_pieces: Annotated[
+        float | None, Number("That on them, where they bear more or less; null elsewhere.")
+    ] = None
+    steepest_rise_rad: Annotated[
+        float,
+        Number(
+            "Of the closed pieces, against the straight line, in the direction in which the block is pushed; zero "
+            "where `pieces_bear` is empty.",
+            "rad",
+        ),
+    ] = 0.0
 
     def sheet(self, about: str = "heel") -> Sheet:
         """Return the forces one by one with arms, moments and sum about the "heel" or the "toe" of the contact."""
         return sheet(self.forces, self.sources, about, self.ends_m[("heel", "toe").index(about)], self.pieces)
 
     @property
-    def contact_width_m(self) -> float:
-        """Length of the contact."""
+    def contact_width_m(self) -> Annotated[float, Number("Length of the contact.", "m")]:
+        """Length of the contact [m]."""
         return self.contact_to_m - self.contact_from_m
 
     @property
-    def eccentricity_m(self) -> float | None:
-        """Distance of the resultant from the middle of the contact, positive downstream; None without one."""
+    def eccentricity_m(
+        self,
+    ) -> Annotated[
+        float | None,
+        Number("Distance of the resultant from the middle of the contact, positive downstream; null without one.", "m"),
+    ]:
+        """Distance of the resultant from the middle of the contact [m]."""
         if self.resultant_from_heel_m is None:
             return None
         return self.resultant_from_heel_m - (self.contact_from_m + self.contact_to_m) / 2.0
 
     def to_json(self) -> dict[str, Any]:
         """Return plain numbers, strings and lists."""
-        written = asdict(self)
-        written["pressures"] = [list(point) for point in self.pressures]
-        for name in ("sources", "ends_m"):
-            del written[name]
         from_heel = sheet(self.forces, self.sources, "heel", (0.0, 0.0))
-        written["forces"] = [
-            {
-                "name": force.name,
-                "horizontal_n": force.horizontal,
-                "height_m": line.height_m,
-                "vertical_n": force.vertical,
-                "distance_m": line.distance_m,
-                "moment_about_heel_nm": force.moment,
-                "moment_about_toe_nm": turned.moment_nm,
-                "source": str(line.source),
-            }
+        forces = [
+            ForceNumbers(
+                name=force.name,
+                horizontal_n=force.horizontal,
+                height_m=line.height_m,
+                vertical_n=force.vertical,
+                distance_m=line.distance_m,
+                moment_about_heel_nm=force.moment,
+                moment_about_toe_nm=turned.moment_nm,
+                source=line.source,
+            )
             for force, line, turned in zip(self.forces, from_heel.lines, self.sheet("toe").lines, strict=True)
         ]
-        extra = {"contact_width_m": self.contact_width_m, "eccentricity_m": self.eccentricity_m}
-        return {**written, **extra, "assumptions": [str(assumption) for assumption in self.assumptions]}
+        return {**super().to_json(), "forces": plain_json(forces)}
 
 
 @dataclass(frozen=True, eq=False)

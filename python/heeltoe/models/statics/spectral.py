@@ -4,59 +4,63 @@ static correction for all higher ones (Fenves and Chopra 1987)."""
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Annotated
 
+from heeltoe.base.arrays import Floats
+from heeltoe.base.blocks import Block, Number
 from heeltoe.mechanics.loads import Resultant
 
+_NEWTON = "N per metre of dam"
 
-@dataclass(frozen=True)
-class SpectralDemand:
-    """Forces on what is above a section. Per metre of dam, SI.
 
-    Attributes
-    ----------
-    spectrum
-        Name of the motion or of the design spectrum.
-    period_s, damping_ratio
-        Of the first mode of the dam without a crack, with its water and its rock; the damping is the effective one.
-    pseudo_acceleration_m_s2
-        Of the spectrum at that period and damping.
-    peak_ground_acceleration_m_s2
-        Of the spectrum at period zero.
-    first_mode
-        Downstream, upward, moment about the heel counter-clockwise, and what the upward part adds to the moment, at
-        the first mode's largest push downstream [N, N m per m].
-    static_correction
-        The same of all higher modes.
-    """
+class Push(Block):
+    """Forces on what is above a section."""
 
-    spectrum: str
-    period_s: float
-    damping_ratio: float
-    pseudo_acceleration_m_s2: float
-    peak_ground_acceleration_m_s2: float
-    first_mode: tuple[float, float, float, float]
-    static_correction: tuple[float, float, float, float]
+    horizontal_n: Annotated[float, Number("Push downstream.", _NEWTON)]
+    vertical_n: Annotated[float, Number("Push upward.", _NEWTON)]
+    moment_about_heel_nm: Annotated[
+        float, Number("Moment about the heel of the crack, positive counter-clockwise.", "N m per metre of dam")
+    ]
+    #: What the upward push adds to the moment.
+    lift_moment_nm: float
+
+    @classmethod
+    def of(cls, forces: Floats) -> Push:
+        """Return a push of its four numbers (4,)."""
+        across, up, moment, lift = forces.tolist()
+        return cls(horizontal_n=across, vertical_n=up, moment_about_heel_nm=moment, lift_moment_nm=lift)
+
+
+class SpectralDemand(Block):
+    """Forces of an earthquake on what is above a section, at the first mode's largest push downstream."""
+
+    spectrum: Annotated[str, Number("Name of the motion or of the design spectrum.")]
+    period_s: Annotated[
+        float, Number("Period of the first mode of the dam without a crack, with its water and its rock.", "s")
+    ]
+    damping_ratio: Annotated[float, Number("Effective damping ratio of that mode.")]
+    pseudo_acceleration_m_s2: Annotated[float, Number("Ordinate of the spectrum at that period and damping.", "m/s²")]
+    peak_ground_acceleration_m_s2: Annotated[float, Number("Ordinate of the spectrum at period zero.", "m/s²")]
+    first_mode: Annotated[
+        Push, Number("Push of inertia and moving water on what is above the crack, by the first mode.")
+    ]
+    static_correction: Annotated[Push, Number("The same of all higher modes, which follow the ground at once.")]
+
+    @property
+    def together(
+        self,
+    ) -> Annotated[Push, Number("Root of the sum of squares of both, with the signs of the first mode.")]:
+        """Both together."""
+        first, rest = vars(self.first_mode), vars(self.static_correction)
+        return Push(**{name: math.copysign(math.hypot(value, rest[name]), value) for name, value in first.items()})
 
     def push(self) -> Resultant:
-        """Return both together downstream: the root of the sum of squares, with the signs of the first mode."""
-        across, up, moment, lift = (
-            math.copysign(math.hypot(first, rest), first)
-            for first, rest in zip(self.first_mode, self.static_correction, strict=True)
+        """Return both together as a force."""
+        push = self.together
+        return Resultant(
+            "response spectrum",
+            push.horizontal_n,
+            push.vertical_n,
+            push.moment_about_heel_nm,
+            lift_moment=push.lift_moment_nm,
         )
-        return Resultant("response spectrum", across, up, moment, lift_moment=lift)
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain numbers and strings."""
-        push = self.push()
-        numbers = asdict(self)
-        for name in ("first_mode", "static_correction"):
-            across, up, moment, _ = numbers.pop(name)
-            numbers[name] = {"horizontal_n": across, "vertical_n": up, "moment_about_heel_nm": moment}
-        together = {
-            "horizontal_n": push.horizontal,
-            "vertical_n": push.vertical,
-            "moment_about_heel_nm": push.moment,
-        }
-        return {**numbers, "together": together}

@@ -12,7 +12,7 @@ from heeltoe.errors.error import InputError, expect
 from heeltoe.models.flexible.surroundings.first_mode import first_mode
 from heeltoe.models.statics.joints import Joints
 from heeltoe.models.statics.model import with_demand
-from heeltoe.models.statics.spectral import SpectralDemand
+from heeltoe.models.statics.spectral import Push, SpectralDemand
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.motion.targets import target_of
 
@@ -84,13 +84,12 @@ def _demand(case: Case, spectrum: _Spectrum, field: str) -> SpectralDemand:
     name, ordinate, peak = spectrum
     mode = first_mode(case, field)
     acceleration = ordinate(mode.period, mode.damping)
-    first, rest = acceleration * mode.push, peak * (mode.rigid - mode.push)
     return SpectralDemand(
-        name,
-        mode.period,
-        mode.damping,
-        acceleration,
-        peak,
-        (float(first[0]), float(first[1]), float(first[2]), float(first[3])),
-        (float(rest[0]), float(rest[1]), float(rest[2]), float(rest[3])),
+        spectrum=name,
+        period_s=mode.period,
+        damping_ratio=mode.damping,
+        pseudo_acceleration_m_s2=acceleration,
+        peak_ground_acceleration_m_s2=peak,
+        first_mode=Push.of(acceleration * mode.push),
+        static_correction=Push.of(peak * (mode.rigid - mode.push)),
     )

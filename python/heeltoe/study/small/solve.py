@@ -11,13 +11,14 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from itertools import pairwise
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 import pyarrow as pa
 
+from heeltoe.base.blocks import Block, Number
 from heeltoe.base.display import Shown
 from heeltoe.case.model import Case
 from heeltoe.case.paths import bounds_of, quantity_of, value_of
@@ -44,119 +45,66 @@ _NEAR = 0.002
 _LEAST_M = 1e-6
 
 
-@dataclass(frozen=True)
-class Point:
-    """What a value of the field does.
+class Point(Block):
+    """What a value of the field does."""
 
-    Attributes
-    ----------
-    value
-        Of the field, SI.
-    result_m
-        What the limit limits [m], by the worse sign; None where the dam fails, or the run has no result.
-    uncertainty_m
-        How far it may be off by its evidence [m]; zero where it has none.
-    met
-        Whether the limit is met.
-    sign
-        The sign of the motion that governs; empty where the case says which way round it is.
-    outcome
-        How the run ends.
-    """
-
-    value: float
-    result_m: float | None
-    uncertainty_m: float
-    met: bool
-    sign: str
-    outcome: str
-
-    def to_json(self) -> dict[str, Any]:
-        """Return it by name."""
-        return dict(vars(self))
+    value: Annotated[float, Number("Of the field.")]
+    result_m: Annotated[float | None, Number("What the limit limits, by the worse sign; null without a result.", "m")]
+    uncertainty_m: Annotated[float, Number("How far that may be off by its evidence.", "m")] = 0.0
+    met: Annotated[bool, Number("Whether the limit is met.")]
+    sign: Annotated[str, Number("The sign that governs; empty where the case names it.")]
+    outcome: Annotated[str, Number("How the run ends.")]
 
 
-@dataclass(frozen=True)
-class Crossing:
-    """A value at which the limit is just met.
+class Crossing(Block):
+    """A value at which the limit is just met."""
 
-    Attributes
-    ----------
-    value
-        The end of the bracket at which the limit is met, SI.
-    give_or_take
-        How far it may be off, SI: the width of the bracket, and what the evidence of the result makes of it by the
-        slope of the curve; None where the result jumps, so that there is no slope.
-    met_at, missed_at
-        The ends of the bracket.
-    last
-        The run at `value`, with the evidence that the case asks for.
-    """
-
-    value: float
-    give_or_take: float | None
-    met_at: float
-    missed_at: float
-    last: Point
-
-    def to_json(self) -> dict[str, Any]:
-        """Return it by name."""
-        return {**vars(self), "last": self.last.to_json()}
+    value: Annotated[float, Number("The end of the bracket at which the limit is met.")]
+    give_or_take: Annotated[
+        float | None,
+        Number(
+            "How far it may be off: the width of the bracket, and what the evidence of the result makes of it by the "
+            "slope of the curve; null where the result jumps, so that there is no slope."
+        ),
+    ]
+    met_at: Annotated[float, Number("End of the bracket where the limit is met.")]
+    missed_at: Annotated[float, Number("End of the bracket where it is not.")]
+    last: Annotated[Point, Number("The run at the value, with its evidence, as one of `points`.")]
 
 
-@dataclass(frozen=True, eq=False)
-class Solved(Shown):
+class Solved(Shown, Block):
     """The values of a field at which a limit is just met.
 
     Attributes
     ----------
-    title, model
-        Of the case, and the model that answers.
-    field, quantity
-        What is solved for, and what it holds, a key of :data:`heeltoe.units.parse.DIMENSIONS`.
-    limit, allowed_m
-        The field of ``limits``, and what it allows [m].
-    points
-        The scan and the runs that closed in the crossings, in the order of their values.
-    crossings
-        In the order of their values; none where the limit is met, or not met, in the whole range.
-    one_way
-        Whether the result goes one way with the field, as far as the scan shows.
-    refused
-        Values of the scan that the case refuses.
+    quantity
+        What the field holds, a key of :data:`heeltoe.units.parse.DIMENSIONS`.
     """
 
-    title: str
-    model: str
-    field: str
+    title: Annotated[str, Number("Of the case.")]
+    model: Annotated[str, Number("Which model answers.")]
+    field: Annotated[str, Number("The field that is solved for.")]
     quantity: str
-    limit: str
-    allowed_m: float
-    points: tuple[Point, ...]
-    crossings: tuple[Crossing, ...]
-    one_way: bool
-    refused: tuple[float, ...]
-
-    @property
-    def unit(self) -> str:
-        """SI unit of the field; empty of a number."""
-        return DIMENSIONS[self.quantity].unit
+    unit: Annotated[str, Number("SI unit of its values; empty of a number.")]
+    limit: Annotated[str, Number("The field of limits that is to be just met.")]
+    allowed_m: Annotated[float, Number("What that allows.", "m")]
+    crossings: Annotated[
+        tuple[Crossing, ...],
+        Number(
+            "Values at which the limit is just met, the least first; none where it is met, or not met, in the whole "
+            "range."
+        ),
+    ]
+    one_way: Annotated[bool, Number("Whether the result goes one way with the field, as far as the scan shows.")]
+    points: Annotated[
+        tuple[Point, ...],
+        Number("The runs: the scan, and those that closed in the crossings, in the order of their values."),
+    ]
+    refused: Annotated[tuple[float, ...], Number("Values of the scan that the case refuses.")]
 
     def to_json(self) -> dict[str, Any]:
         """Return plain numbers, strings and lists."""
-        return {
-            "title": self.title,
-            "model": self.model,
-            "field": self.field,
-            "unit": self.unit,
-            "limit": self.limit,
-            "allowed_m": self.allowed_m,
-            "crossings": [crossing.to_json() for crossing in self.crossings],
-            "one_way": self.one_way,
-            "points": [point.to_json() for point in self.points],
-            "refused": list(self.refused),
-            "build": build_info(),
-        }
+        return {**super().to_json(), "build": build_info()}
 
     def to_table(self) -> pa.Table:
         """Return the runs as an Arrow table, in the order of their values."""
@@ -209,18 +157,19 @@ def solve(
         for first, second in pairwise(scan)
         if first.met != second.met
     ]
-    points = sorted(search.points.values(), key=lambda point: point.value)
+    quantity = search.axis.quantity or "number"
     return Solved(
-        case.title,
-        model,
-        field,
-        search.axis.quantity or "number",
-        limit,
-        allowed,
-        tuple(points),
-        tuple(crossings),
-        _goes_one_way(scan),
-        tuple(search.refused),
+        title=case.title,
+        model=model,
+        field=field,
+        quantity=quantity,
+        unit=DIMENSIONS[quantity].unit,
+        limit=limit,
+        allowed_m=allowed,
+        crossings=tuple(crossings),
+        one_way=_goes_one_way(scan),
+        points=tuple(sorted(search.points.values(), key=lambda point: point.value)),
+        refused=tuple(search.refused),
     )
 
 
@@ -327,14 +276,15 @@ class _Search:
                     assert last is not None
         low, high = first.value, second.value
         about = [point for point in self.points.values() if low <= point.value <= high]
-        return Crossing(met.value, _give(met, missed, last, about), met.value, missed.value, last)
+        give = _give(met, missed, last, about)
+        return Crossing(value=met.value, give_or_take=give, met_at=met.value, missed_at=missed.value, last=last)
 
     def _shifted(self, point: Point, off: float) -> Point:
         if point.result_m is None or point.uncertainty_m:
             return point
         allowed = getattr(self.case.limits, self.limit)
         result = max(point.result_m + off, 0.0)
-        return Point(point.value, result, 0.0, result <= allowed, point.sign, point.outcome)
+        return replace(point, result_m=result, met=result <= allowed)
 
     def _closed(self, first: Point, second: Point, close: float) -> tuple[Point, Point]:
         """Return the ends of a narrow bracket: where the limit is met, and where not."""
@@ -390,6 +340,13 @@ def _point(value: float, response: Response, limit: str, shift: float) -> Point:
     check = next((check for check in response.limits if check.name == limit), None)
     sign = next((way.sign for way in response.signs if way.governs), "")
     if check is None or check.failed or response.outcome not in TRUSTED:
-        return Point(value, None, 0.0, False, sign, response.outcome)
+        return Point(value=value, result_m=None, met=False, sign=sign, outcome=response.outcome)
     result = max(check.value + shift, 0.0)
-    return Point(value, result, check.uncertainty, result <= check.allowed, sign, response.outcome)
+    return Point(
+        value=value,
+        result_m=result,
+        uncertainty_m=check.uncertainty,
+        met=result <= check.allowed,
+        sign=sign,
+        outcome=response.outcome,
+    )

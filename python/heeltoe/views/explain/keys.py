@@ -8,12 +8,10 @@ import re
 from collections.abc import Iterator, Mapping
 
 from heeltoe.base.blocks import Block, Number, described
-from heeltoe.geometry.pieces import Piece
 from heeltoe.mechanics.block import StaticState
 from heeltoe.models.statics.checks import Check
-from heeltoe.models.statics.load_case import LoadCase
+from heeltoe.models.statics.load_case import ForceNumbers, LoadCase
 from heeltoe.models.statics.model import Statics
-from heeltoe.models.statics.sheet import ForceLine
 from heeltoe.models.statics.spectral import SpectralDemand
 from heeltoe.result.crest import CrestMotion
 from heeltoe.result.limits import LimitCheck
@@ -21,6 +19,7 @@ from heeltoe.result.numbers import OF_SEVERAL, BlockNumbers, Chain, ElasticCrack
 from heeltoe.result.response import Chosen, Energy, Response
 from heeltoe.result.sequence import Stage
 from heeltoe.result.write import MotionNumbers
+from heeltoe.study.small.solve import Solved
 from heeltoe.views.explain.meaning import Meaning
 from heeltoe.views.explain.pages import page_of
 from heeltoe.views.explain.result_keys import OF_A_RUN, OF_EVENTS, OF_HISTORIES, OF_STATICS, OF_STUDIES
@@ -34,12 +33,6 @@ _CLASSES: tuple[tuple[str, type, str], ...] = (
     ("", Response, _RUN),
     ("warnings[].", Notice, _RUN),
     ("", Statics, _STATICS),
-    ("response_spectrum.", SpectralDemand, _STATICS),
-    ("cases[].", LoadCase, _STATICS),
-    ("cases[].forces[].", ForceLine, _STATICS),
-    ("cases[].pieces[].", Piece, _STATICS),
-    ("checks[].", Check, _STATICS),
-    ("governing.*.", Check, _STATICS),
 )
 # Typed blocks, which say by themselves what they hold.
 _BLOCKS: tuple[tuple[str, type[Block], str], ...] = (
@@ -56,13 +49,13 @@ _BLOCKS: tuple[tuple[str, type[Block], str], ...] = (
     ("sequence[].", Stage, _RUN),
     ("signs[].", SignNumbers, _RUN),
     ("motion.", MotionNumbers, _RUN),
+    ("response_spectrum.", SpectralDemand, _STATICS),
+    ("cases[].", LoadCase, _STATICS),
+    ("cases[].forces[].", ForceNumbers, _STATICS),
+    ("checks[].", Check, _STATICS),
+    ("governing.*.", Check, _STATICS),
+    ("", Solved, "heeltoe solve --json"),
 )
-# Properties that the JSON has too.
-_PROPERTIES: dict[type, tuple[str, ...]] = {
-    Statics: ("ok",),
-    LoadCase: ("contact_width_m", "eccentricity_m"),
-    Check: ("margin",),
-}
 # Attributes that the JSON does not have, or says by keys of their own.
 _WITHOUT_KEY = {
     "gravity", "vertical", "seconds", "sources", "ends_m", "moment_nm", "dam", "parts",
@@ -74,7 +67,7 @@ def keys_of_the_json() -> Iterator[Meaning]:
     meanings: dict[str, str] = {}
     units: dict[str, str] = {}
     places: dict[str, list[str]] = {}
-    for name, number, where in numbers_of_a_run():
+    for name, number, where in numbers_of_results():
         meanings.setdefault(name, number.meaning)
         units[name] = number.unit
         places.setdefault(name, []).append(where)
@@ -100,8 +93,8 @@ def keys_of_the_json() -> Iterator[Meaning]:
         yield Meaning(name, "key of the JSON", text, unit, found_in=where, page=page_of(name, ""), parts=parts)
 
 
-def numbers_of_a_run() -> Iterator[tuple[str, Number, str]]:
-    """Walk the paths of the typed blocks of a run, with what they hold and which command writes them."""
+def numbers_of_results() -> Iterator[tuple[str, Number, str]]:
+    """Walk the paths of the typed blocks of results, with what they hold and which command writes them."""
     for above, kind, where in _BLOCKS:
         for path, number in described(kind, above):
             name = path.removeprefix("static.") if path.startswith("static.critical_acceleration_g") else path
@@ -122,16 +115,12 @@ def columns() -> Iterator[Meaning]:
 
 
 def attribute_meanings(kind: type) -> dict[str, str]:
-    """Return what a class says of its attributes: in the section of its docstring, by their own descriptions, or by
-    those of its properties."""
+    """Return what a class says of its attributes in the section of its docstring."""
     text = inspect.cleandoc(kind.__doc__ or "")
     _, _, section = text.partition("Attributes\n----------\n")
     meanings: dict[str, str] = {}
     for names, prose in re.findall(r"^(\S.*)\n((?:    .*\n?|\n)+)", section, re.MULTILINE):
         meanings |= {name.strip(): _plain(prose) for name in names.split(",")}
-    for name, thing in vars(kind).items():
-        if name in _PROPERTIES.get(kind, ()):
-            meanings[name] = _plain(thing.__doc__ or "")
     return meanings
 
 

@@ -19,7 +19,7 @@ from heeltoe.result.response import Response
 from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.small.run_table import SmallStudy
 from heeltoe.study.small.statics import statics_json
-from heeltoe.views.explain.keys import numbers_of_a_run, unit_of
+from heeltoe.views.explain.keys import numbers_of_results, unit_of
 from heeltoe.views.explain.result_keys import OF_A_RUN, OF_STATICS
 from heeltoe.views.explain.study_keys import OF_OTHERS
 from heeltoe.views.files.statics import check_rows, force_rows
@@ -127,7 +127,7 @@ def _leaves(value: Any, path: str) -> Iterator[tuple[str, Any]]:
 @cache
 def _known() -> dict[str, tuple[str, str]]:
     words = {name: ("", text) for keys in (OF_A_RUN, OF_STATICS, *OF_OTHERS.values()) for name, text in keys.items()}
-    return words | {name: (number.unit, number.meaning) for name, number, _ in numbers_of_a_run()}
+    return words | {name: (number.unit, number.meaning) for name, number, _ in numbers_of_results()}
 
 
 def _meaning(path: str) -> tuple[str, str]:
