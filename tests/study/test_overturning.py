@@ -32,9 +32,9 @@ def test_the_branch_without_impact_and_the_safe_gap_below_it():
         "overturns without impact",
         "overturns without impact",
     ]
-    ((_, low, high),) = overturning.safe_gap()
-    assert (low, high) == (pytest.approx(1.75), pytest.approx(1.7875))
-    assert overturning.least_g() == [1.0]
+    (gap,) = overturning.safe_gap
+    assert (gap.from_g, gap.to_g) == (pytest.approx(1.75), pytest.approx(1.7875))
+    assert overturning.least_g == (1.0,)
 
 
 def test_small_rotations_are_taken_as_finite():
@@ -47,8 +47,8 @@ def test_small_rotations_are_taken_as_finite():
 def test_weak_pulses_do_nothing():
     overturning = overturning_map(read_case(SLENDER), "cosine", count=3, amplitudes_g=np.array([0.1, 0.2]))
     assert (overturning.end == 0).all()
-    assert overturning.least_g() == [None, None, None]
-    assert overturning.safe_gap() == []
+    assert overturning.least_g == (None, None, None)
+    assert overturning.safe_gap == ()
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,8 @@ from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cache
 from typing import Annotated, Any, Literal, NamedTuple, Union, dataclass_transform, get_args, get_origin, get_type_hints
 
+import numpy as np
+
 
 @dataclass(frozen=True)
 class Number:
@@ -75,6 +77,8 @@ def plain_json(value: Any) -> Any:
         return {name: plain_json(item) for name, item in value.items()}
     if isinstance(value, list | tuple):
         return [plain_json(item) for item in value]
+    if isinstance(value, np.ndarray):
+        return value.tolist()
     return value
 
 

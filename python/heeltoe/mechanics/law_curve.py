@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from typing import Annotated, Any
 
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.blocks import Block, Number
 from heeltoe.case.crack.crack import Crack
 from heeltoe.case.crack.law import Law
 from heeltoe.case.model import Case
@@ -37,51 +38,19 @@ _POINTS = 241
 _BEYOND = 3.0
 
 
-@dataclass(frozen=True, eq=False)
-class LawCurve:
-    """The apparent friction of a law, strength over normal stress.
+class LawCurve(Block):
+    """The apparent friction of a law, strength over normal stress."""
 
-    Attributes
-    ----------
-    name
-        Of the law.
-    title
-        What it belongs to: a case, or numbers that only show its shape.
-    over
-        What it goes by: "slip path", "slip speed" or "normal stress".
-    at
-        (n,) of that [m, m/s or Pa].
-    friction
-        (n,) apparent friction of a crack that slips.
-    at_rest
-        Apparent friction before any slip under `normal_stress_pa`.
-    normal_stress_pa
-        Normal stress: that of the curve, or the one of the dam's static loads.
-    references
-        Where the law is from.
-    """
-
-    name: str
-    title: str
-    over: str
-    at: Floats
-    friction: Floats
-    at_rest: float
-    normal_stress_pa: float
-    references: tuple[str, ...]
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain numbers, strings and lists."""
-        return {
-            "law": self.name,
-            "title": self.title,
-            "over": self.over,
-            "at": self.at.tolist(),
-            "friction": self.friction.tolist(),
-            "at_rest": self.at_rest,
-            "normal_stress_pa": self.normal_stress_pa,
-            "references": list(self.references),
-        }
+    law: Annotated[str, Number("Name of the law.")]
+    title: Annotated[str, Number("What it belongs to: a case, or numbers that only show its shape.")]
+    over: Annotated[str, Number('What it goes by: "slip path", "slip speed" or "normal stress".')]
+    at: Annotated[Floats, Number("Places along that, in m, m/s or Pa.")]
+    friction: Annotated[Floats, Number("Apparent friction there of a crack that slips.")]
+    at_rest: Annotated[float, Number("Apparent friction before any slip under `normal_stress_pa`.")]
+    normal_stress_pa: Annotated[
+        float, Number("Normal stress: that of the curve, or the one of the dam's static loads.", "Pa")
+    ]
+    references: Annotated[tuple[str, ...], Number("Where the law is from.")]
 
 
 def sample_curve(name: str) -> LawCurve:
@@ -148,7 +117,16 @@ def _curve(crack: Crack, stress: float, title: str) -> LawCurve:
         friction, at_rest = (friction + slope) / (1.0 - slope * friction), crack.apparent_friction
         title = f"{title}; up its asperities, before they wear"
     sources = () if law is None else references_of_law(law)
-    return LawCurve(name, title, over, at, friction, at_rest, stress, sources)
+    return LawCurve(
+        law=name,
+        title=title,
+        over=over,
+        at=at,
+        friction=friction,
+        at_rest=at_rest,
+        normal_stress_pa=stress,
+        references=sources,
+    )
 
 
 def _goes_by(law: Law | None, stress: float) -> tuple[str, float]:

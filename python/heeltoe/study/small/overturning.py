@@ -8,16 +8,18 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.blocks import Block as NumbersBlock
+from heeltoe.base.blocks import Number
 from heeltoe.base.display import Shown
 from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
@@ -35,73 +37,42 @@ _PIECES = 200
 _WAIT = 12.0
 
 
-@dataclass(frozen=True, eq=False)
-class OverturningMap(Shown):
-    """Ends of a block in pulses of many frequencies and amplitudes.
+class SafeGap(NumbersBlock):
+    """Pulses that a block stands although weaker ones of the frequency overturn it."""
 
-    Attributes
-    ----------
-    title
-        Of the case.
-    pulse
-        ``sine`` (one full one), ``half-sine`` or ``cosine`` (one full one).
-    frequency_hz
-        (f,) of the pulse.
-    amplitude_g
-        (a,) of its acceleration.
-    end
-        (f, a) counting :data:`ENDS`.
-    frequency_parameter_1_s
-        p of the block under its weight about the corner it overturns most easily about: sqrt(m g R / I).
-    slenderness_rad
-        Angle at which its centroid is above that corner.
-    """
+    frequency_hz: Annotated[float, Number("Of the pulse.", "Hz")]
+    from_g: Annotated[float, Number("The least amplitude of the gap.", "g")]
+    to_g: Annotated[float, Number("The largest amplitude of the gap.", "g")]
 
-    title: str
-    pulse: str
-    frequency_hz: Floats
-    amplitude_g: Floats
-    end: NDArray[np.int8]
-    frequency_parameter_1_s: float
-    slenderness_rad: float
 
-    def safe_gap(self) -> list[tuple[float, float, float]]:
-        """Return (frequency [Hz], from, to [g]) wherever the block stands pulses that are stronger than one that
-        overturns it and weaker than another one that does."""
-        gaps = []
-        for frequency, column in zip(self.frequency_hz, self._falls(), strict=True):
-            places = np.flatnonzero(column)
-            gaps += [
-                (float(frequency), float(self.amplitude_g[before + 1]), float(self.amplitude_g[after - 1]))
-                for before, after in pairwise(places)
-                if after - before > 1
-            ]
-        return gaps
+class OverturningMap(Shown, NumbersBlock):
+    """Ends of a block in pulses of many frequencies and amplitudes."""
 
-    def least_g(self) -> list[float | None]:
-        """Return for each frequency the least amplitude [g] that overturns; None where none of the map does."""
-        return [float(self.amplitude_g[np.argmax(column)]) if column.any() else None for column in self._falls()]
-
-    def _falls(self) -> NDArray[np.bool_]:
-        return np.isin(self.end, [k for k, name in enumerate(ENDS) if name.startswith("overturns")])
+    title: Annotated[str, Number("Of the case.")]
+    pulse: Annotated[str, Number("Shape of the pulses: `sine` (one full one), `half-sine` or `cosine` (one full one).")]
+    frequency_hz: Annotated[Floats, Number("Their frequencies.", "Hz")]
+    amplitude_g: Annotated[Floats, Number("Amplitudes of their acceleration.", "g")]
+    ends: Annotated[tuple[str, ...], Number("What a pulse may do to the block, in words.")] = ENDS
+    end: Annotated[
+        NDArray[np.int8], Number("What each pulse does, by frequency and amplitude (f, a), counting `ends`.")
+    ]
+    least_g: Annotated[
+        tuple[float | None, ...],
+        Number("Of each frequency the least amplitude that overturns the block; null where none does.", "g"),
+    ]
+    safe_gap: Annotated[
+        tuple[SafeGap, ...],
+        Number("Pulses that the block stands although weaker ones of the frequency overturn it."),
+    ]
+    frequency_parameter_1_s: Annotated[
+        float,
+        Number("p of the block about the corner it overturns most easily about, the square root of m g R / I.", "1/s"),
+    ]
+    slenderness_rad: Annotated[float, Number("Angle at which its centroid is above that corner.", "rad")]
 
     def to_json(self) -> dict[str, Any]:
         """Return plain numbers, strings and lists."""
-        return {
-            "title": self.title,
-            "pulse": self.pulse,
-            "frequency_hz": self.frequency_hz.tolist(),
-            "amplitude_g": self.amplitude_g.tolist(),
-            "ends": list(ENDS),
-            "end": self.end.tolist(),
-            "least_g": self.least_g(),
-            "safe_gap": [
-                {"frequency_hz": frequency, "from_g": low, "to_g": high} for frequency, low, high in self.safe_gap()
-            ],
-            "frequency_parameter_1_s": self.frequency_parameter_1_s,
-            "slenderness_rad": self.slenderness_rad,
-            "build": build_info(),
-        }
+        return {**super().to_json(), "build": build_info()}
 
     def to_table(self) -> pa.Table:
         """Return the map as a table with a row for each pulse."""
@@ -166,15 +137,30 @@ def overturning_map(
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         ends = list(pool.map(column, frequencies_hz))
+    end = np.array(ends, dtype=np.int8)
+    hertz, sizes = (np.asarray(values, dtype=np.float64) for values in (frequencies_hz, amplitudes_g))
+    falls = np.isin(end, [k for k, name in enumerate(ENDS) if name.startswith("overturns")])
     return OverturningMap(
         title=case.title,
         pulse=pulse,
-        frequency_hz=np.asarray(frequencies_hz, dtype=np.float64),
-        amplitude_g=np.asarray(amplitudes_g, dtype=np.float64),
-        end=np.array(ends, dtype=np.int8),
+        frequency_hz=hertz,
+        amplitude_g=sizes,
+        end=end,
+        least_g=tuple(float(sizes[np.argmax(column)]) if column.any() else None for column in falls),
+        safe_gap=tuple(_safe_gap(hertz, sizes, falls)),
         frequency_parameter_1_s=rate,
         slenderness_rad=slenderness,
     )
+
+
+def _safe_gap(frequencies: Floats, amplitudes: Floats, falls: NDArray[np.bool_]) -> Iterator[SafeGap]:
+    """Walk the places where the block stands pulses that are stronger than one that overturns it and weaker than
+    another one that does."""
+    for frequency, column in zip(frequencies.tolist(), falls, strict=True):
+        for before, after in pairwise(np.flatnonzero(column)):
+            if after - before > 1:
+                low, high = float(amplitudes[before + 1]), float(amplitudes[after - 1])
+                yield SafeGap(frequency_hz=frequency, from_g=low, to_g=high)
 
 
 def _standing(case: Case) -> tuple[Block, CriticalAccelerations]:

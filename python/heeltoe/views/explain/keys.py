@@ -19,6 +19,7 @@ from heeltoe.result.numbers import OF_SEVERAL, BlockNumbers, Chain, ElasticCrack
 from heeltoe.result.response import Chosen, Energy, Response
 from heeltoe.result.sequence import Stage
 from heeltoe.result.write import MotionNumbers
+from heeltoe.study.small.overturning import OverturningMap
 from heeltoe.study.small.solve import Solved
 from heeltoe.views.explain.meaning import Meaning
 from heeltoe.views.explain.pages import page_of
@@ -55,6 +56,7 @@ _BLOCKS: tuple[tuple[str, type[Block], str], ...] = (
     ("checks[].", Check, _STATICS),
     ("governing.*.", Check, _STATICS),
     ("", Solved, "heeltoe solve --json"),
+    ("", OverturningMap, "heeltoe overturning --json"),
 )
 # Attributes that the JSON does not have, or says by keys of their own.
 _WITHOUT_KEY = {

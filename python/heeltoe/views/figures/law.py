@@ -31,7 +31,7 @@ def law_figure(curve: LawCurve, units: str = "si") -> Figure:
     axes.set_ylim(0.0, 1.08 * max(float(curve.friction.max()), curve.at_rest, 1e-3))
     axes.legend(loc="best")
     stress = written("{stress_pa:.3g MPa}", units, stress_pa=curve.normal_stress_pa)
-    heading(figure, curve.title, f"{curve.name}, normal stress {stress}")
+    heading(figure, curve.title, f"{curve.law}, normal stress {stress}")
     return figure
 
 

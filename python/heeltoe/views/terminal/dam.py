@@ -10,7 +10,8 @@ from rich.console import Console
 
 from heeltoe.case.model import Case
 from heeltoe.units.sentences import written
-from heeltoe.views.terminal.render import label_grid, print_more, print_title, quiet_table
+from heeltoe.views.content.tree import Table
+from heeltoe.views.terminal.render import label_grid, print_more, print_table, print_title
 
 # Not at run time: neither waits for the other's parts.
 if TYPE_CHECKING:
@@ -58,13 +59,11 @@ def print_periods(
         "intact, with water": periods.intact,
         **dict(zip(names, periods.parts.values(), strict=True)),
     }
-    table = quiet_table()
-    table.add_column("")
-    for name in columns:
-        table.add_column(name, justify="right")
-    for number, row in enumerate(zip_longest(*columns.values()), start=1):
-        table.add_row(str(number), *("-" if value is None else f"{value:.4f} s" for value in row))
-    console.print(table)
+    rows = tuple(
+        (str(number), *("-" if value is None else f"{value:.4f} s" for value in row))
+        for number, row in enumerate(zip_longest(*columns.values()), start=1)
+    )
+    print_table(Table(("", *columns), rows, align="l" + "r" * len(columns)), console)
     for sentence in periods.simplified:
         console.print(sentence)
     if periods.amplification is not None:
@@ -89,12 +88,7 @@ def _print_amplification(amplification: Amplification, console: Console, units: 
     from heeltoe.views.words.amplification import COLUMNS, peak_rows
 
     console.print()
-    table = quiet_table()
-    for place, name in enumerate(COLUMNS):
-        table.add_column(name, justify="right" if place > 1 else "left")
-    for row in peak_rows(amplification):
-        table.add_row(*row)
-    console.print(table)
+    print_table(Table(COLUMNS, tuple(peak_rows(amplification)), align="llrrr"), console)
     for sentence in amplification.sentences(units):
         console.print(sentence, markup=False)
 
@@ -128,7 +122,7 @@ def print_overturning(overturning: OverturningMap, console: Console, dam: str = 
     grid.add_row("pulses", f"one {overturning.pulse}, {low:.3g} to {high:.3g} Hz, {sizes}: {overturning.end.size} runs")
     least = [
         (size, hertz)
-        for size, hertz in zip(overturning.least_g(), overturning.frequency_hz, strict=True)
+        for size, hertz in zip(overturning.least_g, overturning.frequency_hz, strict=True)
         if size is not None
     ]
     if not least:
@@ -136,12 +130,12 @@ def print_overturning(overturning: OverturningMap, console: Console, dam: str = 
     else:
         size, hertz = min(least)
         grid.add_row("overturning", f"from {size:.3g} g on, at {hertz:.3g} Hz")
-        gaps = overturning.safe_gap()
-        widest = max(gaps, key=lambda gap: gap[2] - gap[1], default=None)
+        widest = max(overturning.safe_gap, key=lambda gap: gap.to_g - gap.from_g, default=None)
         text = (
             "none: at each frequency, every pulse that overturns it is stronger than all that do not"
             if widest is None
-            else f"widest at {widest[0]:.3g} Hz: pulses of {widest[1]:.3g} to {widest[2]:.3g} g do not overturn it, "
+            else f"widest at {widest.frequency_hz:.3g} Hz: pulses of {widest.from_g:.3g} to {widest.to_g:.3g} g do "
+            "not overturn it, "
             "though weaker ones do"
         )
         grid.add_row("safe gap", text)

@@ -21,7 +21,7 @@ _NAMES = {"slip path": "at_m", "slip speed": "at_m_s", "normal stress": "at_pa"}
 
 def print_law(curve: LawCurve, console: Console, units: str = "si") -> None:
     """Print a sketch of a friction law, and what it comes to."""
-    print_title(curve.title, f"law: {curve.name}", console)
+    print_title(curve.title, f"law: {curve.law}", console)
     console.print()
     for line in sketch(curve, units):
         console.print(line, markup=False, highlight=False)
