@@ -5,7 +5,7 @@ from __future__ import annotations
 from heeltoe.models.rigid.varying import varies
 from heeltoe.result.contract import HEADLINES
 from heeltoe.units.write import NOTHING
-from heeltoe.views.content.subject import Run, Subject
+from heeltoe.views.content.subject import Labels, Run, Subject
 from heeltoe.views.content.tree import Block, Code, Inline, Section, Table, paragraph
 
 _ENERGY = (
@@ -23,7 +23,7 @@ _ENERGY = (
     ("What the ledger leaves unexplained, over the turnover", "residual"),
 )
 _RARE = ("fracture_j", "rock_j", "floor_j", "far_end_j")
-_FLEXIBLE = (
+_FLEXIBLE: Labels = (
     ("Time step", "time_step_s", None),
     ("Steps", "steps", None),
     ("Step of the run beside it", "evidence.other_time_step_s", None),
@@ -141,50 +141,45 @@ def _spread(subject: Subject, run: Run) -> list[Block]:
 
 
 def _convergence(subject: Subject, run: Run) -> list[Block]:
-    n = subject.numbers
-    rows = [(label, n(run.prefix + key, quantity)) for label, key, quantity in _FLEXIBLE]
-    shown: list[tuple[Inline, ...]] = [row for row in rows if row[1] != NOTHING]
-    tables = [Table(("", "value"), tuple(shown), "Evidence, time step and contact of the flexible model.", "lr")]
-    shown = []
-    mesh = run.response.summary["mesh"]
-    parts = ["above the crack", "below the crack"]
-    if run.response.several:
-        parts = [f"of part {place + 1} from the crest down" for place in range(len(mesh["elements"]))]
-    for place in range(len(mesh["elements"])):
-        where = parts[place]
-        for label, name in (("Elements", "elements"), ("Nodes", "nodes"), ("Modes kept", "modes")):
-            shown.append((f"{label} {where}", n(f"{run.prefix}mesh.{name}.{place}")))
-    shown.append(("Nodes along the crack", n(f"{run.prefix}mesh.crack_nodes")))
-    shown.append(("Error left by modes that are not kept", n(f"{run.prefix}mesh.basis_error", "share")))
-    for place in range(len(run.response.summary["periods_s"])):
-        label = f"Period {place + 1} of the intact dam, with its water"
-        shown.append((label, n(f"{run.prefix}periods_s.{place}", "time")))
-    for place in range(len(run.response.summary["damping_ratios"])):
-        label = f"Damping that mode {place + 1} of the intact dam gets"
-        shown.append((label, n(f"{run.prefix}damping_ratios.{place}", "share")))
-    for label, key in (
-        ("Rayleigh damping, mass term a₀", "rayleigh_mass_1_s"),
-        ("Rayleigh damping, stiffness term a₁", "rayleigh_stiffness_s"),
-    ):
-        cell = n(run.prefix + key)
-        if cell != NOTHING:
-            shown.append((label, cell))
-    blocks: list[Block] = []
-    result = run.response.summary["evidence"]
+    summary, known = run.response.summary, subject.known
+    result = summary["evidence"]
     if run.response.outcome == "unstable":
-        blocks.append(
-            paragraph("A dam that does not stand has no slip to be certain of: it was run once, at one step.")
-        )
+        said = paragraph("A dam that does not stand has no slip to be certain of: it was run once, at one step.")
     elif result is None:
-        blocks.append(
-            paragraph("Whether time step and mesh are fine enough was not asked (", Code("flexible.evidence"), ").")
-        )
+        said = paragraph("Whether time step and mesh are fine enough was not asked (", Code("flexible.evidence"), ").")
     else:
-        blocks.append(
-            paragraph(
-                _STANDS[result["converged"]].format(_MOVERS["step" if result["asked"] == "step" else "full"])
-                + _MEAN[result["value_is"] == "mean"]
-            )
-        )
-    tables.append(Table(("", "value"), tuple(shown), "Mesh, modes and damping of the flexible model.", "lr"))
-    return [*blocks, *tables]
+        movers = _MOVERS["step" if result["asked"] == "step" else "full"]
+        said = paragraph(_STANDS[result["converged"]].format(movers) + _MEAN[result["value_is"] == "mean"])
+    return [
+        said,
+        known(_FLEXIBLE, run.prefix, "Evidence, time step and contact of the flexible model."),
+        known(_numbers_of_parts(run), run.prefix, "Mesh, modes and damping of the flexible model."),
+    ]
+
+
+def _numbers_of_parts(run: Run) -> Labels:
+    """Return the labels of meshes, modes and damping: as many as there are parts, periods and ratios."""
+    summary = run.response.summary
+    count = len(summary["mesh"]["elements"])
+    parts = ["above the crack", "below the crack"][:count]
+    if run.response.several:
+        parts = [f"of part {place + 1} from the crest down" for place in range(count)]
+    return (
+        *(
+            (f"{label} {where}", f"mesh.{name}.{place}", None)
+            for place, where in enumerate(parts)
+            for label, name in (("Elements", "elements"), ("Nodes", "nodes"), ("Modes kept", "modes"))
+        ),
+        ("Nodes along the crack", "mesh.crack_nodes", None),
+        ("Error left by modes that are not kept", "mesh.basis_error", "share"),
+        *(
+            (f"Period {place + 1} of the intact dam, with its water", f"periods_s.{place}", "time")
+            for place in range(len(summary["periods_s"]))
+        ),
+        *(
+            (f"Damping that mode {place + 1} of the intact dam gets", f"damping_ratios.{place}", "share")
+            for place in range(len(summary["damping_ratios"]))
+        ),
+        ("Rayleigh damping, mass term a₀", "rayleigh_mass_1_s", None),
+        ("Rayleigh damping, stiffness term a₁", "rayleigh_stiffness_s", None),
+    )

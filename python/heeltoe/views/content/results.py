@@ -283,8 +283,7 @@ def _joint(subject: Subject) -> list[Block]:
             whose = " below the block" if name == "bond" else ""
             for prefix, state in _laws_of(run.response, name):
                 caption = f"What has become of the joint{whose}{_where(subject, state.get('elevation_m'))}."
-                present = [key for _, key, _ in labels if state[name][key] is not None]
-                blocks.append(subject.values(labels, f"{run.prefix}{prefix}{name}.", caption, present))
+                blocks.append(subject.known(labels, f"{run.prefix}{prefix}{name}.", caption))
     return blocks
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from heeltoe.case.model import Case
 from heeltoe.errors.sanitize import plain
 from heeltoe.result.response import Response
+from heeltoe.units.write import NOTHING
 from heeltoe.views.content.tree import FigureBlock, Inline, Table
 from heeltoe.views.words.numbers import Numbers
 
@@ -127,6 +128,11 @@ class Subject:
         shown = [(label, key, quantity) for label, key, quantity in labels if present is None or key in present]
         rows = tuple((label, self.numbers(f"{prefix}{key}", quantity)) for label, key, quantity in shown)
         return Table(("", "value"), rows, caption, "lr")
+
+    def known(self, labels: Labels, prefix: str, caption: str) -> Table:
+        """Return such a table of the numbers that there are."""
+        known = [key for _, key, _ in labels if self.numbers(prefix + key) != NOTHING]
+        return self.values(labels, prefix, caption, known)
 
     def figure(self, *names: str) -> tuple[FigureBlock, ...]:
         """Return those of the named figures that are there, of every run."""
