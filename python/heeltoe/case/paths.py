@@ -2,41 +2,58 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import cache
-from typing import Any, get_args
+from typing import Any, get_args, get_origin
 
-from pydantic import BaseModel
+from pydantic import BaseModel, WithJsonSchema
 from pydantic.fields import FieldInfo
 
 from heeltoe.case.model import Case
-from heeltoe.case.sentences import block_of
+from heeltoe.case.sentences import kinds_in
 
 
 @cache
 def quantity_of(path: str) -> str | None:
     """Return what a field holds, as a key of :data:`heeltoe.units.parse.DIMENSIONS`; None of one that holds no
-    quantity, or that is not there."""
-    schema = _schema()
-    place: Mapping[str, Any] = schema
-    for part in path.split("."):
-        name, listed, _ = part.partition("[")
-        place = next((block["properties"][name] for block in _meant(place, schema) if name in block["properties"]), {})
-        if listed:
-            place = next((choice["items"] for choice in _alternatives(place) if "items" in choice), {})
-    return next((str(choice["quantity"]) for choice in _alternatives(place) if "quantity" in choice), None)
+    quantity or several of them, or that is not there."""
+    field = _field_at(path)
+    quantities = quantities_of(field) if field is not None and is_list(field) == path.endswith("]") else []
+    return quantities[0] if len(quantities) == 1 else None
 
 
 @cache
 def bounds_of(path: str) -> tuple[tuple[str, float], ...]:
     """Return what a field keeps within, in SI units, by the names of comparisons: ``(("ge", 0.0), ("le", 10.0))``."""
-    *blocks, name = path.split(".")
-    model: type[BaseModel] = Case
-    for block in blocks:
-        model = block_of(model.model_fields[block].annotation) or model
-    limits = list(constraints(model.model_fields[name]))
     kinds = ("ge", "gt", "le", "lt")
+    limits = list(constraints(_field_at(path)))
     return tuple((kind, float(getattr(limit, kind))) for limit in limits for kind in kinds if hasattr(limit, kind))
+
+
+def _field_at(path: str) -> FieldInfo | None:
+    """Return the field at a path, of which lists have their place; None where there is none, or its block may be of
+    several kinds."""
+    block: type[BaseModel] | None = Case
+    field = None
+    for part in path.split("."):
+        name, place, _ = part.partition("[")
+        field = None if block is None else block.model_fields.get(name)
+        if field is None:
+            return None
+        kinds = list(kinds_in(field.annotation))
+        block = kinds[0] if len(kinds) == 1 and is_list(field) == bool(place) else None
+    return field
+
+
+def is_list(field: FieldInfo) -> bool:
+    """Whether a field holds a list."""
+    return any(get_origin(annotation) is tuple for annotation in (field.annotation, *get_args(field.annotation)))
+
+
+def quantities_of(field: object) -> list[str]:
+    """Return the quantities that a field holds, in their order."""
+    schemas = [limit.json_schema or {} for limit in constraints(field) if isinstance(limit, WithJsonSchema)]
+    return [str(schema["quantity"]) for schema in schemas if "quantity" in schema]
 
 
 def value_of(case: Case, path: str) -> Any:
@@ -56,23 +73,3 @@ def constraints(field: object) -> Iterator[object]:
     for part in inner:
         yield part
         yield from constraints(part)
-
-
-@cache
-def _schema() -> dict[str, Any]:
-    return Case.model_json_schema()
-
-
-def _alternatives(place: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
-    """Walk what a field may hold, itself or one of several."""
-    yield place
-    for choice in (*place.get("anyOf", ()), *place.get("allOf", ())):
-        yield from _alternatives(choice)
-
-
-def _meant(place: Mapping[str, Any], schema: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
-    """Walk the blocks of fields that a field may hold."""
-    for choice in _alternatives(place):
-        block = schema["$defs"][choice["$ref"].rpartition("/")[2]] if "$ref" in choice else choice
-        if "properties" in block:
-            yield block

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import Any, Literal, get_args, get_origin
 
-from pydantic import BaseModel, WithJsonSchema
+from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from heeltoe.case.combinations import rules_of
@@ -15,7 +15,7 @@ from heeltoe.case.field_usage import READERS, readers
 from heeltoe.case.joints import JOINTS, JOINTS_MEANING, Joints
 from heeltoe.case.lists import CRACKS, CRACKS_MEANING
 from heeltoe.case.model import Case
-from heeltoe.case.paths import constraints
+from heeltoe.case.paths import constraints, is_list, quantities_of
 from heeltoe.case.sentences import kinds_in
 from heeltoe.study.plan.file import Distribution, Study
 from heeltoe.units.parse import DIMENSIONS
@@ -55,7 +55,7 @@ def _walk(model: type[BaseModel], above: str, kind: str) -> Iterator[Meaning]:
         if not blocks:
             yield _leaf(path, field, kind)
         elif len(blocks) == 1:
-            place = f"{path}[]" if _listed(field) else path
+            place = f"{path}[]" if is_list(field) else path
             yield from _block(path, place, blocks[0], _one_line(field.description), kind)
         else:
             # A list of blocks of several kinds.
@@ -85,12 +85,8 @@ def _named(path: str, meaning: str, holds: str, kind: str, parts: tuple[str, ...
     )
 
 
-def _listed(field: FieldInfo) -> bool:
-    return any(get_origin(annotation) is tuple for annotation in (field.annotation, *get_args(field.annotation)))
-
-
 def _leaf(path: str, field: FieldInfo, kind: str) -> Meaning:
-    quantities = _quantities(field)
+    quantities = quantities_of(field)
     unit = DIMENSIONS[quantities[0]].unit if len(quantities) == 1 else ""
     default = "" if field.is_required() else _shown(field.get_default(call_default_factory=True), unit)
     needed = "it must be said" if field.is_required() else ""
@@ -131,14 +127,6 @@ def _not_with(path: str, kind: str) -> str:
     return "; ".join(dict.fromkeys(rule.without(plain) for rule in rules_of(plain)))
 
 
-def _quantities(field: object) -> list[str]:
-    """Return the quantities that a field holds, in their order."""
-    schemas = [
-        constraint.json_schema or {} for constraint in constraints(field) if isinstance(constraint, WithJsonSchema)
-    ]
-    return [str(schema["quantity"]) for schema in schemas if "quantity" in schema]
-
-
 def _choices(annotation: Any) -> tuple[str, ...]:
     if get_origin(annotation) is Literal:
         return tuple(map(str, get_args(annotation)))
@@ -146,13 +134,11 @@ def _choices(annotation: Any) -> tuple[str, ...]:
 
 
 def _holds(field: FieldInfo) -> str:
-    listed = get_origin(field.annotation) is tuple or any(
-        get_origin(argument) is tuple for argument in get_args(field.annotation)
-    )
+    listed = is_list(field)
     choices = _choices(field.annotation)
     if choices:
         return f"{'one or several' if listed else 'one'} of {', '.join(choices)}"
-    quantities = [DIMENSIONS[quantity] for quantity in _quantities(field)]
+    quantities = [DIMENSIONS[quantity] for quantity in quantities_of(field)]
     if listed and len(quantities) > 1:
         return f"rows of {' and '.join(quantity.kind for quantity in quantities)}"
     if quantities:
@@ -172,7 +158,7 @@ def _plain(annotation: Any) -> Iterator[Any]:
 
 
 def _limits(field: FieldInfo) -> str:
-    quantities = _quantities(field)
+    quantities = quantities_of(field)
     if len(quantities) > 1 or get_origin(field.annotation) is tuple:
         return ""  # of rows each cell has its own
     unit = DIMENSIONS[quantities[0]].unit if quantities else ""
