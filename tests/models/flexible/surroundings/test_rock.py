@@ -79,6 +79,34 @@ def test_each_node_keeps_its_static_flexibility(coarse, reduced):
     )
 
 
+def test_rock_that_is_not_the_same_on_both_sides_answers_alike(reduced):
+    """Nodes that are no mirror of each other leave one problem, not two of half its size."""
+    uneven = BASE + np.column_stack([1e-3 * HALF * np.cos(np.pi * X / (2.0 * HALF)), 0.0 * X])
+    whole = reduced_rock(uneven, ROCK)
+    assert whole.error <= ENOUGH
+    for frequency in (0.0, 2.0, 9.0):
+        omega = 2.0 * np.pi * frequency
+        one, other = (
+            tractions.T @ rock.compliance(omega, tractions)
+            for rock, tractions in ((reduced, smooth_tractions(BASE)), (whole, smooth_tractions(uneven)))
+        )
+        size = np.sqrt(np.abs(np.diag(one)))
+        assert np.abs((one - other) / np.outer(size, size)).max() < 0.02
+
+
+def test_a_base_tied_to_fewer_nodes_is_that_of_a_coarser_mesh(reduced):
+    fewer = BASE[::2]
+    tied, own = reduced.followed(BASE, fewer), reduced_rock(fewer, ROCK)
+    assert tied.omega_squared.size == reduced.omega_squared.size - 2 * (len(BASE) - len(fewer))
+    assert np.linalg.eigvalsh(tied.damping)[0] > -1e-9 * np.abs(tied.damping).max()
+    unit = np.eye(2 * len(fewer))
+    assert tied.compliance(0.0, unit) == pytest.approx(own.compliance(0.0, unit), rel=1e-6, abs=1e-17)
+    tractions = smooth_tractions(fewer)[:, :4]
+    for frequency in (1.0, 4.0, 11.0):
+        one, other = (tractions.T @ rock.compliance(2.0 * np.pi * frequency, tractions) for rock in (tied, own))
+        assert np.abs(one - other).max() < 0.02 * np.abs(other).max()
+
+
 def test_rock_takes_and_never_gives(reduced):
     assert reduced.damping == pytest.approx(reduced.damping_material + reduced.damping_radiation)
     assert np.linalg.eigvalsh(reduced.damping)[0] > -1e-9 * np.abs(reduced.damping).max()

@@ -24,10 +24,10 @@ from heeltoe.models.flexible.mesh.rows import ROWS
 _SET_UP, _SOLVED, _RESTED = 0.15, 8e-7, 2e-6
 # Seconds and bytes of the modes of water with sound on one side, and bytes for each second that sound takes through its
 # depth: the deeper, the more of its resonances are below the highest frequency, and each has samples of its own.
-_WATER, _WATER_BY_DEPTH = (0.45, 3.6e7), 6.4e8
+_WATER, _WATER_BY_DEPTH = (0.35, 1.9e7), 4.1e8
 # The same of rock with n elements along its base, of n^2.5 and of n^2: measured with 8 to 24, for waves as for a fine
 # mesh. Each step takes as long as with so many bodies of water.
-_ROCK, _ROCK_ACROSS, _ROCK_STEPS = (0.7, 6.7e7), (3.1e-3, 7e5), 4
+_ROCK, _ROCK_ACROSS, _ROCK_STEPS = (0.35, 3e6), (1.2e-3, 3.6e5), 4
 # Seconds of each d^3 where all modes are wanted: 0.12 s of 710, 0.9 s of 1,570 degrees of freedom.
 _DENSE = 3e-10
 # Copies of the d m numbers of the modes of a part: while some or all of them are solved, and after that; the bytes of a
@@ -138,12 +138,13 @@ def surroundings_of(case: Case) -> Cost:
 
 def _rock_elements(case: Case, rock: Rock) -> int:
     """Return how many elements there are along the base of the rock."""
-    from heeltoe.models.flexible.surroundings.rock import BEYOND, HIGHEST, RockMaterial, base_elements
+    from heeltoe.models.flexible.surroundings.rock import BEYOND, HIGHEST, RockMaterial, base_elements, halvings
 
     left, base, right, _ = case.outline.bounds
     width = case.outline.intersection(shapely.LineString([(left, base), (right, base)])).length
     at_base = min(crack.elevation for crack in (case.crack, *case.further_cracks)) == 0.0
     across = (None if at_base else case.flexible.elements_across_below) or case.flexible.elements_across
+    across *= 2 ** halvings(across)
     edges = across + 2 * BEYOND if at_base else across
     return base_elements(edges, width * edges / across, RockMaterial(rock.modulus, rock.poisson, rock.density), HIGHEST)
 

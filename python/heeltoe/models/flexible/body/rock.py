@@ -23,11 +23,14 @@ from heeltoe.models.flexible.surroundings.rock import (
     HIGHEST,
     ReducedRock,
     RockMaterial,
+    halvings,
     reduced_rock,
 )
 
 # A base that rises by no more than this part of its width is level.
 _LEVEL = 1e-6
+# So are nodes that are one but for this part of it.
+_SAME = 1e-10
 
 
 _KEPT: Kept[ReducedRock] = Kept(8)
@@ -165,21 +168,36 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
     rise = float(np.ptp(base[:, 1]))
     if rise > _LEVEL * cut.crack_width:
         raise InputError("rock-level", "rock", f"{rise:.3g} m")
-    first, last = base[2] - base[0], base[-1] - base[-3]
+    # As long as the edges along the rock's own base.
+    finer = 2 ** halvings(len(base) // 2)
+    first, last = (base[2] - base[0]) / finer, (base[-1] - base[-3]) / finer
     ahead = [base[0] - (BEYOND - k / 2.0) * first for k in range(2 * BEYOND)]
     behind = [base[-1] + (k + 1) / 2.0 * last for k in range(2 * BEYOND)]
     points = np.vstack([*ahead, base, *behind])
-    reduced = _rock_below(points, case.rock, larger)
+    reduced = _rock_below(points, case.rock, larger, beyond=2 * BEYOND)
     count = reduced.omega_squared.size
     shapes = reduced.shapes.T.reshape(count, -1, 2).swapaxes(1, 2).reshape(count, -1)
     return RockBody(reduced.omega_squared, reduced.damping, np.ascontiguousarray(shapes), points, reduced.error)
 
 
-def _rock_below(points: Floats, rock: Rock, larger: float) -> ReducedRock:
+def _rock_below(points: Floats, rock: Rock, larger: float, *, beyond: int = 0) -> ReducedRock:
+    """Return the rock below nodes (x, z), of which so many are `beyond` the heel, and beyond the toe.
+
+    The same rock lies below dams that differ in all else, and below the meshes of a dam, of which coarser ones tie its
+    base to fewer nodes."""
     material, extent = rock_material(rock), larger * EXTENT
-    # The same rock lies below dams that differ in all else.
-    key = (points.tobytes(), material, extent)
-    return _KEPT.get(key, lambda: reduced_rock(points, material, highest=HIGHEST, extent=extent))
+    inner = points[beyond : len(points) - beyond]
+    finer = 2 ** halvings(len(inner) // 2)
+    places = np.arange(finer * (len(inner) - 1) + 1) / finer
+    between = [np.interp(places, np.arange(len(inner)), axis) for axis in inner.T]
+    base = np.vstack([points[:beyond], np.column_stack(between), points[len(points) - beyond :]])
+    # Meshes have the same places but for rounding.
+    fine = float(f"{_SAME * np.ptp(base[:, 0]):.0e}")
+    base = fine * np.round(base / fine)
+    rock_below = _KEPT.get(
+        (base.tobytes(), material, extent), lambda: reduced_rock(base, material, highest=HIGHEST, extent=extent)
+    )
+    return rock_below if finer == 1 else rock_below.followed(base, points)
 
 
 def rock_material(rock: Rock) -> RockMaterial:

@@ -92,8 +92,8 @@ def analysing(
     around, counted = surroundings_of(case), _RUNS[case.flexible.evidence] + spread
     parts = building(parts_of(case), around)
     if case.flexible.evidence == "full":
-        # Rock and water are made anew for two other meshes, and once so that they reach farther.
-        parts += Cost(3.0 * around.seconds, around.memory)
+        # Rock and water are made once more so that they reach farther, and for the coarser mesh of a fine one.
+        parts += Cost(2.0 * around.seconds, around.memory)
     if case.flexible.evidence == "full" and case.flexible.elements_across < FEWEST_ACROSS:
         finer = with_mesh(case, 1)
         parts += building(parts_of(finer), surroundings_of(finer))

@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sparse
+from scipy.linalg import block_diag
 from scipy.sparse.linalg import splu
 
 from heeltoe.base.arrays import Floats
@@ -33,7 +34,7 @@ Complexes = Any
 # Each has factors of its own in memory.
 _THREADS = 4
 # Directions with less than this part of the energy of others are rounding.
-_NOTHING = 1e-13
+_NOTHING = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,18 +47,47 @@ class LinearBody:
 
     def response(self, rate: complex, forces: Floats) -> Complexes:
         """Return the amplitudes (N, k) under forces (N, k) that go like exp(rate t), mostly of rate i omega."""
+        return self.moments(rate, forces, 0)[0]
+
+    def moments(self, rate: complex, forces: Floats, count: int) -> list[Complexes]:
+        """Return the response at a rate and as many further `count` terms of its series in powers of what the rate is
+        away from that: they cost no further factors (Bai and Su, SIAM Journal on Matrix Analysis 2005)."""
         operator = self.stiffness + rate * self.damping + rate**2 * self.mass
         options = {"SymmetricMode": True}
         factors = splu(sparse.csc_matrix(operator), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options=options)
-        return factors.solve(forces.astype(complex))
+        slope = self.damping + 2.0 * rate * self.mass
+        terms = [factors.solve(forces.astype(complex))]
+        for place in range(count):
+            pushed = slope @ terms[-1] + (self.mass @ terms[-2] if place else 0.0)
+            terms.append(factors.solve(-pushed))
+        return terms
+
+
+@dataclass(frozen=True)
+class Rates:
+    """At which rates a body is looked at.
+
+    Attributes
+    ----------
+    sampled
+        Of the answers that its shapes come from, and of which as many further `moments` are used.
+    chosen
+        At which the main directions of these shapes, and as few of them as leave a small error, are found.
+    checked
+        At which the error is measured against all unknowns.
+    """
+
+    sampled: Sequence[complex]
+    chosen: Sequence[complex]
+    checked: Sequence[complex]
+    moments: int
 
 
 def reduced_modes(
     body: LinearBody,
     inputs: Floats,
     norm: Sparse,
-    sampled: Sequence[complex],
-    between: Sequence[complex],
+    rates: Rates,
     most: int,
     enough: float,
     static: Floats | None = None,
@@ -72,8 +102,8 @@ def reduced_modes(
         B, (N, k).
     norm
         From :func:`norm_of`.
-    sampled, between
-        Rates of the answers that the shapes are made of, and those at which the error is measured.
+    rates
+        Of the answers.
     most
         How many shapes there may be beside the static ones.
     enough
@@ -83,34 +113,44 @@ def reduced_modes(
     """
     # Side by side: factorising lets go of the interpreter, and each answer is the same on however many threads.
     with ThreadPoolExecutor(min(_THREADS, os.cpu_count() or 1)) as pool:
-        answers = list(pool.map(lambda rate: body.response(rate, inputs), sampled))
-        seen = list(pool.map(lambda rate: inputs.T @ body.response(rate, inputs), between))
-    columns = [real_columns(answer / size_of(answer, norm)) for answer in answers]
-    snapshots = np.column_stack(columns) if columns else np.empty((inputs.shape[0], 0))
-    first, least = (0, inputs.shape[1]) if static is None else (static.shape[1], static.shape[1])
-    projected = Projected.of(body, main_shapes(norm, snapshots, static)[:, : first + most])
-    kept, error = enough_shapes(projected, inputs, dict(zip(between, seen, strict=True)), enough, least)
+        answers = pool.map(lambda rate: body.moments(rate, inputs, rates.moments), rates.sampled)
+        seen = pool.map(lambda rate: inputs.T @ body.response(rate, inputs), rates.checked)
+        columns = [real_columns(term) for terms in answers for term in terms]
+        exact = dict(zip(rates.checked, seen, strict=True))
+    first = np.empty((inputs.shape[0], 0)) if static is None else static
+    rich = Projected.of(body, spanning_shapes(norm, first, np.column_stack([first[:, :0], *columns])))
+    driven = rich.shapes.T @ inputs
+    answered = [rich.response(rate, driven) for rate in rates.chosen]
+    seen_in_rich = [driven.T @ answer for answer in answered]
+    columns = [real_columns(answer / sizes(own)) for answer, own in zip(answered, seen_in_rich, strict=True)]
+    ordered = rich.within(main_directions(np.column_stack([driven[:, :0], *columns]), first.shape[1], most))
+    exact |= dict(zip(rates.chosen, seen_in_rich, strict=True))
+    kept, error = enough_shapes(ordered, inputs, exact, enough, max(first.shape[1], 1))
     return kept.modes(), error
 
 
-def main_shapes(norm: Sparse, snapshots: Floats, first: Floats | None = None) -> Floats:
-    """Return the main directions of answers of a body, most important first.
+def spanning_shapes(norm: Sparse, first: Floats, columns: Floats) -> Floats:
+    """Return directions, orthonormal in a norm, that span the `first` shapes (N, j), and then what else there is of
+    `columns` (N, k)."""
+    together = np.column_stack([first, columns])
+    gram = together.T @ (norm @ together)
+    some = np.diag(gram) > 0.0
+    together, gram = together[:, some], gram[np.ix_(some, some)]
+    lengths = np.sqrt(np.diag(gram))
+    together, gram = together / lengths, gram / np.outer(lengths, lengths)
+    head, rest = slice(0, first.shape[1]), slice(first.shape[1], None)
+    own = _directions(gram[head, head], 1e-15)
+    shared = own @ (own.T @ gram[head, rest])
+    left = _directions(gram[rest, rest] - gram[rest, head] @ shared, _NOTHING)
+    return np.column_stack([together[:, head] @ own, together @ np.vstack([-shared @ left, left])])
 
-    Parameters
-    ----------
-    norm
-        Positive definite (N, N), in which the directions are orthonormal; from :func:`norm_of`.
-    snapshots
-        Real answers (N, k).
-    first
-        Shapes (N, j) that are kept whatever the snapshots are; they come first.
-    """
-    head = np.empty((snapshots.shape[0], 0))
-    if first is not None:
-        head = _directions(norm, first, 0.0)
-        for _ in range(2):
-            snapshots = snapshots - head @ (head.T @ (norm @ snapshots))
-    return np.column_stack([head, _directions(norm, snapshots, _NOTHING)]) if snapshots.size else head
+
+def main_directions(columns: Floats, first: int, most: int) -> Floats:
+    """Return an order of orthonormal shapes, (m, n): the first ones stay, then come at most so many main directions of
+    what columns (m, k) are in the others."""
+    directions, _, _ = np.linalg.svd(columns[first:], full_matrices=False)
+    order: Floats = block_diag(np.eye(first), directions[:, :most])
+    return order
 
 
 def norm_of(body: LinearBody, omega: float, weight: Floats) -> Sparse:
@@ -140,6 +180,11 @@ class Projected:
         return Projected(
             self.shapes[:, some], self.mass[some, some], self.damping[some, some], self.stiffness[some, some]
         )
+
+    def within(self, mixed: Floats) -> Projected:
+        """Return it in combinations (m, n) of its shapes."""
+        matrices = (mixed.T @ matrix @ mixed for matrix in (self.mass, self.damping, self.stiffness))
+        return Projected(self.shapes @ mixed, *((matrix + matrix.T) / 2.0 for matrix in matrices))
 
     def response(self, rate: complex, forces: Complexes) -> Complexes:
         """Return the amplitudes (m, k) of the shapes under forces on them that go like exp(rate t)."""
@@ -179,7 +224,7 @@ def enough_shapes(
         worst = 0.0
         for rate, answer in exact.items():
             off = pushed.T @ fewer.response(rate, pushed) - answer
-            size = np.sqrt(np.abs(np.diag(answer)))
+            size = sizes(answer)
             worst = max(worst, float(np.max(np.abs(off) / np.outer(size, size))))
         return worst
 
@@ -190,9 +235,10 @@ def enough_shapes(
     return projected.first(high), error(high)
 
 
-def size_of(answer: Complexes, norm: Sparse) -> float:
-    """Return the size of answers (N, k), all together, in a norm."""
-    return float(np.sqrt(np.sum(answer.conj() * (norm @ answer)).real))
+def sizes(answers: Complexes) -> Floats:
+    """Return what answers (k, k) are measured by: the root of what each input sees of its own."""
+    roots: Floats = np.sqrt(np.abs(np.diag(answers)))
+    return roots
 
 
 def congruent(matrix: Sparse, shapes: Floats) -> Floats:
@@ -208,9 +254,9 @@ def real_columns(answers: Complexes) -> Floats:
     return columns
 
 
-def _directions(norm: Sparse, columns: Floats, nothing: float) -> Floats:
-    gram = columns.T @ (norm @ columns)
-    sizes, mixed = scipy.linalg.eigh((gram + gram.T) / 2.0)
-    kept = sizes > max(nothing, 1e-15) * sizes[-1]
-    directions: Floats = columns @ (mixed[:, kept] / np.sqrt(sizes[kept]))[:, ::-1]
+def _directions(gram: Floats, nothing: float) -> Floats:
+    """Return combinations of shapes of which these are the products, orthonormal, the largest first."""
+    energies, mixed = scipy.linalg.eigh((gram + gram.T) / 2.0)
+    kept = energies > nothing * max(energies, default=0.0)
+    directions: Floats = (mixed[:, kept] / np.sqrt(energies[kept]))[:, ::-1]
     return directions

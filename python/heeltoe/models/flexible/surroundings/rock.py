@@ -24,8 +24,10 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import scipy.linalg
 import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
+from scipy.spatial import cKDTree
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.models.flexible.surroundings.edges import (
@@ -38,6 +40,7 @@ from heeltoe.models.flexible.surroundings.edges import (
 from heeltoe.models.flexible.surroundings.reduction import (
     Complexes,
     LinearBody,
+    Rates,
     Sparse,
     congruent,
     norm_of,
@@ -59,10 +62,17 @@ _GRADIENT, _START = 0.05, 4.0
 # Patterns of tractions along the base, polynomials of rising degree, whose answers are kept.
 _PATTERNS = 4
 # What is far counts less in the choice of shapes: weights fall with this power of the distance.
-_FADING = 1.0
-# Sampled frequencies and the lowest of them over the highest, the growth of the motions there over their frequency, and
-# shapes at most beside the static ones.
-_SAMPLED, _LOWEST, _GROWTH, _MOST = 16, 0.03, 0.03, 200
+_FADING = 0.5
+# Sampled frequencies at least, and for each time that half the base is as long as the shortest wave over 2 pi; terms of
+# each beyond the answer, the lowest over the highest, and the growth of the motions over their frequency.
+_SAMPLED, _BY_WAVES, _MOMENTS, _LOWEST, _GROWTH = 4, 0.65, 3, 0.03, 0.5
+# Frequencies for each of these at which shapes are chosen, with the growth where they are chosen and checked; shapes at
+# most beside the static ones.
+_CHOSEN, _LITTLE_GROWTH, _MOST = 6, 0.03, 200
+# Of nodes that are as far on the other side but for such a part of half a base the rock is the same on both sides.
+_SAME = 1e-7
+# Singular values below this part of the largest are what both sides differ by in rounding.
+_NOTHING = 1e-5
 # Mass of rock that has none, as a part of its own: far too little for any wave.
 _MASSLESS = 1e-6
 #: The relative error of the answers to smooth tractions that a reduction may leave.
@@ -125,8 +135,9 @@ class FullRock:
         What the material takes and what leaves as waves, (N, N) [N s/m per m].
     base
         (2 n,) unknowns of the nodes of the base: 0 to 2 n - 1.
-    points
-        (N / 2, 2) where the unknowns are, x and z in turn [m].
+    points, axis
+        Where the unknowns are, x from the middle of the base and z [m], (N, 2), and whether they move along x, 0, or
+        along z, 1, (N,).
     """
 
     mass: Sparse
@@ -135,6 +146,7 @@ class FullRock:
     damping_radiation: Sparse
     base: Integers
     points: Floats
+    axis: Integers
 
     @property
     def body(self) -> LinearBody:
@@ -160,6 +172,9 @@ class ReducedRock:
         Frequency [Hz] up to which it answers well.
     error
         Largest relative error of the answers to smooth tractions up to there that the reduction has left.
+    halves
+        How many of the shapes are the same on both sides of the middle of the base, and how many opposite, where the
+        rock is the same there and nothing couples them; elsewhere how many there are.
     """
 
     omega_squared: Floats
@@ -169,11 +184,53 @@ class ReducedRock:
     shapes: Floats
     highest: float
     error: float
+    halves: tuple[int, ...]
 
     def compliance(self, omega: float, forces: Complexes) -> Complexes:
         """Return the displacements of the base under forces (2 n, k) on it, both like exp(i omega t)."""
         operator = np.diag(self.omega_squared - omega**2 + 0j) + 1j * omega * self.damping
         return self.shapes @ np.linalg.solve(operator, self.shapes.T @ forces + 0j)
+
+    def followed(self, base: Floats, fewer: Floats) -> ReducedRock:
+        """Return the rock below a base (n, 2) whose nodes follow those (k, 2) of longer quadratic edges."""
+        nodes, shares = edge_shares(fewer[:, 0], base[:, 0])
+        share = np.zeros((len(base), len(fewer)))
+        share[np.arange(len(base))[:, None], nodes] = shares
+        tie = np.kron(share, np.eye(2))
+        # What of the motion of the base is none of these edges: all motions but those of it remain.
+        off = scipy.linalg.null_space(tie.T).T @ self.shapes
+        squares, shapes, own, leaving = [], [], [], []
+        for part in (slice(end - count, end) for count, end in zip(self.halves, np.cumsum(self.halves), strict=True)):
+            free = scipy.linalg.null_space(off[:, part], rcond=_NOTHING)
+            square, mixed = scipy.linalg.eigh(free.T @ (self.omega_squared[part, None] * free))
+            kept = free @ mixed
+            squares.append(np.maximum(square, 0.0))
+            shapes.append(np.linalg.lstsq(tie, self.shapes[:, part] @ kept, rcond=None)[0])
+            own.append(congruent(self.damping_material[part, part], kept))
+            leaving.append(congruent(self.damping_radiation[part, part], kept))
+        return _joined(squares, shapes, own, leaving, self.highest, self.error)
+
+
+def _joined(
+    squares: list[Floats],
+    shapes: list[Floats],
+    own: list[Floats],
+    leaving: list[Floats],
+    highest: float,
+    error: float,
+) -> ReducedRock:
+    """Return rock of halves that do not move each other, with their shapes at the base."""
+    taken_own, taken_leaving = scipy.linalg.block_diag(*own), scipy.linalg.block_diag(*leaving)
+    return ReducedRock(
+        np.concatenate(squares),
+        taken_own + taken_leaving,
+        taken_own,
+        taken_leaving,
+        np.hstack(shapes),
+        highest,
+        error,
+        tuple(square.size for square in squares),
+    )
 
 
 def reduced_rock(
@@ -248,7 +305,7 @@ def full_rock(base: Floats, material: RockMaterial, *, highest: float = HIGHEST,
         normal, along = across(u, v, w)
         return material.density * (material.pressure_speed * normal + material.shear_speed * along)
 
-    tie, places = _tie(basis, base, middle, half)
+    tie, places, axis = _tie(basis, base, middle, half)
 
     def tied(matrix: Any) -> Sparse:
         return sparse.csc_matrix(tie.T @ matrix @ tie)
@@ -269,7 +326,13 @@ def full_rock(base: Floats, material: RockMaterial, *, highest: float = HIGHEST,
         leaving,
         np.arange(2 * len(base)),
         places,
+        axis,
     )
+
+
+def halvings(edges: int) -> int:
+    """Return how often so many edges along a base are halved until rock of the coarsest elements has one for each."""
+    return max(0, math.ceil(math.log2(_ACROSS / edges)))
 
 
 def base_elements(edges: int, width: float, material: RockMaterial, highest: float) -> int:
@@ -339,8 +402,9 @@ def _last_ring(mesh: Any, distance: float) -> Integers:
     return facets
 
 
-def _tie(basis: Any, base: Floats, middle: float, half: float) -> tuple[Sparse, Floats]:
-    """Return all displacements by the unknowns, which follow the nodes of the base where the dam stands."""
+def _tie(basis: Any, base: Floats, middle: float, half: float) -> tuple[Sparse, Floats, Integers]:
+    """Return all displacements by the unknowns, which follow the nodes of the base where the dam stands, and of the
+    unknowns the places and axes."""
     places = basis.doflocs
     under = (np.abs(places[1]) < 1e-9 * half) & (np.abs(places[0]) < half * (1.0 + 1e-9))
     axis = np.empty(places.shape[1], dtype=np.int64)
@@ -354,28 +418,87 @@ def _tie(basis: Any, base: Floats, middle: float, half: float) -> tuple[Sparse, 
     columns = np.concatenate([(2 * nodes + axis[led][:, None]).reshape(-1), first + np.arange(free.size)])
     values = np.concatenate([shares.reshape(-1), np.ones(free.size)])
     shape = (places.shape[1], first + free.size)
-    return sparse.csr_matrix((values, (rows, columns)), shape), places[:, free].T
+    nodes_of_base = np.repeat(base - [middle, base[0, 1]], 2, axis=0)
+    return (
+        sparse.csr_matrix((values, (rows, columns)), shape),
+        np.vstack([nodes_of_base, places[:, free].T]),
+        np.concatenate([np.tile([0, 1], len(base)), axis[free]]),
+    )
 
 
 def _reduced(full: FullRock, base: Floats, material: RockMaterial, highest: float, enough: float) -> ReducedRock:
-    body, limit = full.body, 2.0 * np.pi * highest
-    unit = np.zeros((full.mass.shape[0], full.base.size))
-    unit[full.base, np.arange(full.base.size)] = 1.0
-    static = splu(sparse.csc_matrix(full.stiffness)).solve(unit)
-    smooth = unit @ smooth_tractions(base)
     # The norm of the shapes weighs mass and stiffness where a wave is as long as the base is wide.
     half = np.ptp(base[:, 0]) / 2.0
-    distance = np.hypot(*(full.points.T)) / half
-    weight = np.concatenate([np.ones(full.base.size), (1.0 + distance) ** -_FADING])
-    norm = norm_of(body, np.pi / 2.0 * material.shear_speed / half, weight)
-    rates = [complex(_GROWTH, 1.0) * limit * ratio for ratio in np.geomspace(_LOWEST, 1.05, _SAMPLED)]
-    between = [(low + high) / 2.0 for low, high in pairwise(rates[::-2])]
-    if material.massless:
-        rates = between = []
-    modes, error = reduced_modes(body, smooth, norm, rates, between, _MOST, enough, static)
+    weight = (1.0 + np.hypot(*full.points.T) / half) ** -_FADING
+    weight[full.base] = 1.0
+    norm = norm_of(full.body, np.pi / 2.0 * material.shear_speed / half, weight)
+    pushed = np.zeros((full.mass.shape[0], 2 * _PATTERNS))
+    pushed[full.base] = smooth_tractions(base)
+    halves, rates = _halves(full, half), _rates(material, half, highest)
+    parts = [_part(full, spread, pushed, norm, rates, _MOST // len(halves), enough) for spread in halves]
+    own, leaving = (
+        [congruent(matrix, shapes) for _, shapes, _ in parts]
+        for matrix in (full.damping_material, full.damping_radiation)
+    )
+    shapes = [shapes[full.base] for _, shapes, _ in parts]
+    return _joined([squares for squares, _, _ in parts], shapes, own, leaving, highest, max(part[2] for part in parts))
+
+
+def _part(
+    full: FullRock, spread: Sparse, pushed: Floats, norm: Sparse, rates: Rates, most: int, enough: float
+) -> tuple[Floats, Floats, float]:
+    """Return frequencies, shapes and error of the motions that `spread` makes of some unknowns."""
+    mass, damping, stiffness = (spread.T @ matrix @ spread for matrix in (full.mass, full.body.damping, full.stiffness))
+    body = LinearBody(mass, damping, stiffness)
+    inputs = spread.T @ pushed
+    inputs = inputs[:, np.abs(inputs).max(axis=0) > 1e-9 * np.abs(pushed).max(axis=0)]
+    base = np.unique(spread.tocsr()[full.base].nonzero()[1])
+    unit = np.zeros((mass.shape[0], base.size))
+    unit[base, np.arange(base.size)] = 1.0
+    static = splu(sparse.csc_matrix(stiffness), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve(unit)
+    modes, error = reduced_modes(body, inputs, spread.T @ norm @ spread, rates, most, enough, static)
     squares, shapes = modes
-    own, leaving = (congruent(part, shapes) for part in (full.damping_material, full.damping_radiation))
-    return ReducedRock(squares, own + leaving, own, leaving, shapes[full.base], highest, error)
+    return squares, spread @ shapes, error
+
+
+def _rates(material: RockMaterial, half: float, highest: float) -> Rates:
+    if material.massless:
+        return Rates([], [], [], 0)
+    limit = 2.0 * np.pi * highest
+
+    def rates(growth: float, highest: float, count: int) -> list[complex]:
+        return [complex(growth, 1.0) * limit * ratio for ratio in np.geomspace(_LOWEST, highest, count)]
+
+    count = max(_SAMPLED, 2 + math.ceil(_BY_WAVES * limit * half / material.shear_speed))
+    # Between those that are sampled.
+    checked = rates(_LITTLE_GROWTH, 1.0, 2 * count - 1)[1::4]
+    return Rates(rates(_GROWTH, 1.0, count), rates(_LITTLE_GROWTH, 1.05, _CHOSEN * count), checked, _MOMENTS)
+
+
+def _halves(full: FullRock, half: float) -> list[Sparse]:
+    """Return all motions, (N, n), as those that are the same on both sides of the middle and those that are opposite,
+    where the rock is the same on both sides and neither moves the other; elsewhere all together."""
+    count = full.points.shape[0]
+    everything = [sparse.identity(count, format="csr")]
+    places = np.column_stack([full.points, 10.0 * half * full.axis])
+    away, twin = cKDTree(places).query(places * [-1.0, 1.0, 1.0])
+    if away.max() > _SAME * half:
+        return everything
+    # Downstream is upstream in a mirror.
+    turned = np.where(full.axis == 0, -1.0, 1.0)
+    halves = []
+    for sign in (1.0, -1.0):
+        first = np.flatnonzero((np.arange(count) < twin) | ((np.arange(count) == twin) & (turned == sign)))
+        other = twin[first]
+        values = np.where(first == other, 0.5, np.sqrt(0.5))
+        rows = np.concatenate([first, other])
+        columns = np.tile(np.arange(first.size), 2)
+        halves.append(
+            sparse.csr_matrix(
+                (np.concatenate([values, sign * turned[first] * values]), (rows, columns)), (count, first.size)
+            )
+        )
+    return halves
 
 
 def smooth_tractions(base: Floats) -> Floats:

@@ -16,6 +16,7 @@ which is symmetric and passive: the water takes from the dam ``v_face^T L^T x'``
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -25,6 +26,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.cache import Kept
 from heeltoe.models.flexible.surroundings.edges import (
     GAUSS_POINTS,
     GAUSS_WEIGHTS,
@@ -36,6 +38,7 @@ from heeltoe.models.flexible.surroundings.far_field import Channel, channel
 from heeltoe.models.flexible.surroundings.reduction import (
     Complexes,
     LinearBody,
+    Rates,
     Sparse,
     congruent,
     norm_of,
@@ -53,7 +56,9 @@ _GROWTH, _MOST = 0.01, 240
 # What is far counts less in the choice of shapes: weights fall with this power of the distance.
 _FADING = 1.0
 # Rates of growth [highest circular frequency] of sudden motions, which tell what the water does before waves are back.
-_SUDDEN = (0.5 + 0j, 1.0 + 0j, 2.0 + 0j)
+_SUDDEN = (0.5, 1.0, 2.0)
+# Even frequencies at which the water is sampled, and from which few of its shapes are chosen.
+_SAMPLED, _CHOSEN = 13, 25
 #: The relative error of the answers to smooth motions that a reduction may leave.
 ENOUGH = 0.005
 
@@ -249,6 +254,9 @@ def _wet_line(paths: Sequence[Floats], bottom: float, surface: float, longest: f
     slopes = np.diff(nodes[:, 0]) / np.diff(nodes[:, 1])
     bends = nodes[1:-1, 1][np.abs(np.diff(slopes)) > 1e-9]
     marks = np.array([bottom, *(z for z in bends if bottom + 1e-6 < z < surface - 1e-6), surface])
+    # The nodes between the bends are the dam's, which has other ones in another mesh.
+    straight = np.concatenate([[True], np.abs(np.diff(slopes)) > 1e-9, [True]])
+    nodes = nodes[straight]
     rows = [bottom]
     for low, high in pairwise(marks):
         count = max(1, int(np.ceil((high - low) / longest)))
@@ -422,34 +430,59 @@ def _patterns(near: _Near, surface: float) -> Floats:
     return scaled
 
 
+@dataclass(frozen=True, eq=False)
+class _Few:
+    """Squared frequencies (m,), shapes (N, m), what floor and far field take (m, m), and the error that they leave."""
+
+    squares: Floats
+    shapes: Floats
+    taken_floor: Floats
+    taken_far: Floats
+    error: float
+
+
+# The same water lies before dams whose meshes differ: those of the evidence of a run.
+_KEPT: Kept[_Few] = Kept(8)
+
+
 def _reduced(full: FullWater, highest: float, enough: float) -> ReducedWater:
-    body, limit = full.body, 2.0 * np.pi * highest
-    inputs = np.column_stack([full.ground, full.patterns])
-    # A little growth keeps the resonances of a channel without losses finite, as any shaking does that has an end.
-    sampled = [_GROWTH * full.first + 1j * omega for omega in _frequencies(full.first, limit)]
-    sampled += [factor * limit for factor in _SUDDEN]
-    norm = norm_of(body, full.first, (1.0 + full.distance) ** -_FADING)
-    between = [(low + high) / 2.0 for low, high in pairwise(sampled[: -len(_SUDDEN) : 2])]
-    between += [factor * limit * 1.2 for factor in _SUDDEN]
-    modes, error = reduced_modes(body, inputs, norm, sampled, between, _MOST, enough)
-    squares, shapes = modes
-    taken_floor, taken_far = (congruent(part, shapes) for part in (full.damping_floor, full.damping_far))
+    matrices = (full.mass, full.stiffness, full.damping_floor, full.damping_far)
+    content = hashlib.sha256()
+    for part in (*(matrix.data for matrix in matrices), full.ground, full.patterns):
+        content.update(part.tobytes())
+    few = _KEPT.get((content.digest(), highest, enough), lambda: _few(full, highest, enough))
     return ReducedWater(
-        squares,
-        taken_floor + taken_far,
-        taken_floor,
-        taken_far,
-        np.ascontiguousarray((full.coupling.T @ shapes).T),
-        shapes.T @ full.ground,
-        np.ascontiguousarray(full.pressure @ shapes),
+        few.squares,
+        few.taken_floor + few.taken_far,
+        few.taken_floor,
+        few.taken_far,
+        np.ascontiguousarray((full.coupling.T @ few.shapes).T),
+        few.shapes.T @ full.ground,
+        np.ascontiguousarray(full.pressure @ few.shapes),
         highest,
-        error,
+        few.error,
     )
 
 
-def _frequencies(first: float, limit: float) -> list[float]:
-    """Return circular frequencies, denser about the cut-offs of the channel."""
+def _few(full: FullWater, highest: float, enough: float) -> _Few:
+    inputs = np.column_stack([full.ground, full.patterns])
+    norm = norm_of(full.body, full.first, (1.0 + full.distance) ** -_FADING)
+    modes, error = reduced_modes(full.body, inputs, norm, _rates(full.first, 2.0 * np.pi * highest), _MOST, enough)
+    squares, shapes = modes
+    return _Few(squares, shapes, congruent(full.damping_floor, shapes), congruent(full.damping_far, shapes), error)
+
+
+def _rates(first: float, limit: float) -> Rates:
+    sampled, chosen = (_motions(first, limit, count) for count in (_SAMPLED, _CHOSEN))
+    sudden = [complex(factor * limit) for factor in _SUDDEN]
+    checked = [(low + high) / 2.0 for low, high in pairwise(chosen[::2])][::2]
+    return Rates(sampled + sudden, chosen + sudden, checked + [1.2 * rate for rate in sudden], 0)
+
+
+def _motions(first: float, limit: float, count: int) -> list[complex]:
+    """Return rates at even circular frequencies up to a limit, and at some about the cut-offs of the channel."""
     cut = first * np.arange(1, limit / first + 1.0, 2.0)
     about = np.outer(cut, [0.9, 0.97, 1.0, 1.03, 1.1]).reshape(-1)
-    even = np.linspace(0.0, limit, 25)
-    return sorted({float(omega) for omega in np.concatenate([even, about]) if omega <= limit})
+    even = np.linspace(0.0, limit, count)
+    # A little growth keeps the resonances of a channel without losses finite, as any shaking does that has an end.
+    return [complex(_GROWTH * first, omega) for omega in sorted({*even, *about}) if omega <= limit]
