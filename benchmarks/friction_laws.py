@@ -1,5 +1,5 @@
-"""What a friction law costs a rigid dam, beside a constant coefficient; `--page` writes the table of results.md into
-docs/real-cracks.md."""
+"""What a friction law, rotations of any size and uplift that follows the opening cost a rigid dam, beside a constant
+coefficient; `--page` writes the tables of results.md into docs/real-cracks.md."""
 
 from __future__ import annotations
 
@@ -21,12 +21,18 @@ from heeltoe.models.rigid.walk import walk
 from heeltoe.motion.earthquake import Earthquake
 
 TITLE = "Friction laws"
-EXAMPLE = Path(__file__).parents[1] / "examples" / "typical-base.toml"
+EXAMPLES = Path(__file__).parents[1] / "examples"
 PAGE = Path(__file__).parents[1] / "docs" / "real-cracks.md"
 BEGINS, ENDS = "<!-- costs: python benchmarks/friction_laws.py --page -->\n", "<!-- end of costs -->\n"
 WEAKENING = {"name": "slip weakening", "peak_friction": 1.1, "residual_friction": 0.9, "slip": "20 mm"}
 BOND = {"name": "cohesion", "cohesion": "0.3 MPa", "residual_friction": 0.9}
 ROUGH = {"asperity_height": "20 mm", "wave_length": "200 mm"}
+#: What stands between the tables of the page.
+CHANGE = """
+
+Where rotation or uplift change something as the dam moves, in multiples of a run in which nothing does:
+
+"""
 #: The row with which the others are compared; how often all are run in turn, and how often each is then.
 CONSTANT, TURNS, CALLS = "constant, 0.9", 15, 50
 LAWS: dict[str, dict[str, Any]] = {
@@ -41,22 +47,33 @@ LAWS: dict[str, dict[str, Any]] = {
     "rough": {"friction": 0.7, "roughness": ROUGH},
     "rough, wearing": {"friction": 0.7, "roughness": {**ROUGH, "wear": "1e-6 m^2/J"}},
 }
+#: A dam that lies as it slides, and one that rocks and bounces; what may change as they move.
+DAMS = {"typical-base, lies": ("typical-base", "0.9", 0.4), "koyna-top, bounces": ("koyna-top", "1.0", 0.6)}
+CHANGES: dict[str, list[str]] = {
+    "nothing": [],
+    "rotation, p-delta": ["analysis.rotation=p-delta"],
+    "rotation, finite": ["analysis.rotation=finite"],
+    "uplift, follows opening": ["uplift.during_shaking=follows opening"],
+    "uplift, zero while open": ["uplift.during_shaking=zero while open"],
+    "uplift, full while open": ["uplift.during_shaking=full while open"],
+}
+HEADS = (["law", "a run", "times a constant's run", "slip"], ["dam", "changes", "a run", "times", "impacts", "slip"])
 
 
 def _case(crack: dict[str, Any]) -> Case:
-    fields = read_case(EXAMPLE).model_dump(mode="json", exclude_unset=True)
+    fields = read_case(EXAMPLES / "typical-base.toml").model_dump(mode="json", exclude_unset=True)
     del fields["crack"]["friction"]
     fields["crack"] |= crack
     return read_case(fields)
 
 
-def _run(crack: dict[str, Any]) -> tuple[Callable[[], Any], float]:
-    """Return a run without histories, and the slip at its end [m]."""
-    case, motion = _case(crack), el_centro()[0].scaled_to(0.4 * 9.80665)
+def _run(case: Case, peak: float) -> tuple[Callable[[], Any], Any]:
+    """Return a run without histories at a peak acceleration [g], and its summary."""
+    motion = el_centro()[0].scaled_to(peak * 9.80665)
     block, shaking = build_block(case), Earthquake(motion, None, motion.duration).shaking
-    slip = walk(case, block, shaking).summary.slip
-    require(slip > 1e-3, "the dam did not slide")
-    return lambda: walk(case, block, shaking), slip
+    summary = walk(case, block, shaking).summary
+    require(summary.slip > 1e-3, "the dam did not slide")
+    return lambda: walk(case, block, shaking), summary
 
 
 def _taken(work: Callable[[], Any]) -> float:
@@ -67,43 +84,63 @@ def _taken(work: Callable[[], Any]) -> float:
     return (time.process_time() - start) / CALLS
 
 
-def report() -> str:
-    """Measure and return Markdown."""
-    require(PROFILE == "release", "the kernel is a debug build")
-    runs = {name: _run(crack) for name, crack in {CONSTANT: {"friction": 0.9}, **LAWS}.items()}
+def _measured(runs: dict[str, tuple[Callable[[], Any], Any]], plain: str) -> dict[str, list[str]]:
+    """Return for each of some runs how long it takes, and in multiples of the `plain` one."""
     taken: dict[str, list[float]] = {name: [] for name in runs}
     for _ in range(TURNS):
         for name, (work, _) in runs.items():
             taken[name].append(_taken(work))
-    ratios = {
-        name: median([own / plain for own, plain in zip(taken[name], taken[CONSTANT], strict=True)]) for name in runs
+    ratios = {name: median([own / one for own, one in zip(taken[name], taken[plain], strict=True)]) for name in runs}
+    return {
+        name: [seconds(min(taken[name])), f"{ratios[name]:.2g}" if ratios[name] < 10.0 else f"{ratios[name]:.0f}"]
+        for name in runs
     }
-    lines = [
-        [
-            name,
-            seconds(min(taken[name])),
-            f"{ratios[name]:.2g}" if ratios[name] < 10.0 else f"{ratios[name]:.0f}",
-            f"{1e3 * slip:.0f} mm",
-        ]
-        for name, (_, slip) in runs.items()
-    ]
+
+
+def _laws() -> str:
+    laws = {CONSTANT: {"friction": 0.9}, **LAWS}
+    runs = {name: _run(_case(crack), 0.4) for name, crack in laws.items()}
+    costs = _measured(runs, CONSTANT)
+    return table(HEADS[0], [[name, *costs[name], f"{1e3 * run.slip:.0f} mm"] for name, (_, run) in runs.items()])
+
+
+def _changes() -> str:
+    lines = []
+    for dam, (example, friction, peak) in DAMS.items():
+        case = f"{EXAMPLES / example}.toml"
+        runs = {
+            name: _run(read_case(case, [f"crack.friction={friction}", *fields]), peak)
+            for name, fields in CHANGES.items()
+        }
+        costs = _measured(runs, "nothing")
+        for name, (_, run) in runs.items():
+            lines.append([dam, name, *costs[name], f"{run.impacts:.0f}", f"{1e3 * run.slip:.1f} mm"])
+    return table(HEADS[1], lines)
+
+
+def report() -> str:
+    """Measure and return Markdown."""
+    require(PROFILE == "release", "the kernel is a debug build")
     return "\n\n".join(
         [
             heading(TITLE, ["heeltoe", "numpy"]),
             "The typical dam as a rigid block, 30 s of El Centro 1940 at 0.4 g: a run without histories, the least "
             f"processor time of {TURNS} turns; the multiple is the median over the turns. Weakening laws and bonds "
             "come to the constant coefficient of the first row.",
-            table(["law", "a run", "times a constant's run", "slip"], lines),
+            _laws(),
+            "The typical dam and, at 0.6 g, the top of Koyna Dam with a constant coefficient, where rotation or uplift "
+            "change something as they move; multiples of a run in which nothing does.",
+            _changes(),
         ]
     )
 
 
 def page(text: str, results: str) -> str:
     """Return a page with the costs that results have."""
-    head = ["law", "a run", "times a constant's run", "slip"]
-    costs = [[row[name] for name in head] for row in rows(results, TITLE)]
+    measured = rows(results, TITLE)
+    tables = [table(head, [[row[name] for name in head] for row in measured if head[0] in row]) for head in HEADS]
     before, rest = text.split(BEGINS)
-    return f"{before}{BEGINS}\n{table(head, costs)}\n\n{ENDS}{rest.split(ENDS)[1]}"
+    return f"{before}{BEGINS}\n{CHANGE.join(tables)}\n\n{ENDS}{rest.split(ENDS)[1]}"
 
 
 if __name__ == "__main__":

@@ -16,10 +16,8 @@ use crate::results::{by_column, BlockRun};
 use crate::tables::{named, pool, row, rows, slice, wrong, Numbers};
 use crate::watch::{prompt, watched};
 
-/// Runs of no more events, samples and moments that are wanted take a few milliseconds: nobody interrupts them. Events of
-/// a block that is integrated take longer.
+/// Runs of no more events, samples and moments that are wanted take a few milliseconds: nobody interrupts them.
 const EVENTS_AT_ONCE: u64 = 2000;
-const INTEGRATED_AT_ONCE: u64 = 500;
 const MOMENTS_AT_ONCE: usize = 50_000;
 
 /// How far a run has come (s).
@@ -33,13 +31,12 @@ fn block(numbers: &Numbers) -> PyResult<Block> {
 }
 
 /// One run of a motion of so many samples with its events, and with what is seen of it at some moments (s): beside Python,
-/// where it has more than so many events.
+/// where it has many events.
 fn walked(
     py: Python<'_>,
     samples: usize,
     times: &Numbers,
     options: Options,
-    at_once: u64,
     walk: impl Fn(Options, Wanted<'_>) -> Run + Sync,
 ) -> PyResult<Run> {
     let times = times.as_slice()?;
@@ -50,7 +47,7 @@ fn walked(
     };
     if samples + times.len() <= MOMENTS_AT_ONCE {
         let few = Options {
-            event_limit: options.event_limit.min(at_once),
+            event_limit: options.event_limit.min(EVENTS_AT_ONCE),
             ..options
         };
         let run = prompt(py, || walk(few, wanted))?;
@@ -86,7 +83,7 @@ pub fn run_rigid<'py>(
     };
     let walk =
         |options: Options, wanted: Wanted<'_>| exact::simulate(&block, &shaking, start, options, wanted);
-    let run = walked(py, time.len()?, &output_times, options, EVENTS_AT_ONCE, walk)?;
+    let run = walked(py, time.len()?, &output_times, options, walk)?;
     BlockRun::of(py, run, true)
 }
 
@@ -143,7 +140,7 @@ pub fn run_rigid_varying<'py>(
     let walk = |options: Options, wanted: Wanted<'_>| {
         varying::simulate(&block, &body, surface.as_ref(), &shaking, start, options, wanted)
     };
-    let run = walked(py, time.len()?, &output_times, options, INTEGRATED_AT_ONCE, walk)?;
+    let run = walked(py, time.len()?, &output_times, options, walk)?;
     BlockRun::of(py, run, false)
 }
 

@@ -18,7 +18,7 @@ use crate::table::{named, numbers};
 
 mod series;
 
-pub(crate) use series::{Terms, INVERSE, TERMS};
+pub(crate) use series::{INVERSE, TERMS};
 
 named! {
     /// What the coefficient of friction goes by.

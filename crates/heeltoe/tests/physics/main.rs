@@ -3,6 +3,7 @@
 
 mod bonds;
 mod flexible;
+mod flight;
 mod friction_laws;
 mod numbers;
 mod rigid;

@@ -11,6 +11,7 @@ use super::super::walk::Cause;
 use super::block::Rotation;
 use super::shaking::Piece;
 use super::step::{between, step, State};
+use super::unfolding::Flight;
 use super::walk::Varying;
 
 /// A step that is short enough for its polynomials to say that a motion ends as it begins, and one that is not made any
@@ -34,6 +35,8 @@ pub(super) struct Trial<'a> {
     pub error: f64,
     /// Whether it was integrated at all.
     pub integrated: bool,
+    /// Its series, where it has one.
+    pub flight: Option<&'a Flight>,
     pub piece: &'a Piece,
 }
 
@@ -48,6 +51,7 @@ impl<'a> Trial<'a> {
             length,
             error: 0.0,
             integrated: false,
+            flight: None,
             piece,
         }
     }
@@ -98,6 +102,12 @@ impl Varying<'_> {
         }
         if let Some(advanced) = self.advance_exactly(piece, time) {
             return advanced;
+        }
+        if let Some(flown) = self
+            .flight(piece, fresh)
+            .and_then(|flight| self.fly_on(&flight, fresh, piece, time))
+        {
+            return flown;
         }
         let start = self.state;
         let rate = self.rates(&start, &piece.ground);

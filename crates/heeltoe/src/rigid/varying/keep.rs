@@ -7,6 +7,7 @@ use super::super::result::Moment;
 use super::advance::Trial;
 use super::shaking::Piece;
 use super::step::{State, COUNTED};
+use super::unfolding::Flight;
 use super::walk::Varying;
 
 /// By how much more than the polynomial through the ends of a step the motion may have moved.
@@ -114,6 +115,10 @@ impl Varying<'_> {
         if (0..4).all(|i| speeds[i] * last[i] >= 0.0) {
             return;
         }
+        if let Some(flight) = trial.flight {
+            self.turns_of(flight, start, taken, [speeds, last]);
+            return;
+        }
         let (corner, seen) = self.slipping(start);
         let instant = self.seen_from(corner, &seen, &piece.ground);
         let [slip, heel, toe] = instant.contact_acceleration(&self.reactions(&seen, &instant).0);
@@ -135,6 +140,42 @@ impl Varying<'_> {
                 let [position, _] = self.contact(&at);
                 self.walk.summary.widen(&position, at[2]);
             }
+        }
+    }
+
+    /// The same of a flight, with the velocities of slip, gaps and rotation at its start and at its end.
+    fn turns_of(&mut self, flight: &Flight, start: &State, taken: f64, [speeds, last]: [[f64; 4]; 2]) {
+        let ([[slip, heel, toe], _], reach) = (self.contact(start), flight.swing(self.turning.width));
+        let summary = &self.walk.summary;
+        let [heels, toes] = summary.largest_gap.map(|gap| [0.0, gap]);
+        let (from, known) = (
+            [slip, heel, toe, start[2]],
+            [summary.slip_range, heels, toes, summary.rotation_range],
+        );
+        for (i, (before, behind)) in speeds.into_iter().zip(last).enumerate() {
+            let [least, most] = known[i];
+            let turns = before * behind < 0.0;
+            // It turns back from where it goes first.
+            let beyond =
+                from[i] + reach[i] > most && before > 0.0 || from[i] - reach[i] < least && before < 0.0;
+            if !(turns && beyond) {
+                continue;
+            }
+            let speed = |t: f64| {
+                let state = flight.state_after(start, t);
+                before.signum()
+                    * if i < 3 {
+                        self.contact(&state)[1][i]
+                    } else {
+                        state[5]
+                    }
+            };
+            let aside = 1e-3 * taken;
+            let slope = |t: f64| (speed(t + aside) - speed(t - aside)) / (2.0 * aside);
+            let turn = event::bracketed(speed, slope, [0.0, taken], 0.5 * taken);
+            let at = flight.state_after(start, turn);
+            let [position, _] = self.contact(&at);
+            self.walk.summary.widen(&position, at[2]);
         }
     }
 

@@ -5,7 +5,8 @@
 //!
 //! `q'' = M^-1 (Q + G^T (T, N_h, N_t))`
 //!
-//! is integrated to a tolerance far below anything that is shown, and events are found on the integrated motion. Where only
+//! is integrated to a tolerance far below anything that is shown, and events are found on the integrated motion; flight and
+//! rocking without slip go by power series (`flight`, `unfolding`), the water in the crack with them (`wetting`). Where only
 //! friction goes by a law nothing is integrated that has a closed form: rest, rocking and flight (`plain`), a slide whose
 //! friction is a straight line over the path (`slide`); any other slide is a power series (`flat`), and once the law has
 //! come to a constant the exact walk goes on.
@@ -17,6 +18,7 @@ mod climb;
 mod curve;
 mod flanks;
 mod flat;
+mod flight;
 mod friction;
 mod instant;
 mod keep;
@@ -32,8 +34,10 @@ mod rubbing;
 mod shaking;
 mod slide;
 mod step;
+mod unfolding;
 mod walk;
 mod water;
+mod wetting;
 
 pub use block::{Rotation, TurningBlock, VaryingNumbers};
 pub use shaking::TurningShaking;

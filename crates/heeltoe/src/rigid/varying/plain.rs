@@ -6,7 +6,10 @@
 //!
 //! `b* = (b_s, b_h - k b_s, b_t - k b_s)`, `F_s* = F_s + k (F_h + F_t)`.
 
+use std::rc::Rc;
+
 use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
+use super::super::choice::Modes;
 use super::super::course::{Course, Earliest};
 use super::super::event;
 use super::super::ledger::work;
@@ -85,11 +88,23 @@ impl Varying<'_> {
         [Mode::Rest, Mode::Drift].map(|mode| block.rubbing(&self.strength(mode, normal, &self.state)))
     }
 
+    /// The reactions of all modes on a plane crack whose friction nothing changes any more.
+    fn settled(&self) -> Option<&Rc<Ready>> {
+        let settled = self.rough.is_none() && self.rubbing.settled() && !self.rubbing.bends();
+        settled.then(|| {
+            self.settled
+                .get_or_init(|| Rc::new(Ready::new(self.blocks(), None)))
+        })
+    }
+
     /// The reactions of all modes, and whether what is chosen in the air goes upstream; none where they take more than
     /// that. Where the block stands in a valley or on a peak each is on the flank that the mode goes to.
-    pub(super) fn ready(&mut self, piece: &Piece) -> Option<(Ready, bool)> {
+    pub(super) fn ready(&mut self, piece: &Piece) -> Option<(Rc<Ready>, bool)> {
         if !self.is_ready() {
             return None;
+        }
+        if let Some(settled) = self.settled() {
+            return Some((settled.clone(), false));
         }
         let (downstream, upstream) = match self.stands_between(&self.state) {
             None => (self.blocks(), None),
@@ -103,7 +118,7 @@ impl Varying<'_> {
             }
         };
         let falls = upstream.as_ref().is_some_and(|(_, falls)| *falls);
-        Some((Ready::new(downstream, upstream), falls))
+        Some((Rc::new(Ready::new(downstream, upstream)), falls))
     }
 
     /// The cubic way from the present state on, and the reactions by which it goes; none where it has another.
@@ -118,13 +133,15 @@ impl Varying<'_> {
         if !goes || !self.plain && mode.contacts() != [true, true] || piece.left <= 0.0 {
             return None;
         }
-        let [block, lifted] = self.blocks();
-        let block = if mode.contacts() == [true, true] {
-            block
-        } else {
-            lifted
+        let here;
+        let ready = match self.settled() {
+            Some(settled) => settled,
+            None => {
+                here = Rc::new(Ready::new(self.blocks(), None));
+                &here
+            }
         };
-        let reaction = Reaction::new(&block, mode);
+        let reaction = *ready.of(mode);
         if !reaction.regular {
             return None;
         }
@@ -134,7 +151,7 @@ impl Varying<'_> {
         let [position, velocity] = self.contact(&self.state);
         let closed = super::super::walk::Single::closed(self);
         let course = Course::begin(&reaction, felt, mode.free(), velocity[SLIP], closed, &level);
-        let load = block.generalised_force;
+        let load = ready.block(mode).generalised_force;
         let cubic = Cubic {
             position,
             velocity,

@@ -1,20 +1,40 @@
 //! A power series in the time over its length, and where it falls through zero.
 
 use super::super::event::bracketed;
-use crate::friction::{Terms, INVERSE, TERMS};
+use crate::friction::{INVERSE, TERMS};
 
 /// Halvings in the search for a fall; what falls and rises again within so short a time only touches.
 const HALVINGS: usize = 40;
 
+/// Most terms of a series of a flight: where it needs more it is better cut.
+pub(super) const MOST: usize = 22;
+/// The terms of such a series.
+pub(super) type Terms = [f64; MOST];
+/// Such a series.
+pub(super) type Series = Power<MOST>;
+
 /// A power series.
 #[derive(Clone, Copy)]
-pub(super) struct Power {
-    pub terms: Terms,
+pub(super) struct Power<const N: usize = TERMS> {
+    pub terms: [f64; N],
     /// How many of them there are.
     pub count: usize,
 }
 
-impl Power {
+impl<const N: usize> Power<N> {
+    pub(super) const NONE: Self = Power {
+        terms: [0.0; N],
+        count: 0,
+    };
+
+    /// End it with so many terms, and with a length that is `part` of what it was.
+    pub(super) fn end(&mut self, count: usize, part: f64) {
+        self.count = count;
+        if part < 1.0 {
+            self.shorten(part);
+        }
+    }
+
     pub(super) fn at(&self, t: f64) -> f64 {
         self.terms[..self.count]
             .iter()
@@ -26,6 +46,22 @@ impl Power {
     pub(super) fn rate(&self, t: f64) -> f64 {
         let later = self.terms[..self.count].iter().enumerate().skip(1).rev();
         later.fold(0.0, |sum, (n, term)| sum * t + n as f64 * term)
+    }
+
+    /// It times a factor.
+    pub(super) fn scaled(&self, factor: f64) -> Self {
+        Power {
+            terms: self.terms.map(|term| factor * term),
+            ..*self
+        }
+    }
+
+    /// With another one of as many terms, times a factor.
+    pub(super) fn plus(&self, other: &Self, factor: f64) -> Self {
+        Power {
+            terms: std::array::from_fn(|n| self.terms[n] + factor * other.terms[n]),
+            ..*self
+        }
     }
 
     /// Its integral from zero on.
@@ -76,10 +112,25 @@ impl Power {
         whole.fall_in(0.0, 1.0, HALVINGS).or_else(ends_at_zero)
     }
 
+    /// The same where it falls below `-floor` after that.
+    pub(super) fn first_fall_below(&self, floor: f64) -> Option<f64> {
+        if self.floor() > 0.0 {
+            return None;
+        }
+        let mut raised = *self;
+        raised.terms[0] += floor;
+        raised.first_fall().and_then(|_| self.first_fall())
+    }
+
     /// The same on a stretch at whose start it is not negative.
     fn fall_in(&self, start: f64, end: f64, halvings: usize) -> Option<f64> {
-        let mut near = self.about(start);
-        near.shorten(end - start);
+        let mut near = *self;
+        if start > 0.0 {
+            near = self.about(start);
+        }
+        if start > 0.0 || end < 1.0 {
+            near.shorten(end - start);
+        }
         if near.floor() > 0.0 {
             return None;
         }
@@ -112,7 +163,7 @@ impl Power {
 
     fn derivative(&self) -> Self {
         let mut rate = Power {
-            terms: [0.0; TERMS],
+            terms: [0.0; N],
             count: (self.count - 1).max(1),
         };
         for n in 1..self.count {
@@ -120,6 +171,30 @@ impl Power {
         }
         rate
     }
+}
+
+/// Term n of the product of two series.
+pub(super) fn product(a: &Terms, b: &Terms, n: usize) -> f64 {
+    crossed(&a[..=n], &b[..=n])
+}
+
+/// The same without the first term of the first series.
+pub(super) fn later(a: &Terms, b: &Terms, n: usize) -> f64 {
+    crossed(&a[1..=n], &b[..n])
+}
+
+/// Sum of the products of some numbers with others from last to first, in four sums that need not wait for each other.
+fn crossed(a: &[f64], b: &[f64]) -> f64 {
+    let (ahead, behind) = (a.chunks_exact(4), b.rchunks_exact(4));
+    let left = ahead.remainder().iter().zip(behind.remainder().iter().rev());
+    let rest: f64 = left.map(|(a, b)| a * b).sum();
+    let mut sums = [0.0; 4];
+    for (a, b) in ahead.zip(behind) {
+        for i in 0..4 {
+            sums[i] += a[i] * b[3 - i];
+        }
+    }
+    rest + ((sums[0] + sums[1]) + (sums[2] + sums[3]))
 }
 
 #[cfg(test)]

@@ -90,6 +90,7 @@ impl Varying<'_> {
             None => self
                 .by_series(start, piece, since)
                 .or_else(|| self.by_cubic(start, piece, since))
+                .or_else(|| self.by_flight(start, piece, since))
                 .unwrap_or_else(|| self.stepped(start, rate, piece, since).0),
         }
     }

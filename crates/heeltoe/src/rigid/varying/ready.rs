@@ -28,6 +28,13 @@ impl Ready {
     }
 }
 
+impl Ready {
+    /// The block with the friction of a mode, downstream.
+    pub(super) fn block(&self, mode: Mode) -> &Block {
+        &self.downstream[usize::from(mode.contacts() != [true, true])]
+    }
+}
+
 impl Modes for Ready {
     fn of(&self, mode: Mode) -> &Reaction {
         self.known[mode.index()].get_or_init(|| {

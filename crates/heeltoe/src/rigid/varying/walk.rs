@@ -1,6 +1,7 @@
 //! From sample to sample of the record, and from event to event within each piece.
 
 use std::cell::{Cell, OnceCell};
+use std::rc::Rc;
 
 use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
 use super::super::choice::{accelerations, select, Modes, Moving};
@@ -56,6 +57,8 @@ pub(super) struct Varying<'a> {
     pub(super) flats: [Cell<Option<Flat>>; 2],
     /// The block on a rough crack seen from either corner, where its loads and its geometry stay as they are.
     pub(super) stills: [OnceCell<Still>; 2],
+    /// The reactions of its modes once nothing changes its friction any more, see [`super::plain`].
+    pub(super) settled: OnceCell<Rc<Ready>>,
     pub(super) rubbing: Rubbing<'a>,
     /// Whether friction goes by a law, of which there is something to tell.
     by_law: bool,
@@ -125,6 +128,7 @@ pub fn simulate(
         lines: Default::default(),
         flats: Default::default(),
         stills: Default::default(),
+        settled: OnceCell::new(),
         rubbing,
         by_law: surface.is_some(),
         plain: turning.stays(shaking),
@@ -343,8 +347,15 @@ impl Varying<'_> {
 
     /// The mode in which the block can go on with its bond as it is.
     pub(super) fn chosen(&mut self, piece: &Piece) -> Option<Mode> {
+        if self.rough.is_none() && self.closed() == [false; 2] {
+            let [[a, b, c], _] = self.turning.flight(self.corner, &self.state, &piece.ground);
+            let rate = [0.0, 0.0, 0.0, a, b, c, 0.0, 0.0, 0.0];
+            let starting = self.turning.contact_acceleration(self.corner, &self.state, &rate);
+            self.starting = Some(starting);
+            return Some(Mode::Drift);
+        }
         if let Some((reactions, upstream)) = self.ready(piece) {
-            return self.choose_among(&reactions, upstream, &level(piece));
+            return self.choose_among(&*reactions, upstream, &level(piece));
         }
         let level = Level {
             ground: [0.0; 2],

@@ -19,15 +19,15 @@ pub struct FollowingWater {
     /// Pressure of the reservoir (Pa).
     pub full: f64,
     /// Force and moment in the closed crack.
-    closed: [f64; 2],
+    pub(super) closed: [f64; 2],
 }
 
 /// Gauss-Legendre of order 2 on (-1, 1), which is exact for a cubic.
 const PLACE: f64 = 0.577_350_269_189_625_8;
 /// Below this the sum of [`tail`] is taken term by term: the closed form would lose digits.
-const NARROW: f64 = 0.1;
+pub(super) const NARROW: f64 = 0.1;
 /// As many factors of it as leave no more than rounding of the first.
-const ODD: [f64; 8] = [
+pub(super) const ODD: [f64; 8] = [
     1.0 / 3.0,
     1.0 / 5.0,
     1.0 / 7.0,
