@@ -6,7 +6,7 @@ use super::super::choice::VIOLATION;
 use super::super::event;
 use super::super::mode::Mode;
 use super::super::walk::Cause;
-use super::advance::Trial;
+use super::advance::{Trial, SHORT};
 use super::block::Rotation;
 use super::shaking::Piece;
 use super::step::{State, SIZE};
@@ -70,7 +70,9 @@ impl Varying<'_> {
         };
         let end = flight.state(&self.state, part);
         let lies = self.turning.rotation != Rotation::Small && end[2].abs() >= std::f64::consts::FRAC_PI_2;
-        if part == 0.0 && (fresh.is_some() || cause.is_none()) || lies {
+        // Steps of the integrator pass over what cuts the series ever shorter.
+        let creeps = cause.is_none() && taken < piece.left && taken < SHORT * self.time_scale;
+        if part == 0.0 && fresh.is_some() || creeps || lies {
             return None;
         }
         let trial = Trial {
