@@ -33,6 +33,7 @@ FIGURES = (
     ("Flexible studies", "an elastic run of a study", rf"^\| a run of the study \| {_TIME}"),
     ("How cost grows", "30 s, rigid dam", rf"^\| 30 s \| {_TIME}"),
     ("How cost grows", "20 s, 16 across", rf"^\| 16 across \|[^|]*\| {_TIME}"),
+    ("Commands", "elastic dam, from the shell", rf"^\| elastic dam, crack at its base \| {_TIME}"),
     ("The app in a browser", "the first answer is drawn", rf"^\| the first answer is drawn \| {_TIME}"),
 )
 

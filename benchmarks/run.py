@@ -28,6 +28,8 @@ PARTS = {
     "cost_growth": "How cost grows",
     "flexible_study": "Flexible studies",
     "crack_peers": "Elastic block beside peers",
+    "elastic_rocking": "Elastic block that rocks",
+    "commands": "Commands",
     "app_redraw": "The app in a browser",
 }
 TITLE = "# Measured results\n\nWritten by `python benchmarks/run.py`; what the numbers mean is in the README beside it."

@@ -53,6 +53,15 @@ CHOSEN: tuple[tuple[str, str, str, tuple[tuple[str, dict[str, str]], ...]], ...]
         ),
     ),
     (
+        "an elastic block that rocks",
+        "Elastic block that rocks",
+        "relative",
+        (
+            ("heeltoe, 16 elements across, 0.0002 s", {"program": "heeltoe", "step": "0.0002 s"}),
+            ("OpenSees, RockingBC, 16 pieces, 0.0002 s", {"program": "OpenSees RockingBC", "step": "0.0002 s"}),
+        ),
+    ),
+    (
         "rocking at any rotation, El Centro",
         "Rotations of any size",
         "largest relative error",
