@@ -251,8 +251,8 @@ def report() -> str:
         for across, pieces in sorted(zip(ACROSS, PIECES, strict=True))
     ]
     limit_text = (
-        "The limits themselves, largest rotation [mrad]. RockingBC is a beam, without shear as its authors use it, that "
-        "stands ever less upright as it turns; ours is a plane at small rotations."
+        "The limits themselves, largest rotation [mrad]. RockingBC is a beam, without shear as its authors use it, and "
+        "loses its hold as it leans; ours is a plane at small rotations."
     )
     return "\n\n".join(
         [
