@@ -108,6 +108,7 @@ lint: check $(VENV)/.built
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
+	cd benchmarks && ../$(BIN)/mypy --config-file mypy.ini
 	$(BIN)/lint-imports --no-logo --no-cache
 	@$(MAKE) --no-print-directory sizes
 

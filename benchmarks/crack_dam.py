@@ -102,9 +102,8 @@ def row(problem: Problem, peak: float) -> list[str]:
     require(raw.steps == round(DURATION / problem.step) and raw.slip > 1e-3, "the dam did not slide")
     ours = least(repeat(lambda: shaken.run(problem.step), 7))
     # On one core, to be compared with that one run.
-    count, step = shaken._steps(problem.step)
     scales = np.repeat(np.linspace(0.98, 1.02, ABREAST)[:, None], 2, axis=1)
-    ground, theta = shaken._ground(count), case.flexible.theta
+    (_, step, ground), theta = shaken._ground(problem.step), case.flexible.theta
     several = least(repeat(lambda: dam.kernel.run_many(ground, step, theta, scales, threads=1), 3)) / ABREAST
     per_step = ours / raw.steps
     rate = operations(dam) / per_step

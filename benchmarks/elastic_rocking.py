@@ -12,6 +12,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import peer_opensees
@@ -23,7 +24,7 @@ from heeltoe.kernel.build import PROFILE
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.motion.earthquake import Earthquake
 
-ops = peer_opensees.ops
+ops: Any = peer_opensees.ops
 
 COLUMNS = [
     "program",

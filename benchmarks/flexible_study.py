@@ -81,7 +81,8 @@ def forget() -> None:
 def alone(found: StudyResults, plan: Plan) -> Alone:
     """Make some runs of a study by themselves, without evidence, at its mesh."""
     case, pilot = read_case(EXAMPLE), plan.pilot
-    require(pilot is not None and pilot.halvings == 0, "the study halves its steps: a run alone would not")
+    whole_steps = pilot is not None and pilot.time_step_s == pilot.first_step_s
+    require(whole_steps, "the study has shorter steps: a run alone would not")
     assert pilot is not None
     rows = found.to_table().sort_by("run").to_pylist()
     every = [rows[start + place % (stop - start)] for place, (start, stop) in enumerate(stretches(plan))]
