@@ -246,14 +246,15 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "note",
         "rock",
         "{share:.2g %} of {cases:d} computed dams like this one slide less far on elastic rock with sound in the "
-        "water, half of all {times:.2g|to} times as far; here the rock is rigid and the water a mass, which the block "
-        "rock and reservoir.compressible = true change",
+        "water, half of all {times:.2g|to} times as far; here the rock is rigid and the water a mass: a [rock] block and "
+        "reservoir.compressible = true add them",
     ),
     "surroundings-unlike": (
         "note",
         "rock",
         "the rock is rigid and the water a mass here, and the dams studied with elastic rock and sound are not like "
-        "this one ({why}): its slip may be off either way; the block rock and reservoir.compressible = true tell",
+        "this one ({why}): its slip may be off either way; a run with a [rock] block and reservoir.compressible = true "
+        "shows which",
     ),
     "outline-simplified": (
         "note",
