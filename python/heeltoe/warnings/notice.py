@@ -246,8 +246,8 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "note",
         "rock",
         "{share:.2g %} of {cases:d} computed dams like this one slide less far on elastic rock with sound in the "
-        "water, half of all {times:.2g|to} times as far; here the rock is rigid and the water a mass: a [rock] block and "
-        "reservoir.compressible = true add them",
+        "water, half of all {times:.2g|to} times as far; here the rock is rigid and the water a mass: a [rock] block "
+        "and reservoir.compressible = true add them",
     ),
     "surroundings-unlike": (
         "note",
