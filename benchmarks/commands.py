@@ -21,7 +21,7 @@ from measure import heading, require, seconds, table
 
 from heeltoe.kernel.build import PROFILE
 
-REPETITIONS = 5
+REPETITIONS = 3
 #: What is done, and the words of the command; paths are from the root of the version that is run.
 COMMANDS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("help", ("--help",)),
