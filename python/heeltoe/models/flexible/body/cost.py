@@ -27,7 +27,7 @@ _SET_UP, _SOLVED, _RESTED = 0.15, 8e-7, 2e-6
 _WATER, _WATER_BY_DEPTH = (0.35, 1.9e7), 4.1e8
 # The same of rock with n elements along its base, of n^2.5 and of n^2: measured with 8 to 24, for waves as for a fine
 # mesh. Each step takes as long as with so many bodies of water.
-_ROCK, _ROCK_ACROSS, _ROCK_STEPS = (0.35, 3e6), (1.2e-3, 3.6e5), 4
+_ROCK, _ROCK_ACROSS, _ROCK_STEPS = (0.4, 2.3e7), (1.8e-3, 3.6e5), 4
 # Seconds of each d^3 where all modes are wanted: 0.12 s of 710, 0.9 s of 1,570 degrees of freedom.
 _DENSE = 3e-10
 # Copies of the d m numbers of the modes of a part: while some or all of them are solved, and after that; the bytes of a
