@@ -103,7 +103,9 @@ def test_a_dam_with_each_law(law):
     assert response.outcome == "ok"
     assert result["name"] == law["name"]
     assert result["slip_path_range_m"][0] <= result["slip_path_m"] <= result["slip_path_range_m"][1]
-    assert result["slip_path_m"] == histories["slip_path_m"][-1] > 0.0
+    # The nodes are summed up in other orders, which processors round each in its way.
+    assert result["slip_path_m"] == pytest.approx(histories["slip_path_m"][-1], rel=1e-14)
+    assert result["slip_path_m"] > 0.0
     assert result["apparent_friction_after"] <= result["apparent_friction_before"] * (1.0 + 1e-12)
     for when in ("before", "after"):
         least, most = result[f"apparent_friction_{when}_range"]

@@ -52,8 +52,11 @@ def test_the_neck_alone_where_the_base_is_bonded(law):
     case = dam(0.9, law)
     two, alone = shaken(bonded(case, 0.0)), shaken(case.single_crack_cases[0])
     assert np.abs(alone.frames.slip).max() > 1e-3
-    same(two.all_frames[0], alone.frames, 8.0)
-    assert two.all_frames[0].slip_path == pytest.approx(alone.frames.slip_path, abs=1e-6)
+    # While the linear law weakens, what contact leaves of its equations, 1e-10, grows with the slip: to less than 1e-6
+    # on one processor and 2.6e-6 on another.
+    within = 1e-5 if law is WEAK else 1e-6
+    same(two.all_frames[0], alone.frames, 8.0, within)
+    assert two.all_frames[0].slip_path == pytest.approx(alone.frames.slip_path, abs=within)
 
 
 @pytest.mark.parametrize(("base", "neck"), PAIRS)
