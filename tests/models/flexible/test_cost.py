@@ -99,13 +99,16 @@ def resident(name):
     return next(int(line.split()[1]) * 1024 for line in Path("/proc/self/status").open() if line.startswith(name))
 
 case, step = read_case(json.loads(sys.argv[1])), json.loads(sys.argv[2])
-flexible(case.with_({"flexible.elements_across": 2, "flexible.modes": 20, "motion.duration": "0.1s"}))
+# Without rock and water, whose reduction would be kept for the run that counts.
+dry = {"reservoir.compressible": False, "rock": None}
+flexible(case.with_({"flexible.elements_across": 2, "flexible.modes": 20, "motion.duration": "0.1s"} | dry))
 gc.collect()
 Path("/proc/self/clear_refs").write_text("5")
 before = resident("VmRSS")
 flexible(case, output_step=step)
 print(resident("VmHWM") - before, cost_of(case, "flexible", step).memory)
 """
+LITTLE = 8e6
 BRIEF = {"motion.duration": "0.2s", "flexible.evidence": "none", "analysis.memory_limit": "20GB"}
 SECOND, THIRD = ({"further_cracks": [{"elevation": f"{level} m"} for level in levels]} for levels in ((35,), (80, 40)))
 LONG = {"motion.duration": "20s", "flexible.time_step": "2e-5s"}
@@ -143,7 +146,8 @@ def test_memory(name, across, changes):
     assert child.returncode == 0, child.stderr
     measured, estimated = map(float, child.stdout.split())
     print(f"{name}, {across} across, {changes.keys()}: {measured / 1e6:.0f} MB, estimated {estimated / 1e6:.0f} MB")
-    assert factor(measured, estimated) < 2.0
+    # What the run before has given back serves again: some megabytes say nothing.
+    assert factor(max(measured, LITTLE), max(estimated, LITTLE)) < 2.0
 
 
 @pytest.mark.parametrize(("across", "away"), [(11, 3), (12, 3), (16, 4)])
