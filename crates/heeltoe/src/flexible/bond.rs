@@ -120,7 +120,6 @@ impl Bond {
     }
 
     /// Follow the motion of a step: `ways` along and across, and the shear of contact and bond.
-    #[inline(always)]
     fn follow(&mut self, status: Status, ways: [f64; 2], shear: f64) {
         let mut next = After {
             damage: self.damage,
@@ -331,7 +330,6 @@ impl Bonds {
     }
 
     /// Write what the bonds bear into the problem, and return the largest change of an impulse.
-    #[inline(always)]
     fn draw(&mut self, problem: &mut Problem, dt: f64, far: f64) -> f64 {
         let m = problem.h.len();
         let mut change = 0.0_f64;
@@ -353,7 +351,6 @@ impl Bonds {
     }
 
     /// Look at a solution; whether it meets the law of the bonds.
-    #[inline(always)]
     fn met(
         &mut self,
         problem: &mut Problem,
@@ -392,7 +389,6 @@ impl Bonds {
     }
 
     /// Solve the contact problem of a step with the bonds; `moved` says that the crack may answer otherwise than before.
-    #[inline(always)]
     pub(super) fn solve<W: Lanes>(
         &mut self,
         problem: &mut Problem,
@@ -537,17 +533,14 @@ struct Shifted<'s, C> {
 }
 
 impl<C: ContactOperator> ContactOperator for Shifted<'_, C> {
-    #[inline(always)]
     fn fill(&mut self, problem: &mut Problem, wanted: impl Fn(usize) -> bool) {
         self.crack.fill(problem, wanted);
     }
 
-    #[inline(always)]
     fn fill_row(&mut self, problem: &mut Problem, contact: usize, wanted: impl Fn(usize) -> bool) {
         self.crack.fill_row(problem, contact, wanted);
     }
 
-    #[inline(always)]
     fn velocities<W: Lanes>(&mut self, problem: &Problem, p: &[f64], u: &mut [f64]) {
         for (sum, (p, own)) in self.sum.iter_mut().zip(p.iter().zip(self.shift)) {
             *sum = p + own;

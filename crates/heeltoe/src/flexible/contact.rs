@@ -109,7 +109,6 @@ impl Contacts {
     }
 
     /// Find every contactor's place on the other face; `sticks` says which nodes keep their place.
-    #[inline(always)]
     pub(super) fn update(&mut self, faces: Faces, sticks: impl Fn(usize) -> bool) {
         for (place, range, corners) in &self.cracks {
             let meeting = place.of(faces);
@@ -146,7 +145,6 @@ impl Contacts {
 
     /// Motion of the upper face against the lower one at all contacts, along the crack, then across it; none where
     /// nothing is met.
-    #[inline(always)]
     pub(super) fn relative(&self, faces: Faces, motion: &mut [f64]) {
         let (along, across) = motion.split_at_mut(self.len());
         for (place, range, _) in &self.cracks {
@@ -167,7 +165,6 @@ impl Contacts {
     }
 
     /// Put the forces that the contacts exert on both faces, up on the upper one and down on the lower one.
-    #[inline(always)]
     pub(super) fn spread(&self, forces: &[f64], upper: &mut [f64], lower: &mut [f64]) {
         upper.fill(0.0);
         lower.fill(0.0);

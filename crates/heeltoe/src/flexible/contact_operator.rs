@@ -15,7 +15,6 @@ pub(super) struct FacesOperator<'s, 'a> {
 }
 
 impl ContactOperator for FacesOperator<'_, '_> {
-    #[inline(always)]
     fn fill(&mut self, problem: &mut Problem, wanted: impl Fn(usize) -> bool) {
         let (answers, gain) = (self.linear.answers(), self.linear.holding());
         self.blocks.fill(
@@ -28,7 +27,6 @@ impl ContactOperator for FacesOperator<'_, '_> {
         );
     }
 
-    #[inline(always)]
     fn fill_row(&mut self, problem: &mut Problem, contact: usize, wanted: impl Fn(usize) -> bool) {
         let (answers, gain) = (self.linear.answers(), self.linear.holding());
         let others = (0..self.contacts.len()).filter(|other| wanted(*other));
@@ -43,7 +41,6 @@ impl ContactOperator for FacesOperator<'_, '_> {
         );
     }
 
-    #[inline(always)]
     fn velocities<W: Lanes>(&mut self, _: &Problem, p: &[f64], u: &mut [f64]) {
         let (upper, lower) = self.linear.impulse_mut();
         self.contacts.spread(p, upper, lower);

@@ -94,7 +94,6 @@ impl Crack {
 
     /// Find where the nodes of both faces meet, and note whose answers are others: where pairs are, or the state of
     /// damping is.
-    #[inline(always)]
     pub(super) fn meet<'w>(
         &mut self,
         position: Faces,
@@ -117,7 +116,6 @@ impl Crack {
     }
 
     /// Take over the states of the contacts from the step before; `problem.b` is zero where nothing is met.
-    #[inline(always)]
     pub(super) fn set_up(&mut self) {
         let limits = self.friction.iter().zip(&mut self.problem.mu_stick);
         let states = self.solver.status.iter_mut().zip(limits);
@@ -135,7 +133,6 @@ impl Crack {
     }
 
     /// Let contacts with a law, and bonds, bear in a step what they do as it begins.
-    #[inline(always)]
     pub(super) fn bear(&mut self, step: TimeStep) {
         if let Some(laws) = &mut self.laws {
             laws.set_up(&mut self.problem, &mut self.solver, &self.before, step.dt);
@@ -146,7 +143,6 @@ impl Crack {
     }
 
     /// What to add to the answers to themselves: this share of the largest.
-    #[inline(always)]
     pub(super) fn softness(&self, share: f64) -> f64 {
         if share == 0.0 {
             return 0.0;
@@ -176,7 +172,6 @@ impl Crack {
     }
 
     /// Put the impulses on both faces.
-    #[inline(always)]
     pub(super) fn impulses(&self, upper: &mut [f64], lower: &mut [f64]) {
         self.contacts.spread(&self.solver.p, upper, lower);
     }
@@ -190,7 +185,6 @@ impl Crack {
     }
 
     /// Sums of the impulses of some contacts along and across their crack.
-    #[inline(always)]
     pub(super) fn sums(&self, contacts: Range<usize>) -> [f64; 2] {
         let (along, across) = self.solver.p.split_at(self.contacts.len());
         if self.contacts.straight() {
@@ -231,7 +225,6 @@ impl Blocks {
         }
     }
 
-    #[inline(always)]
     fn note(&mut self, moved: &[bool]) {
         self.now += 1;
         for (at, moved) in self.moved.iter_mut().zip(moved) {
@@ -242,7 +235,6 @@ impl Blocks {
     }
 
     /// Note by what to measure contacts: how they answer to themselves where they first meet something.
-    #[inline(always)]
     fn measure<'w>(
         &self,
         scale: &mut [f64],
@@ -260,7 +252,6 @@ impl Blocks {
 
     /// Write how each of the `wanted` contacts answers to an impulse at any other of them, where it is not known. `gain`
     /// says what dashpots and water hold back, `softness` is added to the answer to itself.
-    #[inline(always)]
     pub(super) fn fill(
         &mut self,
         g: &mut [f64],
@@ -277,7 +268,6 @@ impl Blocks {
     }
 
     /// The same of one contact with `others`.
-    #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub(super) fn fill_row(
         &mut self,
@@ -318,7 +308,6 @@ impl Blocks {
     }
 
     /// Find what the dashpots feel of a contact.
-    #[inline(always)]
     fn feel(&mut self, contact: usize, pair: &Pair, answers: &Sides<Compliance>, gain: Holding) {
         let d = self.dampers;
         let Holding::Gain(gain) = gain else { return };

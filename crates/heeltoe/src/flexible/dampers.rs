@@ -129,7 +129,6 @@ impl HeldNodes {
     }
 
     /// Find the velocities of the crack nodes with these impulses of contact.
-    #[inline(always)]
     fn answer<W: Lanes>(&self, bodies: &mut Sides<ModalStepper>, impulses: &[f64], room: &mut [Group]) {
         room.fill([0.0; LANES]);
         self.panels.combine::<W>(impulses, room);
@@ -234,7 +233,6 @@ impl<'a> Dampers<'a> {
     }
 
     /// Whether no water moves, in a step in which the ground's velocity changes so.
-    #[inline(always)]
     pub(super) fn rests(&self, change: [f64; 2]) -> bool {
         self.water.as_ref().is_none_or(|water| water.rests(change))
     }
@@ -246,7 +244,6 @@ impl<'a> Dampers<'a> {
 
     /// Change the velocities without contact by what the dashpots and the water do of themselves; what acts in the crack
     /// beside contact is known by now.
-    #[inline(always)]
     pub(super) fn begin<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, drive: Drive) {
         let damping = drive.damping;
         self.room.fill(0.0);
@@ -270,7 +267,6 @@ impl<'a> Dampers<'a> {
     }
 
     /// Find the velocities of the crack nodes with the impulses of contact, which the parts have.
-    #[inline(always)]
     pub(super) fn answer<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, damping: usize) {
         if let Some(wide) = &self.wide {
             gather(bodies, &mut self.impulses);
@@ -294,7 +290,6 @@ impl<'a> Dampers<'a> {
     }
 
     /// Hand the impulses of dashpots and water to the parts, whose velocities are final, and book what they take.
-    #[inline(always)]
     pub(super) fn finish<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, drive: Drive) {
         if let Some(wide) = &self.wide {
             self.rows_room.fill([0.0; LANES]);

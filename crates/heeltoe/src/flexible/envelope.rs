@@ -4,7 +4,7 @@
 //! the rows, which are far larger than anything a step reads, are read once for all of these; nothing else is kept.
 
 use super::bodies::Sides;
-use super::simd::{Group, Lanes, Plain, LANES};
+use super::simd::{apart, Group, Lanes, Plain, LANES};
 use crate::table::columns;
 
 /// Groups of states, and states, that are worked on at once.
@@ -123,7 +123,6 @@ impl<'a> Envelope<'a> {
     }
 
     /// Take a state into account.
-    #[inline(always)]
     pub(super) fn add<W: Lanes>(&mut self, moment: f64, modes: &Sides<&[Group]>) {
         let place = self.moments.len();
         for (states, modes) in self.states.iter_mut().zip(modes.iter()) {
@@ -133,13 +132,13 @@ impl<'a> Envelope<'a> {
         }
         self.moments.push(moment);
         if self.moments.len() == BLOCK {
-            self.look::<W>();
+            look::<W>(self);
         }
     }
 
-    /// Look at the states gathered.
+    /// What [`look`] does.
     #[inline(always)]
-    fn look<W: Lanes>(&mut self) {
+    fn meet_all<W: Lanes>(&mut self) {
         let bodies = self.extremes.iter_mut().zip(self.states.iter());
         for ((extremes, states), of) in bodies.zip(self.wanted.bodies.iter()) {
             for (extreme, rows) in extremes.iter_mut().zip(of.rows.chunks_exact(of.modes)) {
@@ -152,10 +151,15 @@ impl<'a> Envelope<'a> {
     /// Hand over the extremes of all places.
     pub(super) fn end(mut self) -> Sides<Vec<Extreme>> {
         if !self.moments.is_empty() {
-            self.look::<Plain>();
+            look::<Plain>(&mut self);
         }
         self.extremes
     }
+}
+
+apart! {
+    /// Look at the states gathered.
+    fn look(envelope: &mut Envelope<'_>) -> () = Envelope::meet_all
 }
 
 /// The stresses at one place in all states.

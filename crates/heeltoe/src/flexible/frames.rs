@@ -111,7 +111,6 @@ impl Since {
     }
 
     /// Add the impulses on the nodes of both bodies, and the sums of each crack.
-    #[inline(always)]
     pub(super) fn add(&mut self, nodes: Faces, sums: impl Iterator<Item = [f64; 3]>, dt: f64) {
         for (total, p) in self.nodes.iter_mut().zip(nodes.upper.iter().chain(nodes.lower)) {
             *total += p;

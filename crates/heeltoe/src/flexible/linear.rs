@@ -17,7 +17,7 @@ use super::dam::Dam;
 use super::dampers::{Dampers, Holding};
 use super::faces::Faces;
 use super::ledger::Ledger;
-use super::modal_stepper::{Drive, ModalStepper};
+use super::modal_stepper::{advance, move_crack, Drive, ModalStepper};
 use super::scheme::TimeStep;
 use super::simd::{Group, Lanes};
 
@@ -111,17 +111,15 @@ impl<'a> LinearDam<'a> {
     }
 
     /// Let the modes finish the present step, where there is one, and begin another driven so.
-    #[inline(always)]
     pub(super) fn advance<W: Lanes>(&mut self, under_way: bool, next: Drive) {
         let now = under_way.then_some(self.drive);
         self.drive = next;
         for body in self.bodies.iter_mut() {
-            body.advance::<W>(now, next, self.step);
+            advance::<W>(body, now, next, self.step);
         }
     }
 
     /// Let what is in the cracks beside contact push the nodes of both faces.
-    #[inline(always)]
     pub(super) fn push(&mut self, acting: &mut CrackForces) {
         let mut above = std::mem::take(&mut self.bodies.upper.push);
         let mut below = match &mut self.bodies.lower {
@@ -143,7 +141,6 @@ impl<'a> LinearDam<'a> {
 
     /// Find the velocities without contact: with what acts beside it, where anything does, less the forces that the start
     /// has in the cracks, where it has been found, and with dashpots and water.
-    #[inline(always)]
     pub(super) fn find_free<W: Lanes>(&mut self, acting: bool, still: bool) {
         let damping = self.drive.damping;
         for body in self.bodies.iter_mut() {
@@ -160,24 +157,21 @@ impl<'a> LinearDam<'a> {
     }
 
     /// Find the velocities with the impulses of contact.
-    #[inline(always)]
     pub(super) fn answer<W: Lanes>(&mut self) {
         self.dampers.answer::<W>(&mut self.bodies, self.drive.damping);
     }
 
     /// Move the crack nodes, whose impulses are final.
-    #[inline(always)]
     pub(super) fn finish<W: Lanes>(&mut self) {
         if !self.dampers.is_empty() {
             self.dampers.finish::<W>(&mut self.bodies, self.drive);
         }
         for body in self.bodies.iter_mut() {
-            body.move_crack::<W>(self.step);
+            move_crack::<W>(body, self.step);
         }
     }
 
     /// Hand the bodies all impulses of the step: those of contact, less what the start has in it, and the others.
-    #[inline(always)]
     pub(super) fn join(&mut self, quiet: bool, pushed: bool) {
         for body in self.bodies.iter_mut() {
             if quiet {

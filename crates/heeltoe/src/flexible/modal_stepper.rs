@@ -22,7 +22,7 @@ use super::body::{ReducedBody, BUNDLE};
 use super::compliance::Compliance;
 use super::ledger::Sums;
 use super::panels::Panels;
-use super::simd::{combine, fma, Group, Lanes, Plain, LANES};
+use super::simd::{apart, combine, fma, inlined, Group, Lanes, Plain, LANES};
 use super::still::Still;
 
 /// What a body needs for a given step, for both states of damping.
@@ -243,16 +243,16 @@ impl<'a> ModalStepper<'a> {
         }
     }
 
-    /// Finish the step `now` with the impulses found, unless this is the start, and begin the step `next`.
+    /// What [`advance`] does.
     #[inline(always)]
-    pub(super) fn advance<W: Lanes>(&mut self, now: Option<Drive>, next: Drive, step: TimeStep) {
+    fn go_on<W: Lanes>(&mut self, now: Option<Drive>, next: Drive, step: TimeStep) {
         let (columns, width) = (self.body.columns(), self.body.width());
         let late = (1.0 - step.theta) / step.theta;
         self.pushes[..columns].copy_from_slice(&self.impulse);
         self.pushes[columns..].copy_from_slice(&self.pull);
         let touched = self.pushes.iter().any(|p| *p != 0.0);
         if self.operator.dense.is_some() {
-            return self.advance_dense::<W>(now.map(|now| (now, touched)), next, step);
+            return advance_dense::<W>(self, now.map(|now| (now, touched)), next, step);
         }
         self.lanes.fill([0.0; LANES]);
         let (body, mut sums) = (self.body, self.sums);
@@ -261,7 +261,7 @@ impl<'a> ModalStepper<'a> {
             if let Some(now) = now {
                 let mut push = [[0.0; LANES]; BUNDLE];
                 if touched {
-                    combine::<W>(shapes, &self.pushes, &mut push);
+                    inlined::combine::<W>(shapes, BUNDLE, &self.pushes, &mut push);
                 }
                 for (k, push) in push.iter().enumerate() {
                     self.finish::<W>(first + k, push, now, step, &mut sums);
@@ -283,9 +283,9 @@ impl<'a> ModalStepper<'a> {
         }
     }
 
-    /// The same where a boundary takes energy; `now` with whether there are any impulses.
+    /// What [`advance_dense`] does.
     #[inline(always)]
-    fn advance_dense<W: Lanes>(&mut self, now: Option<(Drive, bool)>, next: Drive, step: TimeStep) {
+    fn go_on_dense<W: Lanes>(&mut self, now: Option<(Drive, bool)>, next: Drive, step: TimeStep) {
         let TimeStep { dt, theta } = step;
         let (width, late, body) = (self.body.width(), 1.0 - theta, self.body);
         let Some(dense) = &self.operator.dense else {
@@ -296,7 +296,7 @@ impl<'a> ModalStepper<'a> {
                 let bundles = body.shapes.chunks_exact(BUNDLE * width);
                 for (shapes, g) in bundles.zip(self.v_free.chunks_exact_mut(BUNDLE)) {
                     let mut push = [[0.0; LANES]; BUNDLE];
-                    combine::<W>(shapes, &self.pushes, &mut push);
+                    inlined::combine::<W>(shapes, BUNDLE, &self.pushes, &mut push);
                     for (g, push) in g.as_flattened_mut().iter_mut().zip(push.as_flattened()) {
                         *g += theta * push;
                     }
@@ -450,7 +450,6 @@ impl<'a> ModalStepper<'a> {
 
     /// Add to the velocities without contact what `push` changes in them; where this is no more than the forces of contact
     /// at rest, `alone`, that is known.
-    #[inline(always)]
     pub(super) fn push_crack<W: Lanes>(&mut self, damping: usize, alone: bool) {
         if alone {
             for (free, change) in self.free.iter_mut().zip(&self.released[damping]) {
@@ -470,7 +469,6 @@ impl<'a> ModalStepper<'a> {
     }
 
     /// Take away the forces of contact that the state before the earthquake has in it; `alone` where nothing else acts.
-    #[inline(always)]
     pub(super) fn let_go(&mut self, dt: f64, alone: bool) {
         if alone {
             self.push.fill(0.0);
@@ -487,28 +485,24 @@ impl<'a> ModalStepper<'a> {
     }
 
     /// Add to the velocities of the crack nodes without contact what impulses of the links change in them.
-    #[inline(always)]
     pub(super) fn pull_free<W: Lanes>(&mut self, damping: usize, pull: &[f64]) {
         let groups = self.body.columns().div_ceil(LANES);
         self.operator.linked[damping].combine::<W>(pull, &mut self.free[..groups]);
     }
 
     /// Find how crack and dashpots answer to `impulse`.
-    #[inline(always)]
     pub(super) fn find_answer<W: Lanes>(&mut self, damping: usize) {
         self.answer.fill([0.0; LANES]);
         combine::<W>(&self.operator.w[damping], &self.impulse, &mut self.answer);
     }
 
     /// Add to it what impulses of the dashpots change in it.
-    #[inline(always)]
     pub(super) fn pull_answer<W: Lanes>(&mut self, damping: usize, pull: &[f64]) {
         let first = self.body.columns() * self.body.stride();
         combine::<W>(&self.operator.w[damping][first..], pull, &mut self.answer);
     }
 
     /// Make velocities of the answer.
-    #[inline(always)]
     pub(super) fn finish_answer(&mut self) {
         for (answer, free) in self.answer.iter_mut().zip(&self.free) {
             for l in 0..LANES {
@@ -518,16 +512,15 @@ impl<'a> ModalStepper<'a> {
     }
 
     /// Count `push` with the impulses of contact, which have been used by themselves where they must be.
-    #[inline(always)]
     pub(super) fn join_push(&mut self) {
         for (impulse, push) in self.impulse.iter_mut().zip(&self.push) {
             *impulse += push;
         }
     }
 
-    /// Let the crack nodes go on to the end of the step with the velocities found.
+    /// What [`move_crack`] does.
     #[inline(always)]
-    pub(super) fn move_crack<W: Lanes>(&mut self, step: TimeStep) {
+    fn move_nodes<W: Lanes>(&mut self, step: TimeStep) {
         let TimeStep { dt, theta } = step;
         let new = self.answer.as_flattened();
         for ((x, u), new) in self.position.iter_mut().zip(&mut self.velocity).zip(new) {
@@ -535,4 +528,21 @@ impl<'a> ModalStepper<'a> {
             *u = *new;
         }
     }
+}
+
+apart! {
+    /// Finish the step `now` with the impulses found, unless this is the start, and begin the step `next`.
+    pub(super) fn advance(body: &mut ModalStepper<'_>, now: Option<Drive>, next: Drive, step: TimeStep) -> () =
+        ModalStepper::go_on
+}
+
+apart! {
+    /// The same where a boundary takes energy; `now` with whether there are any impulses.
+    fn advance_dense(body: &mut ModalStepper<'_>, now: Option<(Drive, bool)>, next: Drive, step: TimeStep) -> () =
+        ModalStepper::go_on_dense
+}
+
+apart! {
+    /// Let the crack nodes go on to the end of the step with the velocities found.
+    pub(super) fn move_crack(body: &mut ModalStepper<'_>, step: TimeStep) -> () = ModalStepper::move_nodes
 }

@@ -29,7 +29,6 @@ impl Panels {
     }
 
     /// Add `sum_k x_k rows_k`.
-    #[inline(always)]
     pub(super) fn combine<W: Lanes>(&self, x: &[f64], sum: &mut [Group]) {
         let panels = self.numbers.chunks(PANEL * self.rows.max(1));
         for (panel, sum) in panels.zip(sum.chunks_mut(PANEL)) {

@@ -120,14 +120,12 @@ impl<'a> Water<'a> {
     }
 
     /// Whether it rests, and the ground with it in a step that changes its velocity so.
-    #[inline(always)]
     pub(super) fn rests(&self, change: [f64; 2]) -> bool {
         let zero = |numbers: &[f64]| numbers.iter().all(|x| *x == 0.0);
         zero(&self.ground) && zero(&change) && zero(&self.velocity) && zero(&self.amplitude)
     }
 
     /// Add to the rates of the rows what it does of itself in a step in which the ground's velocity changes so.
-    #[inline(always)]
     pub(super) fn begin(&mut self, change: [f64; 2], rates: &mut [f64]) {
         let TimeStep { dt, theta } = self.step;
         let [x, z] = [0, 1].map(|k| self.ground[k] + theta * change[k]);
@@ -141,7 +139,6 @@ impl<'a> Water<'a> {
     }
 
     /// Go on to the end of the step under these impulses on the rows.
-    #[inline(always)]
     pub(super) fn finish<W: Lanes>(&mut self, change: [f64; 2], impulses: &[f64]) {
         let TimeStep { dt, theta } = self.step;
         for (k, impulse) in impulses.iter().enumerate() {

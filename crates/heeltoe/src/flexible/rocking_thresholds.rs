@@ -49,7 +49,6 @@ impl Stance {
     }
 
     /// Tell what the part does, from where both faces are, the state of each contact and the gaps.
-    #[inline(always)]
     pub(super) fn state(
         &self,
         faces: Meeting,
@@ -98,7 +97,6 @@ struct Stand<'a> {
 }
 
 impl<'a> Stand<'a> {
-    #[inline(always)]
     fn on(faces: Meeting<'a>) -> Self {
         let ends = |face: Face| match face.along {
             [] => (f64::NEG_INFINITY, f64::INFINITY),
@@ -116,7 +114,6 @@ impl<'a> Stand<'a> {
         }
     }
 
-    #[inline(always)]
     fn add(&mut self, contactor: &Contactor, length: f64, slips: bool) {
         let face = if contactor.of_upper {
             self.faces.upper
@@ -155,7 +152,6 @@ fn slopes(face: Face, lengths: &[f64]) -> Vec<f64> {
 }
 
 /// Rotation of a face; none of a rigid plane.
-#[inline(always)]
 fn turned(face: Face, slopes: &[f64]) -> f64 {
     face.across.iter().zip(slopes).map(|(n, share)| share * n).sum()
 }

@@ -1,22 +1,46 @@
 //! Eight numbers at a time, by the widest registers of the machine that runs the program.
 //!
 //! The loops over the mode shapes are most of what a step costs. Compilers turn them into wide instructions when they
-//! please, and into worse ones than none when they do not; here they are written out. What is compiled for registers
-//! of its own must be called where the machine has them only, see [`super::step::simulate`].
+//! please, and into worse ones than none when they do not; here they are written out. The innermost loops alone are
+//! compiled for registers of their own, [`apart!`] from the rest: compiled as one function by inlining, the steps of an
+//! elastic dam took a quarter of an hour. Registers are chosen once for a run, see [`super::step::simulate`].
 
 /// Modes are kept in groups this wide, so that one instruction works on a group.
 pub(super) const LANES: usize = 8;
 /// One number for each mode of a group.
 pub(super) type Group = [f64; LANES];
 
-/// What is compiled for the registers of a machine as a function of its own: the steps of an elastic dam are one function
-/// by inlining, and compilers take more than twice as long for one of twice the size.
+/// What is compiled for the registers of a machine as a function of its own.
 pub(super) trait Work {
     type Answer;
 
     /// To be inlined into [`Lanes::apart`].
     fn run<W: Lanes>(self) -> Self::Answer;
 }
+
+/// A function that does what one to be inlined does, but is compiled by itself for the registers of the machine.
+macro_rules! apart {
+    (
+        $(#[$doc:meta])*
+        $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?) -> $answer:ty = $of:ident::$inlined:ident
+    ) => {
+        $(#[$doc])*
+        $vis fn $name<W: $crate::flexible::simd::Lanes>($($arg: $type),*) -> $answer {
+            struct Call<T>(T);
+            impl $crate::flexible::simd::Work for Call<($($type,)*)> {
+                type Answer = $answer;
+
+                #[inline(always)]
+                fn run<W: $crate::flexible::simd::Lanes>(self) -> $answer {
+                    let Call(($($arg,)*)) = self;
+                    $of::$inlined::<W>($($arg),*)
+                }
+            }
+            W::apart(Call(($($arg,)*)))
+        }
+    };
+}
+pub(super) use apart;
 
 /// A group in registers.
 pub(super) trait Lanes: Copy {
@@ -242,23 +266,32 @@ pub(super) mod x86 {
 }
 
 /// Add `sum_k x_k rows_k`, where each row has as many groups as `sum`.
-#[inline(always)]
 pub(super) fn combine<W: Lanes>(rows: &[Group], x: &[f64], sum: &mut [Group]) {
     combine_first::<W>(rows, sum.len(), x, sum);
 }
 
-/// The same with the first groups of rows of `stride` groups.
-#[inline(always)]
-pub(super) fn combine_first<W: Lanes>(rows: &[Group], stride: usize, x: &[f64], sum: &mut [Group]) {
-    let mut first = 0;
-    // What is summed up stays in registers.
-    while first < sum.len() {
-        first += match sum.len() - first {
-            1 => columns::<W, 1>(rows, stride, x, first, sum),
-            2 => columns::<W, 2>(rows, stride, x, first, sum),
-            3 => columns::<W, 3>(rows, stride, x, first, sum),
-            4 => columns::<W, 4>(rows, stride, x, first, sum),
-            _ => columns::<W, 5>(rows, stride, x, first, sum),
+apart! {
+    /// The same with the first groups of rows of `stride` groups.
+    pub(super) fn combine_first(rows: &[Group], stride: usize, x: &[f64], sum: &mut [Group]) -> () = inlined::combine
+}
+
+/// What is to be inlined where it is used.
+pub(super) mod inlined {
+    use super::{columns, Group, Lanes};
+
+    /// [`super::combine_first`].
+    #[inline(always)]
+    pub(in super::super) fn combine<W: Lanes>(rows: &[Group], stride: usize, x: &[f64], sum: &mut [Group]) {
+        let mut first = 0;
+        // What is summed up stays in registers.
+        while first < sum.len() {
+            first += match sum.len() - first {
+                1 => columns::<W, 1>(rows, stride, x, first, sum),
+                2 => columns::<W, 2>(rows, stride, x, first, sum),
+                3 => columns::<W, 3>(rows, stride, x, first, sum),
+                4 => columns::<W, 4>(rows, stride, x, first, sum),
+                _ => columns::<W, 5>(rows, stride, x, first, sum),
+            }
         }
     }
 }

@@ -32,7 +32,7 @@ use super::scheme::TimeStep;
 use super::simd::dot;
 #[cfg(target_arch = "x86_64")]
 use super::simd::x86;
-use super::simd::{Lanes, Plain, Work};
+use super::simd::{Lanes, Plain};
 use super::status::Status;
 use super::still::Still;
 use super::walk::Walk;
@@ -42,30 +42,15 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted)
     #[cfg(target_arch = "x86_64")]
     {
         if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("fma") {
-            // Safety: the machine has what the function is compiled for.
-            return unsafe { simulate_avx512(dam, shaking, theta, wanted) };
+            return run::<x86::Avx512>(dam, shaking, theta, wanted);
         }
         if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-            // Safety: as above.
-            return unsafe { simulate_avx2(dam, shaking, theta, wanted) };
+            return run::<x86::Avx2>(dam, shaking, theta, wanted);
         }
     }
     run::<Plain>(dam, shaking, theta, wanted)
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
-fn simulate_avx512(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
-    run::<x86::Avx512>(dam, shaking, theta, wanted)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-fn simulate_avx2(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
-    run::<x86::Avx2>(dam, shaking, theta, wanted)
-}
-
-#[inline(always)]
 fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
     let mut moreau = Moreau::new(dam, shaking, theta, wanted);
     moreau.go_on::<W>(false, 0, 0);
@@ -150,7 +135,6 @@ impl<'a> Moreau<'a> {
     }
 
     /// Let the modes finish the step `now`, unless this is the start, and begin another with this state of damping.
-    #[inline(always)]
     fn go_on<W: Lanes>(&mut self, under_way: bool, next: usize, damping: usize) {
         let Shaking {
             ground, dt, scale, ..
@@ -164,7 +148,6 @@ impl<'a> Moreau<'a> {
     }
 
     /// Write the contact problem of the step, with what else acts in the crack.
-    #[inline(always)]
     fn set_up<W: Lanes>(&mut self) {
         let linear = &self.linear;
         let crack = &mut self.walk.crack;
@@ -194,7 +177,6 @@ impl<'a> Moreau<'a> {
     }
 
     /// Solve the contact problem and move the nodes; the bodies get their impulses, the ledger its works.
-    #[inline(always)]
     fn contact<W: Lanes>(&mut self) {
         let crack = &mut self.walk.crack;
         let softness = crack.softness(self.walk.dam.softness());
@@ -224,7 +206,7 @@ impl<'a> Moreau<'a> {
                     moved: &mut crack.moved,
                     step,
                 };
-                (W::apart(solving), softness)
+                (solving.solve::<W>(), softness)
             }
         };
         self.walk.steps.note(report);
@@ -237,7 +219,6 @@ impl<'a> Moreau<'a> {
     }
 
     /// Book the work of the impulses of contact.
-    #[inline(always)]
     fn book_contact(&mut self, softness: f64) {
         let theta = self.linear.step.theta;
         self.book_bonds();
@@ -273,7 +254,6 @@ impl<'a> Moreau<'a> {
     }
 
     /// Let the bonds be where the step has brought them.
-    #[inline(always)]
     fn book_bonds(&mut self) {
         let (crack, end) = (
             &mut self.walk.crack,
@@ -295,14 +275,12 @@ impl<'a> Moreau<'a> {
     }
 
     /// Work of the impulses of water and anchors on the velocities as they are.
-    #[inline(always)]
     fn acted(&self) -> [f64; 2] {
         let acting = self.acting.as_ref();
         acting.map_or([0.0; 2], |acting| acting.work(self.linear.velocity()))
     }
 
     /// Book it, from what it was before the step.
-    #[inline(always)]
     fn book_acted(&mut self, before: [f64; 2]) {
         let after = self.acted();
         let Some(acting) = &mut self.acting else {
@@ -320,7 +298,6 @@ impl<'a> Moreau<'a> {
     }
 
     /// Look at the stresses.
-    #[inline(always)]
     fn stress<W: Lanes>(&mut self) {
         let total = self.linear.amplitudes();
         self.walk.stress::<W>(&total.map(|modes| &modes[..]));
@@ -354,11 +331,8 @@ struct Solving<'s, 'f, 'a> {
     step: TimeStep,
 }
 
-impl Work for Solving<'_, '_, '_> {
-    type Answer = Report;
-
-    #[inline(always)]
-    fn run<W: Lanes>(mut self) -> Report {
+impl Solving<'_, '_, '_> {
+    fn solve<W: Lanes>(mut self) -> Report {
         if let Some(bonds) = self.bonds {
             return bonds.solve::<W>(
                 self.problem,

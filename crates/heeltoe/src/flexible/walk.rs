@@ -76,7 +76,6 @@ impl Watch {
     }
 
     /// Book a step that has brought the nodes here.
-    #[inline(always)]
     fn book(&mut self, end: f64, dt: f64, position: Faces, crack: &Crack, normal_force: f64) {
         let faces = self.place.of(position);
         let after = Motion::of(faces, self.zero);
@@ -107,7 +106,6 @@ impl Watch {
     }
 
     /// Count the nodes that have come down in this step, and how fast they came.
-    #[inline(always)]
     fn strikes(&mut self, crack: &Crack) {
         let summary = &mut self.summary;
         let approach = &crack.before[crack.contacts.len()..];
@@ -182,7 +180,6 @@ impl<'a> Walk<'a> {
     }
 
     /// Book a step that has brought the nodes here; what the contact problem has found is a force times this `time`.
-    #[inline(always)]
     pub(super) fn book(&mut self, step: usize, position: Faces, time: f64) {
         let end = (step + 1) as f64 * self.dt;
         for watch in &mut self.cracks {
@@ -204,7 +201,6 @@ impl<'a> Walk<'a> {
 
     /// Add the impulses of a step, on the nodes of both bodies, to those since the last frame; what the contact problem
     /// has found times `factor` are impulses.
-    #[inline(always)]
     pub(super) fn gather(&mut self, nodes: Faces, factor: f64) {
         let crack = &self.crack;
         let sum = |(k, watch): (usize, &Watch)| {
@@ -242,7 +238,6 @@ impl<'a> Walk<'a> {
     }
 
     /// Take the stresses of a state into account, where they are wanted.
-    #[inline(always)]
     pub(super) fn stress<W: Lanes>(&mut self, modes: &Sides<&[Group]>) {
         if let Some(envelope) = &mut self.envelope {
             envelope.add::<W>(self.cracks[0].summary.end_time, modes);
@@ -251,13 +246,11 @@ impl<'a> Walk<'a> {
 
     /// Whether the run ends after this step: the dam is at rest, a part above a crack is off any scale, which the outcome
     /// says, or somebody has stopped the run.
-    #[inline(always)]
     pub(super) fn ends(&mut self, step: usize) -> bool {
         self.lost() || self.rests(step + 1)
     }
 
     /// Whether the dam is at rest, at a moment at which that is asked.
-    #[inline(always)]
     fn rests(&self, steps: usize) -> bool {
         self.wanted.rest.is_some_and(|rest| {
             steps >= rest.first
@@ -266,7 +259,6 @@ impl<'a> Walk<'a> {
         })
     }
 
-    #[inline(always)]
     fn lost(&mut self) -> bool {
         let mut here = true;
         for Watch { motion, reach, .. } in &self.cracks {

@@ -9,7 +9,7 @@
 //!
 //! The matrix is factored, `P G = L U`, column by column, with row pivoting.
 
-use super::super::simd::{combine, fma, Group, Lanes, LANES};
+use super::super::simd::{apart, combine, fma, Group, Lanes, LANES};
 use super::super::status::Status;
 use super::linear::{missing, Linear};
 use super::problem::Problem;
@@ -44,7 +44,6 @@ impl Default for Kept {
 impl Kept {
     /// Forget those that contain a contact that has moved, because its part of `G` is another one; or, where they are to
     /// last, know that they are old.
-    #[inline(always)]
     pub(super) fn forget(&mut self, moved: &[bool], last: bool) {
         for factors in &mut self.all {
             if last {
@@ -56,7 +55,6 @@ impl Kept {
     }
 
     /// Turn to the factors of a set of states; false where they are not known.
-    #[inline(always)]
     pub(super) fn turn_to(&mut self, status: &[Status]) -> bool {
         if self.all[self.now].belong_to(status) {
             return true;
@@ -104,7 +102,6 @@ pub(super) struct Factors {
 
 impl Factors {
     /// Forget them where they contain a contact whose part of `G` is another one.
-    #[inline(always)]
     fn forget(&mut self, moved: &[bool]) {
         let mut pairs = self.of.iter().zip(moved);
         if pairs.any(|(status, moved)| *moved && status.closed()) {
@@ -125,7 +122,6 @@ impl Factors {
     }
 
     /// Solve for the impulses `p`.
-    #[inline(always)]
     pub(super) fn solve<W: Lanes>(&mut self, problem: &Problem, p: &mut [f64]) {
         self.amiss(&problem.b, &problem.h);
         self.feel(problem);
@@ -134,7 +130,6 @@ impl Factors {
     }
 
     /// Let the unknowns feel what the contacts that slip bear beside friction.
-    #[inline(always)]
     fn feel(&mut self, problem: &Problem) {
         if problem.added.is_empty() {
             return;
@@ -150,9 +145,9 @@ impl Factors {
         }
     }
 
-    /// Work out the inverse, unless the matrix is next to singular.
+    /// What [`invert`] does.
     #[inline(always)]
-    fn invert<W: Lanes>(&mut self) {
+    fn find_inverse<W: Lanes>(&mut self) {
         let n = self.unknowns.len();
         let diagonal = || (0..n).map(|k| self.lu[k * (n + 1)].abs());
         let (least, largest) = (
@@ -169,15 +164,15 @@ impl Factors {
         for k in 0..n {
             self.x.fill(0.0);
             self.x[k] = 1.0;
-            self.substitute::<W>();
+            substitute::<W>(self);
             self.inverse[k * stride..][..stride].as_flattened_mut()[..n].copy_from_slice(&self.x);
         }
         self.x = rhs;
     }
 
-    /// Turn the right-hand side in `x` into the solution.
+    /// What [`substitute`] does.
     #[inline(always)]
-    fn substitute<W: Lanes>(&mut self) {
+    fn solve_triangles<W: Lanes>(&mut self) {
         let n = self.unknowns.len();
         for (k, &pivot) in self.pivots.iter().enumerate() {
             self.x.swap(k, pivot);
@@ -200,9 +195,9 @@ impl Factors {
         }
     }
 
-    /// Set up and factor the matrix of these states; false where it is singular.
+    /// What [`factor`] does.
     #[inline(always)]
-    pub(super) fn factor<W: Lanes>(&mut self, problem: &Problem, status: &[Status]) -> bool {
+    fn anew<W: Lanes>(&mut self, problem: &Problem, status: &[Status]) -> bool {
         self.set_up::<W>(problem, status);
         self.pivots.clear();
         self.inverse.clear();
@@ -292,20 +287,34 @@ impl Factors {
     }
 }
 
+apart! {
+    /// Set up and factor the matrix of these states; false where it is singular.
+    pub(super) fn factor(factors: &mut Factors, problem: &Problem, status: &[Status]) -> bool = Factors::anew
+}
+
+apart! {
+    /// Work out the inverse, unless the matrix is next to singular.
+    fn invert(factors: &mut Factors) -> () = Factors::find_inverse
+}
+
+apart! {
+    /// Turn the right-hand side in `x` into the solution.
+    fn substitute(factors: &mut Factors) -> () = Factors::solve_triangles
+}
+
 impl Linear for Factors {
     #[inline(always)]
     fn amiss(&mut self, u: &[f64], h: &[f64]) -> f64 {
         missing(&self.unknowns, u, h, &mut self.x)
     }
 
-    #[inline(always)]
     fn add<W: Lanes>(&mut self, problem: &Problem, p: &mut [f64]) {
         self.used += 1;
         if self.used == INVERT_AFTER {
-            self.invert::<W>();
+            invert::<W>(self);
         }
         if self.inverse.is_empty() {
-            self.substitute::<W>();
+            substitute::<W>(self);
         } else {
             self.sum.fill([0.0; LANES]);
             combine::<W>(&self.inverse, &self.x, &mut self.sum);

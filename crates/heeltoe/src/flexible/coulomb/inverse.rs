@@ -18,7 +18,7 @@
 //! since, another part of `G` and another coefficient of friction, is left for the corrections of the solution. No law
 //! adds to the friction here.
 
-use super::super::simd::{combine_first, fma, Group, Lanes, LANES};
+use super::super::simd::{apart, combine_first, fma, inlined, Group, Lanes, LANES};
 use super::super::status::Status;
 use super::linear::{missing, Linear};
 use super::problem::Problem;
@@ -94,10 +94,9 @@ impl Inverse {
 
     /// Go on to another set of states; false where that cannot be trusted. What `G` has for contacts that come in must be
     /// known.
-    #[inline(always)]
     pub(super) fn turn_to<W: Lanes>(&mut self, problem: &Problem, status: &[Status]) -> bool {
         self.fresh = false;
-        // What gets smaller first. Closures would be compiled for any machine, so these are loops.
+        // What gets smaller first.
         for (contact, new) in status.iter().enumerate() {
             if !self.let_go::<W>(problem, contact, *new) {
                 return false;
@@ -113,15 +112,14 @@ impl Inverse {
     }
 
     /// Take out what a contact no longer bears by itself.
-    #[inline(always)]
     fn let_go<W: Lanes>(&mut self, problem: &Problem, contact: usize, new: Status) -> bool {
         let (m, old) = (self.of.len(), self.of[contact]);
         let going = match (old, new) {
             (Status::Stick, new) if new.slips() => self.slip::<W>(problem, contact, new),
             (Status::Stick, new) if !new.closed() => {
-                self.take_out::<W>(contact, 0.0) && self.take_out::<W>(m + contact, 0.0)
+                take_out::<W>(self, contact, 0.0) && take_out::<W>(self, m + contact, 0.0)
             }
-            (old, new) if old.slips() && !new.closed() => self.take_out::<W>(m + contact, 0.0),
+            (old, new) if old.slips() && !new.closed() => take_out::<W>(self, m + contact, 0.0),
             _ => return true,
         };
         self.of[contact] = new;
@@ -129,7 +127,6 @@ impl Inverse {
     }
 
     /// Let in what a contact now bears by itself.
-    #[inline(always)]
     fn take_up<W: Lanes>(&mut self, problem: &Problem, contact: usize, new: Status) -> bool {
         let (m, old) = (self.of.len(), self.of[contact]);
         if old == new {
@@ -140,11 +137,11 @@ impl Inverse {
             // From one slip to the other.
             (true, new) => self.stick_again::<W>(problem, contact) && self.slip::<W>(problem, contact, new),
             (false, Status::Stick) => {
-                self.let_in::<W>(problem, m + contact, 0.0) && self.let_in::<W>(problem, contact, 0.0)
+                let_in::<W>(self, problem, m + contact, 0.0) && let_in::<W>(self, problem, contact, 0.0)
             }
             (false, new) if new.slips() => {
                 self.friction[contact] = new.sign() * problem.mu_slip[contact];
-                self.let_in::<W>(problem, m + contact, self.friction[contact])
+                let_in::<W>(self, problem, m + contact, self.friction[contact])
             }
             _ => true,
         };
@@ -153,16 +150,14 @@ impl Inverse {
     }
 
     /// Let a contact that sticks bear along the crack by friction alone.
-    #[inline(always)]
     fn slip<W: Lanes>(&mut self, problem: &Problem, contact: usize, new: Status) -> bool {
         self.friction[contact] = new.sign() * problem.mu_slip[contact];
-        self.take_out::<W>(contact, self.friction[contact])
+        take_out::<W>(self, contact, self.friction[contact])
     }
 
     /// Let a contact that slips bear along the crack what it must.
-    #[inline(always)]
     fn stick_again<W: Lanes>(&mut self, problem: &Problem, contact: usize) -> bool {
-        if !self.let_in::<W>(problem, contact, 0.0) {
+        if !let_in::<W>(self, problem, contact, 0.0) {
             return false;
         }
         // Until here that was beside friction.
@@ -180,9 +175,9 @@ impl Inverse {
         true
     }
 
-    /// Let a component be unknown, whose contact bears `-f` of it along the crack where it is a normal one that slips.
+    /// What [`let_in`] does.
     #[inline(always)]
-    fn let_in<W: Lanes>(&mut self, problem: &Problem, k: usize, f: f64) -> bool {
+    fn extend<W: Lanes>(&mut self, problem: &Problem, k: usize, f: f64) -> bool {
         let (m, size, n) = (self.of.len(), problem.b.len(), self.unknowns.len());
         let own = &problem.g[k * size..][..size];
         let along = &problem.g[(k % m) * size..][..size];
@@ -209,7 +204,7 @@ impl Inverse {
         // M c, then r M, which is kept column by column.
         let groups = n.div_ceil(LANES);
         self.sum.fill([0.0; LANES]);
-        combine_first::<W>(&self.columns, self.stride, &self.column, &mut self.sum[..groups]);
+        inlined::combine::<W>(&self.columns, self.stride, &self.column, &mut self.sum[..groups]);
         let answered: f64 = dot::<W>(&self.sum[..groups], &self.row);
         let s = diagonal - answered;
         if s.is_nan() || s.abs() <= SAFE * diagonal.abs() {
@@ -230,9 +225,9 @@ impl Inverse {
         true
     }
 
-    /// Let a component be no longer unknown, but `-f` times the normal one of its contact.
+    /// What [`take_out`] does.
     #[inline(always)]
-    fn take_out<W: Lanes>(&mut self, k: usize, f: f64) -> bool {
+    fn shrink<W: Lanes>(&mut self, k: usize, f: f64) -> bool {
         let (m, n, q) = (self.of.len(), self.unknowns.len(), self.place[k]);
         // Nothing of itself where that is nothing.
         let normal = if f == 0.0 { q } else { self.place[m + k] };
@@ -273,7 +268,6 @@ impl Linear for Inverse {
         missing(&self.unknowns, u, h, &mut self.x)
     }
 
-    #[inline(always)]
     fn add<W: Lanes>(&mut self, problem: &Problem, p: &mut [f64]) {
         let (m, groups) = (self.of.len(), self.unknowns.len().div_ceil(LANES));
         self.sum[..groups].fill([0.0; LANES]);
@@ -287,6 +281,16 @@ impl Linear for Inverse {
             }
         }
     }
+}
+
+apart! {
+    /// Let a component be unknown, whose contact bears `-f` of it along the crack where it is a normal one that slips.
+    fn let_in(inverse: &mut Inverse, problem: &Problem, k: usize, f: f64) -> bool = Inverse::extend
+}
+
+apart! {
+    /// Let a component be no longer unknown, but `-f` times the normal one of its contact.
+    fn take_out(inverse: &mut Inverse, k: usize, f: f64) -> bool = Inverse::shrink
 }
 
 /// `sum a b` of groups and as many numbers.

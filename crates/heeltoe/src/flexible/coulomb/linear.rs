@@ -22,7 +22,6 @@ pub(super) trait Linear {
 }
 
 /// Write what the velocities of the unknowns are amiss into `x`, and return the most of it.
-#[inline(always)]
 pub(super) fn missing(unknowns: &[usize], u: &[f64], h: &[f64], x: &mut Vec<f64>) -> f64 {
     let m = h.len();
     x.clear();
@@ -37,7 +36,6 @@ pub(super) fn missing(unknowns: &[usize], u: &[f64], h: &[f64], x: &mut Vec<f64>
 
 /// Correct what a solution misses; false where that is more than `rounded`, relative to the fastest node, and corrections
 /// do no better.
-#[inline(always)]
 pub(super) fn settle<W: Lanes>(
     linear: &mut impl Linear,
     problem: &Problem,

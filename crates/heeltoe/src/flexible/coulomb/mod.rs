@@ -21,7 +21,7 @@ mod sweep;
 
 pub(super) use self::problem::{ContactOperator, Known, Problem};
 
-use self::factors::Kept;
+use self::factors::{factor, Kept};
 use self::inverse::Inverse;
 use self::linear::{settle, Linear};
 use super::simd::Lanes;
@@ -131,7 +131,6 @@ impl Solver {
 
     /// Forget the factors where they contain a contact that has moved, because its part of `G` is another one; lasting ones
     /// grow old.
-    #[inline(always)]
     pub(super) fn forget(&mut self, moved: &[bool]) {
         // An inverse is always corrected.
         self.factors.forget(moved, self.lasting);
@@ -145,7 +144,6 @@ impl Solver {
     }
 
     /// Solve, starting from the states of the last time; `Absent` ones must have been set by the caller.
-    #[inline(always)]
     pub(super) fn solve<W: Lanes>(
         &mut self,
         problem: &mut Problem,
@@ -189,7 +187,6 @@ impl Solver {
     }
 
     /// Go from set to set; false where none is right of so many, or they come round in a circle.
-    #[inline(always)]
     fn search<W: Lanes>(
         &mut self,
         problem: &mut Problem,
@@ -218,7 +215,6 @@ impl Solver {
     }
 
     /// Find the impulses of the set of states and the velocities they make; false where the set has none.
-    #[inline(always)]
     fn impulses<W: Lanes>(&mut self, problem: &mut Problem, crack: &mut impl ContactOperator) -> bool {
         if self.follow::<W>(problem, crack) {
             return true;
@@ -236,7 +232,7 @@ impl Solver {
         let status = &self.status;
         crack.fill(problem, |contact| status[contact].closed());
         let factors = self.factors.now();
-        if !factors.factor::<W>(problem, status) {
+        if !factor::<W>(factors, problem, status) {
             return false;
         }
         factors.solve::<W>(problem, &mut self.p);
@@ -246,7 +242,6 @@ impl Solver {
 
     /// Let the inverse follow the set of states, and find the impulses with it; false where there is none, or it leaves too
     /// much.
-    #[inline(always)]
     fn follow<W: Lanes>(&mut self, problem: &mut Problem, crack: &mut impl ContactOperator) -> bool {
         let status = &self.status;
         let Some(inverse) = &mut self.inverse else {
@@ -290,7 +285,6 @@ impl Solver {
     }
 
     /// Change the state of the contacts that break their conditions, all or the worst; false where none does.
-    #[inline(always)]
     fn amend(&mut self, problem: &Problem, (worst_only, slips): (bool, bool)) -> bool {
         let m = self.status.len();
         let fastest = problem.b.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
@@ -342,7 +336,6 @@ impl Solver {
     }
 
     /// Take rounding off the solution; false where there was none.
-    #[inline(always)]
     fn clip(&mut self) -> bool {
         let m = self.status.len();
         let least = self.p[m..].iter().fold(0.0_f64, |a, p| a.min(*p));
@@ -353,7 +346,6 @@ impl Solver {
     }
 
     /// By what impulse a contact breaks its conditions.
-    #[inline(always)]
     pub(super) fn violation(&self, problem: &Problem, contact: usize) -> f64 {
         let m = self.status.len();
         let (p_t, p_n) = (self.p[contact], self.p[m + contact]);
@@ -377,7 +369,6 @@ impl Solver {
     }
 
     /// Residual of the solution. Nothing is known or felt of an absent contact, so that it adds nothing.
-    #[inline(always)]
     fn residual(&self, problem: &Problem) -> f64 {
         let m = self.status.len();
         let (b_t, b_n) = problem.b.split_at(m);
