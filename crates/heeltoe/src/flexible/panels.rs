@@ -1,5 +1,7 @@
 //! A matrix for products with one vector after the other: a few groups of its columns at a time, each such panel read
-//! from front to back, as memory gives it fastest.
+//! from front to back, as memory gives it fastest. What is zero at its head and foot is left out.
+
+use std::ops::Range;
 
 use super::simd::{combine, Group, Lanes};
 
@@ -9,30 +11,39 @@ const PANEL: usize = 5;
 /// A matrix in panels.
 pub(super) struct Panels {
     numbers: Vec<Group>,
-    rows: usize,
+    /// Rows of each panel.
+    rows: Vec<Range<usize>>,
 }
 
 impl Panels {
     /// The first `groups` of rows of `stride` groups.
     pub(super) fn new(rows: &[Group], stride: usize, groups: usize) -> Self {
-        let mut numbers = Vec::with_capacity(rows.len() / stride.max(1) * groups);
+        let (mut numbers, mut spans) = (Vec::new(), Vec::new());
         for first in (0..groups).step_by(PANEL) {
             let columns = first..groups.min(first + PANEL);
-            for row in rows.chunks_exact(stride) {
-                numbers.extend_from_slice(&row[columns.clone()]);
-            }
+            let panel = || rows.chunks_exact(stride).map(|row| &row[columns.clone()]);
+            let filled = |row: &[Group]| row.as_flattened().iter().any(|x| *x != 0.0);
+            let count = rows.len() / stride;
+            // In pairs, as they are summed up.
+            let head = panel().position(filled).unwrap_or(count) / 2 * 2;
+            let foot = count - panel().rev().position(filled).unwrap_or(count) / 2 * 2;
+            let span = head..foot.max(head);
+            panel()
+                .take(span.end)
+                .skip(span.start)
+                .for_each(|row| numbers.extend_from_slice(row));
+            spans.push(span);
         }
-        Panels {
-            numbers,
-            rows: rows.len() / stride,
-        }
+        Panels { numbers, rows: spans }
     }
 
     /// Add `sum_k x_k rows_k`.
     pub(super) fn combine<W: Lanes>(&self, x: &[f64], sum: &mut [Group]) {
-        let panels = self.numbers.chunks(PANEL * self.rows.max(1));
-        for (panel, sum) in panels.zip(sum.chunks_mut(PANEL)) {
-            combine::<W>(panel, &x[..self.rows], sum);
+        let mut rest = &self.numbers[..];
+        for (rows, sum) in self.rows.iter().zip(sum.chunks_mut(PANEL)) {
+            let (panel, others) = rest.split_at(rows.len() * sum.len());
+            combine::<W>(panel, &x[rows.clone()], sum);
+            rest = others;
         }
     }
 }

@@ -22,9 +22,8 @@
 //! which is a dashpot (see [`super::dampers`]) with a memory.
 
 use super::ledger::Ledger;
-use super::panels::Panels;
 use super::scheme::TimeStep;
-use super::simd::{dot, in_groups, Group, Lanes, LANES};
+use super::simd::{apart, Group, Lanes, Plain, LANES};
 
 /// A reservoir in its modes; `m` of them.
 pub struct Reservoir {
@@ -73,10 +72,10 @@ pub(super) struct Water<'a> {
     ground: [f64; 2],
     /// What the ground does to the modes in this step.
     drive: Vec<f64>,
-    mean: Vec<f64>,
-    /// What leaves, and room for a sum over it.
-    leaving: [Panels; 2],
-    room: Vec<Group>,
+    /// What leaves, and `x*` of the last steps, one in a lane, in which it has not been booked.
+    leaving: [Leaving; 2],
+    means: Vec<Group>,
+    waiting: usize,
     /// Energies: put in by the ground, left through the floor and the far end, taken by the scheme, all that went in.
     input: f64,
     left: [f64; 2],
@@ -84,22 +83,63 @@ pub(super) struct Water<'a> {
     turnover: f64,
 }
 
+/// The lower half of a symmetric matrix, row by row, what is beside the diagonal twice; nothing where it is zero.
+struct Leaving(Vec<f64>);
+
+impl Leaving {
+    fn new(matrix: &[f64]) -> Self {
+        if matrix.iter().all(|x| *x == 0.0) {
+            return Leaving(Vec::new());
+        }
+        let rows = matrix.chunks_exact(matrix.len().isqrt()).enumerate();
+        Leaving(
+            rows.flat_map(|(k, row)| row[..k].iter().map(|x| 2.0 * x).chain([row[k]]))
+                .collect(),
+        )
+    }
+
+    /// What [`powers`] does.
+    #[inline(always)]
+    fn take<W: Lanes>(&self, x: &[Group]) -> f64 {
+        let (mut total, mut rows) = (W::all(0.0), &self.0[..]);
+        for (k, own) in x.iter().enumerate() {
+            if rows.is_empty() {
+                break;
+            }
+            let (row, rest) = rows.split_at(k + 1);
+            let mut sums = [W::all(0.0); 2];
+            for (pair, x) in row.chunks(2).zip(x.chunks(2)) {
+                for ((sum, c), x) in sums.iter_mut().zip(pair).zip(x) {
+                    *sum = W::all(*c).fma(W::load(x), *sum);
+                }
+            }
+            total = W::load(own).fma(sums[0].add(sums[1]), total);
+            rows = rest;
+        }
+        let mut lanes = [0.0; LANES];
+        total.store(&mut lanes);
+        lanes.iter().sum()
+    }
+}
+
+apart! {
+    /// `sum x^T C x` of the vectors in all lanes.
+    fn powers(leaving: &Leaving, x: &[Group]) -> f64 = Leaving::take
+}
+
 impl<'a> Water<'a> {
     pub(super) fn new(of: &'a Reservoir, step: TimeStep) -> Self {
-        let (zeros, groups) = (vec![0.0; of.modes()], of.modes().div_ceil(LANES));
+        let zeros = vec![0.0; of.modes()];
         Water {
             of,
             step,
             amplitude: zeros.clone(),
             velocity: zeros.clone(),
             ground: [0.0; 2],
-            drive: zeros.clone(),
-            mean: zeros,
-            leaving: of
-                .leaving
-                .each_ref()
-                .map(|matrix| Panels::new(&in_groups(matrix, of.modes()), groups, groups)),
-            room: vec![[0.0; LANES]; groups],
+            drive: zeros,
+            leaving: of.leaving.each_ref().map(|matrix| Leaving::new(matrix)),
+            means: vec![[0.0; LANES]; of.modes()],
+            waiting: 0,
             input: 0.0,
             left: [0.0; 2],
             numerical: 0.0,
@@ -149,14 +189,18 @@ impl<'a> Water<'a> {
             self.input += work;
             self.turnover += work.abs();
             self.numerical += (theta - 0.5) * (more * more + self.of.omega_squared[k] * way * way);
-            self.mean[k] = mean;
+            self.means[k][self.waiting] = mean;
             self.amplitude[k] += way;
             self.velocity[k] = new;
         }
-        for (left, matrix) in self.left.iter_mut().zip(&self.leaving) {
-            self.room.fill([0.0; LANES]);
-            matrix.combine::<W>(&self.mean, &mut self.room);
-            *left += dt * dot(&self.mean, &self.room.as_flattened()[..self.mean.len()]);
+        // Eight steps together: reading a matrix is what its product costs.
+        self.waiting += 1;
+        if self.waiting == LANES {
+            for (left, matrix) in self.left.iter_mut().zip(&self.leaving) {
+                *left += dt * powers::<W>(matrix, &self.means);
+            }
+            self.means.fill([0.0; LANES]);
+            self.waiting = 0;
         }
         for (ground, change) in self.ground.iter_mut().zip(change) {
             *ground += change;
@@ -175,7 +219,11 @@ impl<'a> Water<'a> {
 
     /// Add its energies to a ledger.
     pub(super) fn book(&self, ledger: &mut Ledger) {
-        let [floor, far] = self.left;
+        let waiting = self
+            .leaving
+            .each_ref()
+            .map(|matrix| powers::<Plain>(matrix, &self.means));
+        let [floor, far] = [0, 1].map(|k| self.left[k] + self.step.dt * waiting[k]);
         ledger.input += self.input;
         ledger.floor += floor;
         ledger.far_end += far;
