@@ -107,13 +107,18 @@ impl Leaving {
                 break;
             }
             let (row, rest) = rows.split_at(k + 1);
-            let mut sums = [W::all(0.0); 2];
-            for (pair, x) in row.chunks(2).zip(x.chunks(2)) {
-                for ((sum, c), x) in sums.iter_mut().zip(pair).zip(x) {
-                    *sum = W::all(*c).fma(W::load(x), *sum);
+            // Four sums do not wait for each other.
+            let mut sums = [W::all(0.0); 4];
+            let (fours, last) = row.as_chunks::<4>();
+            for (row, x) in fours.iter().zip(x.as_chunks::<4>().0) {
+                for k in 0..4 {
+                    sums[k] = W::all(row[k]).fma(W::load(&x[k]), sums[k]);
                 }
             }
-            total = W::load(own).fma(sums[0].add(sums[1]), total);
+            for (c, x) in last.iter().zip(&x[4 * fours.len()..]) {
+                sums[0] = W::all(*c).fma(W::load(x), sums[0]);
+            }
+            total = W::load(own).fma(sums[0].add(sums[1]).add(sums[2].add(sums[3])), total);
             rows = rest;
         }
         let mut lanes = [0.0; LANES];
