@@ -159,7 +159,7 @@ impl<'a> Envelope<'a> {
 
 apart! {
     /// Look at the states gathered.
-    fn look(envelope: &mut Envelope<'_>) -> () = Envelope::meet_all
+    fn look(envelope: &mut Envelope<'_>) -> () = Envelope::meet_all;
 }
 
 /// The stresses at one place in all states.

@@ -533,16 +533,16 @@ impl<'a> ModalStepper<'a> {
 apart! {
     /// Finish the step `now` with the impulses found, unless this is the start, and begin the step `next`.
     pub(super) fn advance(body: &mut ModalStepper<'_>, now: Option<Drive>, next: Drive, step: TimeStep) -> () =
-        ModalStepper::go_on
+        ModalStepper::go_on;
 }
 
 apart! {
     /// The same where a boundary takes energy; `now` with whether there are any impulses.
     fn advance_dense(body: &mut ModalStepper<'_>, now: Option<(Drive, bool)>, next: Drive, step: TimeStep) -> () =
-        ModalStepper::go_on_dense
+        ModalStepper::go_on_dense;
 }
 
 apart! {
     /// Let the crack nodes go on to the end of the step with the velocities found.
-    pub(super) fn move_crack(body: &mut ModalStepper<'_>, step: TimeStep) -> () = ModalStepper::move_nodes
+    pub(super) fn move_crack(body: &mut ModalStepper<'_>, step: TimeStep) -> () = ModalStepper::move_nodes;
 }

@@ -129,7 +129,7 @@ impl Leaving {
 
 apart! {
     /// `sum x^T C x` of the vectors in all lanes.
-    fn powers(leaving: &Leaving, x: &[Group]) -> f64 = Leaving::take
+    fn powers(leaving: &Leaving, x: &[Group]) -> f64 = Leaving::take;
 }
 
 impl<'a> Water<'a> {

@@ -22,7 +22,7 @@ pub(super) trait Work {
 macro_rules! apart {
     (
         $(#[$doc:meta])*
-        $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?) -> $answer:ty = $of:ident::$inlined:ident
+        $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?) -> $answer:ty = $of:ident::$inlined:ident;
     ) => {
         $(#[$doc])*
         $vis fn $name<W: $crate::flexible::simd::Lanes>($($arg: $type),*) -> $answer {
@@ -272,7 +272,7 @@ pub(super) fn combine<W: Lanes>(rows: &[Group], x: &[f64], sum: &mut [Group]) {
 
 apart! {
     /// The same with the first groups of rows of `stride` groups.
-    pub(super) fn combine_first(rows: &[Group], stride: usize, x: &[f64], sum: &mut [Group]) -> () = inlined::combine
+    pub(super) fn combine_first(rows: &[Group], stride: usize, x: &[f64], sum: &mut [Group]) -> () = inlined::combine;
 }
 
 /// What is to be inlined where it is used.

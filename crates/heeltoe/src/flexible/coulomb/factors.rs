@@ -289,17 +289,17 @@ impl Factors {
 
 apart! {
     /// Set up and factor the matrix of these states; false where it is singular.
-    pub(super) fn factor(factors: &mut Factors, problem: &Problem, status: &[Status]) -> bool = Factors::anew
+    pub(super) fn factor(factors: &mut Factors, problem: &Problem, status: &[Status]) -> bool = Factors::anew;
 }
 
 apart! {
     /// Work out the inverse, unless the matrix is next to singular.
-    fn invert(factors: &mut Factors) -> () = Factors::find_inverse
+    fn invert(factors: &mut Factors) -> () = Factors::find_inverse;
 }
 
 apart! {
     /// Turn the right-hand side in `x` into the solution.
-    fn substitute(factors: &mut Factors) -> () = Factors::solve_triangles
+    fn substitute(factors: &mut Factors) -> () = Factors::solve_triangles;
 }
 
 impl Linear for Factors {

@@ -285,12 +285,12 @@ impl Linear for Inverse {
 
 apart! {
     /// Let a component be unknown, whose contact bears `-f` of it along the crack where it is a normal one that slips.
-    fn let_in(inverse: &mut Inverse, problem: &Problem, k: usize, f: f64) -> bool = Inverse::extend
+    fn let_in(inverse: &mut Inverse, problem: &Problem, k: usize, f: f64) -> bool = Inverse::extend;
 }
 
 apart! {
     /// Let a component be no longer unknown, but `-f` times the normal one of its contact.
-    fn take_out(inverse: &mut Inverse, k: usize, f: f64) -> bool = Inverse::shrink
+    fn take_out(inverse: &mut Inverse, k: usize, f: f64) -> bool = Inverse::shrink;
 }
 
 /// `sum a b` of groups and as many numbers.
