@@ -70,7 +70,7 @@ def context(chromium):
     """Keep what a browser keeps from one page to the next: the scripts, as it has compiled them, too."""
     made = chromium.new_context(viewport=LAPTOP, has_touch=True)
     # Machines are busy: what must come may come late.
-    made.set_default_timeout(60_000)
+    made.set_default_timeout(120_000)
     yield made
     made.close()
 

@@ -61,7 +61,7 @@ def test_keys_alone_move_a_slider(page):
 def test_both_blocks_where_the_crack_is_at_a_height(page, picture):
     page.wait_for_selector(SLIP)
     page.select_option("#example", "typical-height")
-    page.wait_for_selector(".card[data-details=decoupled] tr", timeout=30_000)
+    page.wait_for_selector(".card[data-details=decoupled] tr")
     settled(page)
     # What takes a moment is marked while the other is newer.
     slide(page, "reservoir.depth", 93.0)

@@ -18,7 +18,7 @@ SLIP = ".card[data-details=rigid] tr[data-key=residual_slip_m] td"
 
 def open_answer(browser, home):
     page = browser.new_page()
-    page.set_default_timeout(60_000)
+    page.set_default_timeout(120_000)
     page.goto(home)
     page.click("#tab-answer")
     page.wait_for_selector(SLIP)
