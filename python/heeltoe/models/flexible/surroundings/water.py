@@ -448,9 +448,11 @@ _KEPT: Kept[_Few] = Kept(8)
 def _reduced(full: FullWater, highest: float, enough: float) -> ReducedWater:
     matrices = (full.mass, full.stiffness, full.damping_floor, full.damping_far)
     content = hashlib.sha256()
-    for part in (*(matrix.data for matrix in matrices), full.ground, full.patterns):
+    sparse = (part for matrix in matrices for part in (matrix.data, matrix.indices, matrix.indptr))
+    for part in (*sparse, full.ground, full.patterns, full.distance):
         content.update(part.tobytes())
-    few = _KEPT.get((content.digest(), highest, enough), lambda: _few(full, highest, enough))
+    key = (content.digest(), full.first, highest, enough)
+    few = _KEPT.get(key, lambda: _few(full, highest, enough))
     return ReducedWater(
         few.squares,
         few.taken_floor + few.taken_far,
