@@ -39,6 +39,7 @@ model = "flexible"
 [motions]
 folder = "{records}"
 pairs = true
+both_signs = false
 scale = {{ measure = "pga", values = {strengths} }}
 """
 #: The records of the study: one folder of components of earthquakes within the records.

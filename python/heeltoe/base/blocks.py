@@ -55,9 +55,11 @@ class Block(Mapping[str, Any]):
         return sum(1 for _ in self)
 
     def __getitem__(self, name: str) -> Any:
-        if name not in set(self):
+        optional = _optional(type(self))[name]
+        value = getattr(self, name)
+        if optional and value is None:
             raise KeyError(name)
-        return getattr(self, name)
+        return value
 
     @classmethod
     def names(cls) -> tuple[str, ...]:
@@ -104,6 +106,11 @@ def entries(kind: type) -> tuple[Entry, ...]:
         if numbers:
             rows.append(Entry(name, get_args(hint)[0], numbers[0]))
     return tuple(rows)
+
+
+@cache
+def _optional(kind: type) -> dict[str, bool]:
+    return {entry.name: entry.number.optional for entry in entries(kind)}
 
 
 def _annotated(hint: Any) -> bool:
