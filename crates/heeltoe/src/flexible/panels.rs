@@ -66,4 +66,26 @@ mod tests {
             assert_eq!(sum, expected[..groups]);
         }
     }
+    #[test]
+    fn what_is_zero_at_head_and_foot_is_not_kept() {
+        let (rows, stride) = (11, 12);
+        let x: Vec<f64> = (0..rows).map(|k| (k as f64).cos()).collect();
+        // Nothing, all, and ends that are even and odd.
+        for filled in [0..0, 0..rows, 3..8, 4..7, 10..11] {
+            let number = |k: usize| (k as f64 + 1.0).sin();
+            let row = |k: usize| -> Vec<Group> {
+                let has = filled.contains(&k);
+                let group =
+                    |n| std::array::from_fn(|l| if has { number(k * 96 + n * LANES + l) } else { 0.0 });
+                (0..stride).map(group).collect()
+            };
+            let matrix: Vec<Group> = (0..rows).flat_map(row).collect();
+            let panels = Panels::new(&matrix, stride, stride);
+            assert!(panels.numbers.len() <= stride * (filled.len() + 2));
+            let (mut sum, mut expected) = (vec![[1.0; LANES]; stride], vec![[1.0; LANES]; stride]);
+            panels.combine::<Plain>(&x, &mut sum);
+            combine::<Plain>(&matrix, &x, &mut expected);
+            assert_eq!(sum, expected);
+        }
+    }
 }

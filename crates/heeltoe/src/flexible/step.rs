@@ -41,10 +41,12 @@ use super::walk::Walk;
 pub(super) fn simulate(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
     #[cfg(target_arch = "x86_64")]
     {
-        if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("fma") {
+        // What is compiled apart for these registers runs where the machine has them only.
+        let fma = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+        if fma && is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
             return run::<x86::Avx512>(dam, shaking, theta, wanted);
         }
-        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+        if fma {
             return run::<x86::Avx2>(dam, shaking, theta, wanted);
         }
     }
