@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use heeltoe::flexible::{
     many, rest, simulate, BondLaw, Dam, FaceAnchor, Inside, Line, Modes, Penalty, Point, RisingWater,
-    RockingThresholds, Scheme, Shaking, Sides, Span, Stressed, Stresses, Summary, UntilRest, Wanted,
+    RockingThresholds, Scheme, Shaking, Span, Stressed, Stresses, Summary, UntilRest, Wanted,
 };
 use heeltoe::inside::Law;
 use numpy::{PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
@@ -101,6 +101,7 @@ impl FollowingWater<'_> {
 /// Water whose pressure changes with time as Python gives it.
 #[derive(FromPyObject)]
 pub struct Rising<'py> {
+    crack: usize,
     span: [f64; 2],
     change: Vec<Numbers<'py>>,
 }
@@ -108,6 +109,7 @@ pub struct Rising<'py> {
 impl Rising<'_> {
     fn water(&self) -> PyResult<RisingWater> {
         Ok(RisingWater {
+            crack: self.crack,
             span: self.span,
             change: faces(&self.change)?,
         })
@@ -156,12 +158,14 @@ pub struct CrackLine<'py> {
     bond: Option<[f64; 6]>,
     give: (f64, f64),
     angles: [Vec<f64>; 2],
+    water: Option<FollowingWater<'py>>,
+    anchors: Vec<CrackAnchor>,
 }
 
 impl CrackLine<'_> {
-    fn line(&self) -> Line {
+    fn line(&self) -> PyResult<Line> {
         let span = |(first, count): (usize, usize)| Span { first, count };
-        Line {
+        Ok(Line {
             nodes: [span(self.upper), span(self.lower)],
             friction: self.friction,
             law: self.law.as_ref().map(|law| law.get().0.clone()),
@@ -179,34 +183,32 @@ impl CrackLine<'_> {
                 gap: self.give.1,
             },
             angles: self.angles.clone(),
-        }
+            inside: Inside {
+                water: self.water.as_ref().map(FollowingWater::water).transpose()?,
+                anchors: self.anchors.iter().map(CrackAnchor::anchor).collect(),
+            },
+        })
     }
 }
 
-/// Stresses by the modes of either part as Python gives them, by the names of `Stressed`.
+/// Stresses by the modes of the parts as Python gives them, by the names of `Stressed`.
 #[derive(FromPyObject)]
 pub struct StressRows<'py> {
-    bodies: Vec<PyReadonlyArray3<'py, f64>>,
+    parts: Vec<PyReadonlyArray3<'py, f64>>,
     stride: usize,
 }
 
 impl StressRows<'_> {
-    fn stressed(&self) -> PyResult<Stressed<'_>> {
-        let mut bodies = Vec::new();
-        for each in &self.bodies {
-            let rows = rows(each.as_slice()?, "a stress")?;
-            bodies.push(Stresses::new(rows, each.shape()[1]).map_err(wrong)?);
+    fn stresses(&self) -> PyResult<Vec<Stresses<'_>>> {
+        if self.stride == 0 {
+            return Err(wrong("stresses need a stride"));
         }
-        match bodies[..] {
-            [upper, ref lower @ ..] if self.stride > 0 && lower.len() < 2 => Ok(Stressed {
-                bodies: Sides {
-                    upper,
-                    lower: lower.first().copied(),
-                },
-                stride: self.stride,
-            }),
-            _ => Err(wrong("stresses need one or two parts and a stride")),
+        let mut parts = Vec::new();
+        for part in &self.parts {
+            let rows = rows(part.as_slice()?, "a stress")?;
+            parts.push(Stresses::new(rows, part.shape()[1]).map_err(wrong)?);
         }
+        Ok(parts)
     }
 }
 
@@ -224,7 +226,7 @@ impl CrackedDam {
         let Some([stiffness, gamma, beta]) = penalty else {
             return Ok(Scheme::Exact(theta));
         };
-        if !self.dam.inside.is_empty() {
+        if self.dam.cracks.iter().any(|line| !line.inside.is_empty()) {
             return Err(wrong("the penalty method knows contact alone in the crack"));
         }
         if self.dam.cracks.len() > 1 {
@@ -238,13 +240,13 @@ impl CrackedDam {
         {
             return Err(wrong("the penalty method knows constant friction and no bond"));
         }
-        let radiates = self.dam.bodies.lower.as_ref().is_some_and(|body| body.radiates());
-        if self.dam.reservoir.is_some() || radiates || self.dam.bodies.upper.radiates() {
+        let radiates = self.dam.bodies.iter().any(|body| body.radiates());
+        if self.dam.reservoir.is_some() || radiates {
             return Err(wrong(
                 "the penalty method knows neither water with sound nor rock with waves",
             ));
         }
-        if self.dam.bodies.upper.dampers() > 0 {
+        if self.dam.bodies[0].dampers() > 0 {
             return Err(wrong("the penalty method has no dashpots between the modes"));
         }
         Ok(Scheme::Penalty(Penalty {
@@ -258,8 +260,8 @@ impl CrackedDam {
 impl CrackedDam {
     /// The ground, and the water that changes meanwhile, as this scheme may have it.
     fn shaking<'a>(&'a self, ground: &'a [[f64; 2]], dt: f64, scheme: &Scheme) -> PyResult<Shaking<'a>> {
-        if !self.rising.is_empty() && (matches!(scheme, Scheme::Penalty(_)) || self.dam.cracks.len() > 1) {
-            return Err(wrong("water that changes needs exact contact in one crack"));
+        if !self.rising.is_empty() && matches!(scheme, Scheme::Penalty(_)) {
+            return Err(wrong("water that changes needs exact contact"));
         }
         Ok(Shaking {
             ground,
@@ -273,16 +275,12 @@ impl CrackedDam {
 #[pymethods]
 impl CrackedDam {
     #[new]
-    #[pyo3(signature = (upper, lower, cracks, contactors, water=None, anchors=Vec::new(), reservoir=None, *, asked=0))]
-    #[allow(clippy::too_many_arguments)]
+    #[pyo3(signature = (parts, cracks, contactors, reservoir=None, *, asked=0))]
     fn new(
         py: Python<'_>,
-        upper: ReducedBody,
-        lower: Option<ReducedBody>,
+        parts: Vec<ReducedBody<'_>>,
         cracks: Vec<CrackLine<'_>>,
         contactors: u8,
-        water: Option<FollowingWater>,
-        anchors: Vec<CrackAnchor>,
         reservoir: Option<Reservoir<'_>>,
         asked: usize,
     ) -> PyResult<Self> {
@@ -290,16 +288,9 @@ impl CrackedDam {
             return Err(wrong("the crack asked of is not there"));
         }
         let dam = Dam {
-            bodies: Sides {
-                upper: upper.body()?,
-                lower: lower.map(|body| body.body()).transpose()?,
-            },
-            cracks: cracks.iter().map(CrackLine::line).collect(),
+            bodies: parts.iter().map(ReducedBody::body).collect::<PyResult<_>>()?,
+            cracks: cracks.iter().map(CrackLine::line).collect::<PyResult<_>>()?,
             contactors,
-            inside: Inside {
-                water: water.map(|water| water.water()).transpose()?,
-                anchors: anchors.iter().map(CrackAnchor::anchor).collect(),
-            },
             reservoir: reservoir.map(|water| water.reservoir()).transpose()?,
             still: None,
         };
@@ -315,13 +306,11 @@ impl CrackedDam {
     /// See `_kernel.pyi`.
     fn under(&self, rising: Vec<Rising<'_>>) -> PyResult<Self> {
         let rising = rising.iter().map(Rising::water).collect::<PyResult<Vec<_>>>()?;
-        let bodies = &self.dam.bodies;
-        let below = bodies
-            .lower
-            .as_ref()
-            .map_or(0, heeltoe::flexible::ReducedBody::nodes);
-        let counts = [bodies.upper.nodes(), below];
-        let fits = |water: &RisingWater| [water.change[0].len(), water.change[1].len()] == counts;
+        let fits = |water: &RisingWater| {
+            let line = self.dam.cracks.get(water.crack);
+            let counts = [water.change[0].len(), water.change[1].len()];
+            line.is_some_and(|line| line.nodes.map(|span| span.count) == counts)
+        };
         if !rising.iter().all(fits) {
             return Err(wrong("the water that changes needs a force for each crack node"));
         }
@@ -355,7 +344,14 @@ impl CrackedDam {
     ) -> PyResult<DamRun> {
         let scheme = self.scheme(theta, penalty)?;
         let shaking = self.shaking(rows(ground.as_slice()?, "ground")?, step, &scheme)?;
-        let stresses = stresses.as_ref().map(StressRows::stressed).transpose()?;
+        let stresses = stresses
+            .as_ref()
+            .map(|wanted| Ok::<_, PyErr>((wanted.stresses()?, wanted.stride)))
+            .transpose()?;
+        let stresses = stresses.as_ref().map(|(parts, stride)| Stressed {
+            parts,
+            stride: *stride,
+        });
         let until_rest = until_rest.map(|(first, every, seconds, moved)| UntilRest {
             first,
             every: every.max(1),

@@ -384,19 +384,24 @@ impl StackRun {
 pub struct AtRest {
     slips: Py<PyTuple>,
     open_contacts: Py<PyTuple>,
-    modes: (Column, Column),
-    forces: (Table, Table),
+    modes: Py<PyTuple>,
+    forces: Py<PyTuple>,
+}
+
+/// Arrays of so many rows.
+fn tables(py: Python<'_>, values: Vec<Vec<f64>>, rows: usize) -> PyResult<Py<PyTuple>> {
+    let tables = values.into_iter().map(|values| shaped(py, values, rows));
+    Ok(PyTuple::new(py, tables.collect::<PyResult<Vec<_>>>()?)?.unbind())
 }
 
 impl AtRest {
     pub fn of(py: Python<'_>, dam: &elastic::Dam, still: &elastic::Still) -> PyResult<Self> {
-        let [above, below] = still.amplitudes(&dam.bodies);
-        let [up, down] = [0, 1].map(|face| shaped(py, still.force[face].clone(), 2));
+        let modes = still.amplitudes(dam).into_iter().map(|modes| array(py, modes));
         Ok(AtRest {
             slips: PyTuple::new(py, &still.slip)?.unbind(),
             open_contacts: PyTuple::new(py, &still.open)?.unbind(),
-            modes: (array(py, above), array(py, below)),
-            forces: (up?.unbind(), down?.unbind()),
+            modes: PyTuple::new(py, modes.collect::<Vec<_>>())?.unbind(),
+            forces: tables(py, still.forces(dam), 2)?,
         })
     }
 }
@@ -405,16 +410,16 @@ impl AtRest {
 #[pyclass(frozen, get_all, module = "heeltoe.kernel._kernel")]
 pub struct DamRun {
     summary: Py<DamSummary>,
-    anchors: Table,
+    anchors: Py<PyTuple>,
     frames: Py<DamFrames>,
     summaries: Py<PyTuple>,
     all_frames: Py<PyTuple>,
-    upper: Table,
-    lower: Table,
-    force: Table,
+    upper: Py<PyTuple>,
+    lower: Py<PyTuple>,
+    force: Py<PyTuple>,
     status: Py<PyArray2<u8>>,
     damage: Table,
-    modes: (Table, Table),
+    modes: Py<PyTuple>,
     water: Table,
     extremes: Py<PyTuple>,
     worked: Py<WornContacts>,
@@ -434,10 +439,9 @@ impl DamRun {
         let all_frames: Vec<_> = (0..cracks)
             .map(|k| Py::new(py, DamFrames::of(py, own(k))?))
             .collect::<PyResult<_>>()?;
-        let extremes = run.extremes.unwrap_or_default();
-        let extremes: Vec<_> = [extremes.upper, extremes.lower.unwrap_or_default()]
+        let extremes: Vec<_> = run
+            .extremes
             .iter()
-            .filter(|places| !places.is_empty())
             .map(|places| {
                 Py::new(
                     py,
@@ -445,21 +449,23 @@ impl DamRun {
                 )
             })
             .collect::<PyResult<_>>()?;
+        let anchors = run
+            .cracks
+            .iter()
+            .map(|crack| table(py, crack.anchors.iter().copied()));
+        let anchors: Vec<_> = anchors.collect();
         Ok(DamRun {
             summary: summaries[asked].clone_ref(py),
-            anchors: table(py, run.cracks[0].anchors.iter().copied()).unbind(),
+            anchors: PyTuple::new(py, anchors)?.unbind(),
             frames: all_frames[asked].clone_ref(py),
             summaries: PyTuple::new(py, summaries)?.unbind(),
             all_frames: PyTuple::new(py, all_frames)?.unbind(),
-            upper: shaped(py, frames.upper, count)?.unbind(),
-            lower: shaped(py, frames.lower, count)?.unbind(),
-            force: shaped(py, frames.force, count)?.unbind(),
+            upper: tables(py, frames.upper, count)?,
+            lower: tables(py, frames.lower, count)?,
+            force: tables(py, frames.force, count)?,
             status: shaped(py, frames.status, count)?.unbind(),
             damage: shaped(py, frames.damage, count)?.unbind(),
-            modes: (
-                shaped(py, frames.modes_upper, count)?.unbind(),
-                shaped(py, frames.modes_lower, count)?.unbind(),
-            ),
+            modes: tables(py, frames.modes, count)?,
             water: shaped(py, frames.water, count)?.unbind(),
             extremes: PyTuple::new(py, extremes)?.unbind(),
             worked: Py::new(

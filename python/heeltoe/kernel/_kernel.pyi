@@ -418,7 +418,7 @@ class Reservoir(Protocol):
     def ground(self) -> Floats: ...
 
 class FollowingWater(Protocol):
-    """Water in the crack; see :class:`heeltoe.models.flexible.body.inside.FollowingWater`."""
+    """Water in the crack; see :class:`heeltoe.kernel.dam.FollowingWater`."""
 
     @property
     def law(self) -> str: ...
@@ -433,12 +433,14 @@ class RisingWater(Protocol):
     """Water whose pressure changes with time; see :class:`heeltoe.kernel.dam.RisingWater`."""
 
     @property
+    def crack(self) -> int: ...
+    @property
     def span(self) -> tuple[float, float]: ...
     @property
     def change(self) -> Sequence[Floats]: ...
 
 class CrackAnchor(Protocol):
-    """An anchor; see :class:`heeltoe.models.flexible.body.inside.CrackAnchor`."""
+    """An anchor; see :class:`heeltoe.kernel.dam.CrackAnchor`."""
 
     @property
     def points(self) -> Sequence[Sequence[tuple[int, float]]]: ...
@@ -468,12 +470,16 @@ class CrackLine(Protocol):
     def angles(self) -> tuple[list[float], list[float]]: ...
     @property
     def bond(self) -> tuple[float, float, float, float, float, float] | None: ...
+    @property
+    def water(self) -> FollowingWater | None: ...
+    @property
+    def anchors(self) -> Sequence[CrackAnchor]: ...
 
 class StressRows(Protocol):
     """Stresses by the modes; see :class:`heeltoe.models.flexible.body.stress_places.StressRows`."""
 
     @property
-    def bodies(self) -> Sequence[Floats]: ...
+    def parts(self) -> Sequence[Floats]: ...
     @property
     def stride(self) -> int: ...
 
@@ -624,22 +630,23 @@ class DamRun:
     summaries, all_frames
         Of all cracks, from the crest down.
     anchors
-        (n, 2) largest tension, and largest force with the resistance to slip, of each anchor with stiffness [N].
+        (n, 2) largest tension, and largest force with the resistance to slip, of each anchor with stiffness [N], crack
+        by crack.
     upper, lower
-        (f, 2 k) where the nodes of either part are, all along their cracks, then all across them [m].
+        (f, 2 k) where the nodes of either face are, all along the crack, then all across it [m], crack by crack; (f, 0)
+        for a rigid plane.
     force
-        (f, 2 k) mean forces on the nodes of the upper part since the frame before, and with several cracks on those of
-        the lower one behind them [N].
+        (f, 2 k) mean forces on the nodes of the upper face since the frame before [N], crack by crack.
     status
         (f, c) of each watched node, counting ``CONTACT_STATUSES``.
     damage
         (f, c) of the bond of each: 0 intact, 1 broken or without a bond; (f, 0) without a bonded joint.
     modes
-        (f, m) amplitudes of the modes of the upper and of the lower part.
+        (f, m) amplitudes of the modes of each part, from the crest down, with those of the rock last.
     water
         (f, w) velocities of the modes of the water with sound; its pressure comes of them.
     extremes
-        Of the stresses of each part. Empty where none are wanted.
+        Of the stresses of each part, from the crest down. Empty where none are wanted.
     worked
         Empty without a law.
     outcome, final_state
@@ -647,16 +654,16 @@ class DamRun:
     """
 
     summary: Final[DamSummary]
-    anchors: Final[Floats]
+    anchors: Final[tuple[Floats, ...]]
     frames: Final[DamFrames]
     summaries: Final[tuple[DamSummary, ...]]
     all_frames: Final[tuple[DamFrames, ...]]
-    upper: Final[Floats]
-    lower: Final[Floats]
-    force: Final[Floats]
+    upper: Final[tuple[Floats, ...]]
+    lower: Final[tuple[Floats, ...]]
+    force: Final[tuple[Floats, ...]]
     status: Final[NDArray[np.uint8]]
     damage: Final[Floats]
-    modes: Final[tuple[Floats, Floats]]
+    modes: Final[tuple[Floats, ...]]
     water: Final[Floats]
     extremes: Final[tuple[StressExtremes, ...]]
     worked: Final[WornContacts]
@@ -677,15 +684,15 @@ class AtRest:
     open_contacts
         How many of the watched nodes of each are open.
     modes
-        (m,) amplitudes of the upper and of the lower part.
+        (m,) amplitudes of each part, from the crest down.
     forces
-        (2, k) forces on the nodes of the upper and of the lower part, along and across their cracks [N].
+        (2, k) forces on the nodes of the upper face of each crack, along and across it [N].
     """
 
     slips: Final[tuple[float, ...]]
     open_contacts: Final[tuple[int, ...]]
-    modes: Final[tuple[Floats, Floats]]
-    forces: Final[tuple[Floats, Floats]]
+    modes: Final[tuple[Floats, ...]]
+    forces: Final[tuple[Floats, ...]]
 
 @final
 class CrackedDam:
@@ -693,17 +700,13 @@ class CrackedDam:
 
     Parameters
     ----------
-    upper, lower
-        The parts; without a lower one the only crack is on a rigid plane. Of several cracks `upper` has the first,
-        third, ... part from the crest down side by side, and `lower` the others.
+    parts
+        From the crest down; elastic rock is the last one.
     cracks
-        From the crest down.
+        From the crest down, below each part; below the last one there is a crack on a rigid plane or none. The penalty
+        method knows one crack in which nothing but contact acts.
     contactors
         Which nodes are watched, 1 to 5.
-    water
-        Where its pressure follows the opening.
-    anchors
-        Those with stiffness. Neither goes with the penalty method, nor do they or that go with several cracks.
     reservoir
         Water with sound, tied to the parts by their rows `wet`; the penalty method knows none.
     asked
@@ -712,12 +715,9 @@ class CrackedDam:
 
     def __init__(
         self,
-        upper: ReducedBody,
-        lower: ReducedBody | None,
+        parts: Sequence[ReducedBody],
         cracks: Sequence[CrackLine],
         contactors: int,
-        water: FollowingWater | None = None,
-        anchors: Sequence[CrackAnchor] = (),
         reservoir: Reservoir | None = None,
         *,
         asked: int = 0,

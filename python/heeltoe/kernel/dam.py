@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -26,6 +27,48 @@ StressExtremes = _kernel.StressExtremes
 Ending = _kernel.Ending
 
 
+@dataclass(frozen=True, eq=False)
+class FollowingWater:
+    """Water in a crack whose pressure changes as the crack opens.
+
+    Attributes
+    ----------
+    law
+        A choice of ``uplift.during_shaking`` other than "constant".
+    opening
+        Over which it changes [m].
+    still, full
+        Forces of each node of the upper and, if there is one, of the lower face, across the crack, positive away from
+        the lower part: at the static pressure and at that of the reservoir at the heel, (k,) each [N].
+    """
+
+    law: str
+    opening: float
+    still: tuple[Floats, ...]
+    full: tuple[Floats, ...]
+
+
+@dataclass(frozen=True)
+class CrackAnchor:
+    """An anchor with stiffness.
+
+    Attributes
+    ----------
+    points
+        Where it crosses the upper and, if there is one, the lower face: nodes of the face from 0 with their shares.
+    axis
+        Direction along and across the crack.
+    prestress, axial_stiffness, shear_stiffness
+        Tension at the start [N], what it gains by opening along its axis and resistance by slip [N/m].
+    """
+
+    points: tuple[tuple[tuple[int, float], ...], ...]
+    axis: tuple[float, float]
+    prestress: float
+    axial_stiffness: float
+    shear_stiffness: float
+
+
 @dataclass(frozen=True)
 class CrackLine:
     """A crack.
@@ -33,7 +76,8 @@ class CrackLine:
     Attributes
     ----------
     upper, lower
-        First and number of the nodes of either face, among those of the part it belongs to; (0, 0) for a rigid plane.
+        First and number of the nodes of either face, among those of the part above and of the part below; (0, 0) for a
+        rigid plane.
     friction
         Coefficients at rest and sliding.
     give
@@ -45,6 +89,8 @@ class CrackLine:
     bond
         Of a bonded joint: tensile strength and cohesion [Pa], energies of opening and of shear [J/m2], the factor on
         both strengths during the earthquake, and the share of the energies that belongs to the first line of softening.
+    water, anchors
+        What acts in it beside contact: water whose pressure changes as it opens, anchors with stiffness.
     """
 
     upper: tuple[int, int]
@@ -54,26 +100,29 @@ class CrackLine:
     law: FrictionLaw | None = None
     angles: tuple[list[float], list[float]] = ([], [])
     bond: tuple[float, float, float, float, float, float] | None = None
+    water: FollowingWater | None = None
+    anchors: tuple[CrackAnchor, ...] = ()
 
 
 def only_crack(
-    upper: ReducedBody,
-    lower: ReducedBody | None,
+    parts: Sequence[ReducedBody],
     friction: tuple[float, float],
     give: tuple[float, float] = (0.0, 0.0),
     law: FrictionLaw | None = None,
 ) -> tuple[CrackLine, ...]:
-    """Return the crack between two parts that have no other."""
-    above, below = (0 if part is None else part.position.size // 2 for part in (upper, lower))
-    return (CrackLine((0, above), (0, below), friction, give, law),)
+    """Return the crack between two parts that have no other, or below the only part."""
+    above, *below = (part.position.size // 2 for part in parts)
+    return (CrackLine((0, above), (0, sum(below)), friction, give, law),)
 
 
 @dataclass(frozen=True, eq=False)
 class RisingWater:
-    """Water in the only crack whose pressure changes with time.
+    """Water in a crack whose pressure changes with time.
 
     Attributes
     ----------
+    crack
+        Which one, from the crest down.
     span
         From when to when it changes, evenly [s].
     change
@@ -81,5 +130,6 @@ class RisingWater:
         crack, (k,) each [N].
     """
 
+    crack: int
     span: tuple[float, float]
     change: tuple[Floats, ...]

@@ -189,6 +189,11 @@ impl ReducedBody {
         }
     }
 
+    /// Numbers of its modes, without those that fill up the last group.
+    pub(super) fn without_filling<'a>(&self, numbers: &'a [Group]) -> &'a [f64] {
+        &numbers.as_flattened()[..self.modes]
+    }
+
     /// Number of groups of modes.
     pub(super) fn groups(&self) -> usize {
         self.omega_squared.len()

@@ -18,13 +18,14 @@ use super::faces::{Face, Faces, Meeting};
 use super::kinks::{Corners, Turn};
 use super::place::Place;
 
-/// Weights of the nodes of both bodies in the motion of the upper face of a crack against the lower one.
+/// Weights of nodes in the motion of the upper face of a crack against the lower one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pair {
-    /// Two nodes of the upper body with their weights.
+    /// The crack, which counts the part above it, too.
+    pub crack: usize,
+    /// Two nodes of the part above with their weights.
     pub upper: [(usize, f64); 2],
-    /// Two nodes of the lower body with their weights, which are negative where it is below the crack; not used on a rigid
-    /// plane.
+    /// Two nodes of the part below with their weights, which are negative; not used on a rigid plane.
     pub lower: [(usize, f64); 2],
     /// Direction of the segment.
     pub turn: Turn,
@@ -108,9 +109,15 @@ impl Contacts {
         self.contactors.len()
     }
 
-    /// Find every contactor's place on the other face; `sticks` says which nodes keep their place.
-    pub(super) fn update(&mut self, faces: Faces, sticks: impl Fn(usize) -> bool) {
-        for (place, range, corners) in &self.cracks {
+    /// Find every contactor's place on the other face, from the positions around each crack; `sticks` says which nodes
+    /// keep their place.
+    pub(super) fn update<'f>(
+        &mut self,
+        position: impl Fn(usize) -> Faces<'f>,
+        sticks: impl Fn(usize) -> bool,
+    ) {
+        for (crack, (place, range, corners)) in self.cracks.iter().enumerate() {
+            let faces = position(crack);
             let meeting = place.of(faces);
             if place.on_plane() {
                 // Every node stands opposite to itself for ever.
@@ -120,7 +127,7 @@ impl Contacts {
                     for k in range.clone() {
                         self.pairs[k] = self.contactors[k]
                             .place(meeting, corners)
-                            .map(|pair| pair.among(place));
+                            .map(|pair| pair.among(crack, place));
                     }
                 }
                 self.gaps[range.clone()].copy_from_slice(meeting.upper.across);
@@ -131,7 +138,7 @@ impl Contacts {
                 if !(sticks(k) && self.pairs[k].is_some()) {
                     let pair = self.contactors[k]
                         .place(meeting, corners)
-                        .map(|pair| pair.among(place));
+                        .map(|pair| pair.among(crack, place));
                     self.moved[k] = pair != self.pairs[k];
                     self.pairs[k] = pair;
                 }
@@ -145,9 +152,10 @@ impl Contacts {
 
     /// Motion of the upper face against the lower one at all contacts, along the crack, then across it; none where
     /// nothing is met.
-    pub(super) fn relative(&self, faces: Faces, motion: &mut [f64]) {
+    pub(super) fn relative<'f>(&self, of: impl Fn(usize) -> Faces<'f>, motion: &mut [f64]) {
         let (along, across) = motion.split_at_mut(self.len());
-        for (place, range, _) in &self.cracks {
+        for (crack, (place, range, _)) in self.cracks.iter().enumerate() {
+            let faces = of(crack);
             let (along, across) = (&mut along[range.clone()], &mut across[range.clone()]);
             if place.on_plane() {
                 let own = place.of(faces).upper;
@@ -164,21 +172,23 @@ impl Contacts {
         }
     }
 
-    /// Put the forces that the contacts exert on both faces, up on the upper one and down on the lower one.
-    pub(super) fn spread(&self, forces: &[f64], upper: &mut [f64], lower: &mut [f64]) {
-        upper.fill(0.0);
-        lower.fill(0.0);
+    /// Put the forces that the contacts exert on the crack nodes of all parts, up on the upper face and down on the lower
+    /// one; `of` says where a part has them.
+    pub(super) fn spread<T>(&self, forces: &[f64], parts: &mut [T], of: impl Fn(&mut T) -> &mut Vec<f64>) {
+        parts.iter_mut().for_each(|part| of(part).fill(0.0));
         let (along, across) = forces.split_at(self.len());
-        for (place, range, _) in &self.cracks {
+        for (crack, (place, range, _)) in self.cracks.iter().enumerate() {
             let (along, across) = (&along[range.clone()], &across[range.clone()]);
+            let (above, below) = parts.split_at_mut(crack + 1);
+            let upper = of(&mut above[crack]);
             if place.on_plane() {
-                let body = if place.turned { &mut *lower } else { &mut *upper };
                 let Span { first, count } = place.upper;
-                let half = body.len() / 2;
-                body[first..][..count].copy_from_slice(along);
-                body[half + first..][..count].copy_from_slice(across);
+                let half = upper.len() / 2;
+                upper[first..][..count].copy_from_slice(along);
+                upper[half + first..][..count].copy_from_slice(across);
                 continue;
             }
+            let lower = of(&mut below[0]);
             for (pair, force) in self.pairs[range.clone()].iter().zip(along.iter().zip(across)) {
                 if let Some(pair) = pair {
                     let (along, across) = pair.turn.back(*force.0, *force.1);
@@ -245,8 +255,7 @@ impl Contactor {
             // On a rigid plane.
             return Some(Pair {
                 upper: [(self.node, 1.0), (self.node, 0.0)],
-                lower: [(0, 0.0); 2],
-                turn: Turn::default(),
+                ..Pair::default()
             });
         }
         let t = own[self.node];
@@ -277,39 +286,36 @@ impl Contactor {
                 upper: [(self.node, 1.0), (self.node, 0.0)],
                 lower: [(j, s - 1.0), (j + 1, -s)],
                 turn,
+                ..Pair::default()
             }
         } else {
             Pair {
                 upper: [(j, 1.0 - s), (j + 1, s)],
                 lower: [(self.node, -1.0), (self.node, 0.0)],
                 turn,
+                ..Pair::default()
             }
         })
     }
 }
 
 impl Pair {
-    /// Count the nodes of both faces among those of the bodies.
+    /// Count the nodes of both faces among those of the parts around this crack.
     #[inline(always)]
-    fn among(self, place: &Place) -> Self {
-        let upper = self
-            .upper
-            .map(|(node, weight)| (place.upper.first + node, weight));
-        let lower = self
-            .lower
-            .map(|(node, weight)| (place.lower.first + node, weight));
-        if place.turned {
-            return Pair {
-                upper: lower,
-                lower: upper,
-                turn: self.turn,
-            };
-        }
+    fn among(self, crack: usize, place: &Place) -> Self {
+        let from = |span: Span| move |(node, weight): (usize, f64)| (span.first + node, weight);
         Pair {
-            upper,
-            lower,
+            crack,
+            upper: self.upper.map(from(place.upper)),
+            lower: self.lower.map(from(place.lower)),
             turn: self.turn,
         }
+    }
+
+    /// Its nodes with their weights, part by part.
+    #[inline(always)]
+    pub(super) fn parts(&self) -> [(usize, &[(usize, f64); 2]); 2] {
+        [(self.crack, &self.upper), (self.crack + 1, &self.lower)]
     }
 
     /// Motion of the upper face against the lower one: `direction` 0 along the crack, 1 across it.

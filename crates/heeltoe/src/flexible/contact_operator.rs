@@ -16,11 +16,12 @@ pub(super) struct FacesOperator<'s, 'a> {
 
 impl ContactOperator for FacesOperator<'_, '_> {
     fn fill(&mut self, problem: &mut Problem, wanted: impl Fn(usize) -> bool) {
-        let (answers, gain) = (self.linear.answers(), self.linear.holding());
+        let (linear, gain) = (&*self.linear, self.linear.holding());
+        let answers = |part| linear.answers(part);
         self.blocks.fill(
             &mut problem.g,
             self.contacts,
-            answers,
+            &answers,
             gain,
             self.softness,
             wanted,
@@ -28,7 +29,8 @@ impl ContactOperator for FacesOperator<'_, '_> {
     }
 
     fn fill_row(&mut self, problem: &mut Problem, contact: usize, wanted: impl Fn(usize) -> bool) {
-        let (answers, gain) = (self.linear.answers(), self.linear.holding());
+        let (linear, gain) = (&*self.linear, self.linear.holding());
+        let answers = |part| linear.answers(part);
         let others = (0..self.contacts.len()).filter(|other| wanted(*other));
         self.blocks.fill_row(
             &mut problem.g,
@@ -42,10 +44,9 @@ impl ContactOperator for FacesOperator<'_, '_> {
     }
 
     fn velocities<W: Lanes>(&mut self, _: &Problem, p: &[f64], u: &mut [f64]) {
-        let (upper, lower) = self.linear.impulse_mut();
-        self.contacts.spread(p, upper, lower);
+        self.linear.spread(self.contacts, p);
         self.linear.answer::<W>();
-        self.contacts.relative(self.linear.answered(), u);
+        self.contacts.relative(|crack| self.linear.answered(crack), u);
         if self.softness > 0.0 {
             u.iter_mut().zip(p).for_each(|(u, p)| *u += self.softness * p);
         }

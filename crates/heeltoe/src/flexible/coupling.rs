@@ -1,18 +1,18 @@
-//! The contact problem of a step, of all cracks at once, put together from what both bodies do.
+//! The contact problem of a step, of all cracks at once, put together from what all parts do.
 //!
-//! With the crack's answers `W` of both parts and the weights `B` of the nodes at each contact
+//! With the cracks' answers `W` of all parts and the weights `B` of the nodes at each contact
 //!
 //! ```text
 //! G = B W B^T,      b = B u_f
 //! ```
 //!
 //! as [`super::coulomb`] needs them; with dashpots (see [`super::dampers`]) less what they hold back, `G -= V N V^T` with
-//! `V = B W_cd`.
+//! `V = B W_cd`. Contacts answer to each other through a part that both stand on: those of a crack through the parts
+//! above and below it, those of two cracks through the part between them.
 
 use super::compliance::Compliance;
 use std::ops::Range;
 
-use super::bodies::Sides;
 use super::bond::Bonds;
 use super::contact::{Contacts, Pair};
 use super::coulomb::{Problem, Report, Solver, MANY};
@@ -26,7 +26,7 @@ use super::place::Place;
 use super::scheme::TimeStep;
 use super::status::Status;
 
-/// The contact problem of a step, in terms of both bodies.
+/// The contact problem of a step, in terms of all parts.
 pub(super) struct Crack {
     pub contacts: Contacts,
     pub problem: Problem,
@@ -94,11 +94,11 @@ impl Crack {
 
     /// Find where the nodes of both faces meet, and note whose answers are others: where pairs are, or the state of
     /// damping is.
-    pub(super) fn meet<'w>(
+    pub(super) fn meet<'f, 'w>(
         &mut self,
-        position: Faces,
+        position: impl Fn(usize) -> Faces<'f>,
         damping: usize,
-        answers: impl Fn() -> Sides<Compliance<'w>>,
+        answers: impl Fn(usize) -> Option<Compliance<'w>>,
     ) {
         let status = &self.solver.status;
         self.contacts.update(position, |k| status[k] == Status::Stick);
@@ -111,7 +111,7 @@ impl Crack {
             self.blocks.note(&self.contacts.moved);
             self.solver.forget(&self.contacts.moved);
             self.blocks
-                .measure(&mut self.problem.scale, &self.contacts, answers);
+                .measure(&mut self.problem.scale, &self.contacts, &answers);
         }
     }
 
@@ -152,10 +152,10 @@ impl Crack {
     }
 
     /// Put all of `G` together.
-    pub(super) fn fill(&mut self, answers: Sides<Compliance>, softness: f64) {
+    pub(super) fn fill<'w>(&mut self, answers: impl Fn(usize) -> Option<Compliance<'w>>, softness: f64) {
         let (g, contacts) = (&mut self.problem.g, &self.contacts);
         self.blocks
-            .fill(g, contacts, answers, Holding::Gain(&[]), softness, |_| true);
+            .fill(g, contacts, &answers, Holding::Gain(&[]), softness, |_| true);
     }
 
     /// Take the forces of a dam at rest for the solution of a step.
@@ -171,9 +171,9 @@ impl Crack {
         }
     }
 
-    /// Put the impulses on both faces.
-    pub(super) fn impulses(&self, upper: &mut [f64], lower: &mut [f64]) {
-        self.contacts.spread(&self.solver.p, upper, lower);
+    /// Put the impulses on the crack nodes of all parts.
+    pub(super) fn impulses<T>(&self, parts: &mut [T], of: impl Fn(&mut T) -> &mut Vec<f64>) {
+        self.contacts.spread(&self.solver.p, parts, of);
     }
 
     /// Whether the bond of a contact holds it under the force found.
@@ -239,12 +239,12 @@ impl Blocks {
         &self,
         scale: &mut [f64],
         contacts: &Contacts,
-        answers: impl Fn() -> Sides<Compliance<'w>>,
+        answers: &impl Fn(usize) -> Option<Compliance<'w>>,
     ) {
         let m = contacts.len();
         for (k, pair) in contacts.pairs.iter().enumerate() {
             if let (Some(pair), 0.0) = (pair, scale[k]) {
-                let block = block(pair, pair, &answers(), Holding::Gain(&[]));
+                let block = block(pair, pair, answers, Holding::Gain(&[]));
                 (scale[k], scale[m + k]) = (1.0 / block[0][0], 1.0 / block[1][1]);
             }
         }
@@ -252,28 +252,28 @@ impl Blocks {
 
     /// Write how each of the `wanted` contacts answers to an impulse at any other of them, where it is not known. `gain`
     /// says what dashpots and water hold back, `softness` is added to the answer to itself.
-    pub(super) fn fill(
+    pub(super) fn fill<'w>(
         &mut self,
         g: &mut [f64],
         contacts: &Contacts,
-        answers: Sides<Compliance>,
+        answers: &impl Fn(usize) -> Option<Compliance<'w>>,
         gain: Holding,
         softness: f64,
         wanted: impl Fn(usize) -> bool,
     ) {
         for contact in (0..contacts.len()).filter(|contact| wanted(*contact)) {
             let others = (0..=contact).filter(|other| wanted(*other));
-            self.fill_row(g, contacts, &answers, gain, softness, contact, others);
+            self.fill_row(g, contacts, answers, gain, softness, contact, others);
         }
     }
 
     /// The same of one contact with `others`.
     #[allow(clippy::too_many_arguments)]
-    pub(super) fn fill_row(
+    pub(super) fn fill_row<'w>(
         &mut self,
         g: &mut [f64],
         contacts: &Contacts,
-        answers: &Sides<Compliance>,
+        answers: &impl Fn(usize) -> Option<Compliance<'w>>,
         gain: Holding,
         softness: f64,
         i: usize,
@@ -308,7 +308,13 @@ impl Blocks {
     }
 
     /// Find what the dashpots feel of a contact.
-    fn feel(&mut self, contact: usize, pair: &Pair, answers: &Sides<Compliance>, gain: Holding) {
+    fn feel<'w>(
+        &mut self,
+        contact: usize,
+        pair: &Pair,
+        answers: &impl Fn(usize) -> Option<Compliance<'w>>,
+        gain: Holding,
+    ) {
         let d = self.dampers;
         let Holding::Gain(gain) = gain else { return };
         if d == 0 || self.felt[contact] >= self.moved[contact] {
@@ -317,10 +323,11 @@ impl Blocks {
         self.felt[contact] = self.now;
         let m = self.moved.len();
         let felt = |k: usize, direction: usize| {
-            let upper = &answers.upper;
-            let mut felt = upper.felt(2 * upper.nodes + k, &pair.upper, direction);
-            if let Some(lower) = &answers.lower {
-                felt += lower.felt(2 * lower.nodes + k, &pair.lower, direction);
+            let mut felt = 0.0;
+            for (part, nodes) in pair.parts() {
+                if let Some(answers) = answers(part) {
+                    felt += answers.felt(2 * answers.nodes + k, nodes, direction);
+                }
             }
             felt
         };
@@ -349,14 +356,22 @@ impl Blocks {
 
 /// How a contact answers to another, but for dashpots that hold it back by their gain.
 #[inline(always)]
-fn block(one: &Pair, other: &Pair, answers: &Sides<Compliance>, gain: Holding) -> [[f64; 2]; 2] {
+fn block<'w>(
+    one: &Pair,
+    other: &Pair,
+    answers: &impl Fn(usize) -> Option<Compliance<'w>>,
+    gain: Holding,
+) -> [[f64; 2]; 2] {
     if let Holding::Nodes(nodes) = gain {
         return one.turn.of_block(other.turn, nodes.block(one, other));
     }
     let mut block = [[0.0; 2]; 2];
-    answers.upper.couple(&mut block, &one.upper, &other.upper);
-    if let Some(lower) = &answers.lower {
-        lower.couple(&mut block, &one.lower, &other.lower);
+    for (part, nodes) in one.parts() {
+        for (_, others) in other.parts().iter().filter(|(other, _)| *other == part) {
+            if let Some(answers) = answers(part) {
+                answers.couple(&mut block, nodes, others);
+            }
+        }
     }
     one.turn.of_block(other.turn, block)
 }

@@ -1,4 +1,4 @@
-//! What acts in the crack beside contact: water whose pressure follows the opening, and anchors, by the laws of
+//! What acts in a crack beside contact: water whose pressure follows the opening, and anchors, by the laws of
 //! [`crate::inside`].
 //!
 //! Both act on the nodes of the two faces and are known when a step begins. They are taken where the nodes would be
@@ -12,11 +12,14 @@
 //! stiffness of the concrete, and loses energy at the same small rate. The static pressure and the prestress are among
 //! the static loads of the bodies; here are the differences from them.
 
-use super::faces::{height, Face, Faces};
+use super::crack_line::Line;
+use super::faces::{height, Face, Faces, Meeting};
+use super::place::Place;
 use super::scheme::TimeStep;
 use crate::inside::{Anchor, Law};
 
-/// Water in the crack; forces of each node across the crack, of the upper and of the lower face.
+/// Water in a crack; forces of each node across the crack, of the upper and of the lower face.
+#[derive(Clone, Debug)]
 pub struct FollowingWater {
     /// What its pressure does as the crack opens.
     pub law: Law,
@@ -37,10 +40,12 @@ impl FollowingWater {
     }
 }
 
-/// Water in the crack whose pressure changes with time, whatever the crack does; its forces are those beyond what the
+/// Water in a crack whose pressure changes with time, whatever the crack does; its forces are those beyond what the
 /// bodies and other such water bear.
 #[derive(Clone, Debug)]
 pub struct RisingWater {
+    /// Which crack, from the crest down.
+    pub crack: usize,
     /// From when to when it changes, evenly (s).
     pub span: [f64; 2],
     /// Change of the forces of each node across the crack, of the upper and of the lower face (N).
@@ -55,7 +60,7 @@ impl RisingWater {
     }
 }
 
-/// A point of a face: nodes with their weights.
+/// A point of a face: its nodes with their weights.
 pub type Point = [(usize, f64); 3];
 
 /// An anchor between two points that face each other before the earthquake: on the upper face and on the lower one, the
@@ -63,7 +68,7 @@ pub type Point = [(usize, f64); 3];
 pub type FaceAnchor = Anchor<[Point; 2]>;
 
 /// All that acts in a crack beside contact.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Inside {
     /// Water whose pressure follows the opening.
     pub water: Option<FollowingWater>,
@@ -76,92 +81,218 @@ impl Inside {
     pub fn is_empty(&self) -> bool {
         self.water.is_none() && self.anchors.is_empty()
     }
+
+    /// Whether all that acts is at nodes that are there, of faces of so many.
+    ///
+    /// # Errors
+    /// Says what is not.
+    pub(super) fn check(&self, counts: [usize; 2]) -> Result<(), &'static str> {
+        let forces = |water: &[Vec<f64>; 2]| [water[0].len(), water[1].len()] == counts;
+        if let Some(water) = &self.water {
+            if !forces(&water.still) || !forces(&water.full) {
+                return Err("the water needs a force for each crack node");
+            }
+        }
+        let there = |anchor: &FaceAnchor| {
+            let mut faces = anchor.place.iter().zip(counts);
+            faces.all(|(point, count)| point.iter().all(|(node, _)| *node < count.max(1)))
+        };
+        if !self.anchors.iter().all(there) {
+            return Err("an anchor needs nodes that are there");
+        }
+        Ok(())
+    }
 }
 
-/// The same under way.
+/// The same of all cracks under way.
 pub(super) struct CrackForces<'a> {
-    inside: &'a Inside,
-    rising: &'a [RisingWater],
+    /// Of the cracks in which something acts.
+    cracks: Vec<Acting<'a>>,
     /// Steps so far.
     steps: u32,
+    /// Energy in the anchors.
+    pub stored: f64,
+}
+
+/// What acts in one crack under way.
+struct Acting<'a> {
+    crack: usize,
+    place: Place,
+    inside: &'a Inside,
+    rising: Vec<&'a RisingWater>,
     /// Gap of each node at the start, up to which the static pressure holds.
     gaps: [Vec<f64>; 2],
     /// How far apart the points of each anchor were at the start.
     apart: Vec<[f64; 2]>,
-    /// Impulses of water and of anchors in this step, on the upper and on the lower face.
+    /// Impulses of water and of anchors in this step on the nodes of the upper and of the lower face, all along the crack,
+    /// then all across it.
     water: [Vec<f64>; 2],
     anchors: [Vec<f64>; 2],
     /// Where the nodes would be.
     ahead: [Vec<f64>; 2],
-    /// Energy in the anchors.
-    pub stored: f64,
     /// Largest tension and largest force of each anchor.
-    pub peaks: Vec<[f64; 2]>,
+    peaks: Vec<[f64; 2]>,
 }
 
 impl<'a> CrackForces<'a> {
-    /// None where nothing acts.
-    pub(super) fn new(inside: &'a Inside, rising: &'a [RisingWater], start: Faces) -> Option<Self> {
-        if inside.is_empty() && rising.is_empty() {
-            return None;
+    /// None where nothing acts; `start` is where the nodes around each crack are.
+    pub(super) fn new<'f>(
+        lines: &'a [Line],
+        rising: &'a [RisingWater],
+        start: impl Fn(usize) -> Faces<'f>,
+    ) -> Option<Self> {
+        let places = Place::all(lines).into_iter().enumerate();
+        let acting = |(crack, place): (usize, Place)| {
+            let inside = &lines[crack].inside;
+            let rising: Vec<_> = rising.iter().filter(|water| water.crack == crack).collect();
+            let acts = !inside.is_empty() || !rising.is_empty();
+            acts.then(|| Acting::new(crack, place, inside, rising, place.of(start(crack))))
+        };
+        let cracks: Vec<_> = places.filter_map(acting).collect();
+        (!cracks.is_empty()).then_some(CrackForces {
+            cracks,
+            steps: 0,
+            stored: 0.0,
+        })
+    }
+
+    /// Find the impulses of the step, from where the nodes around each crack are and how fast they move.
+    pub(super) fn find<'f>(
+        &mut self,
+        position: impl Fn(usize) -> Faces<'f>,
+        velocity: impl Fn(usize) -> Faces<'f>,
+        step: TimeStep,
+    ) {
+        let time = (f64::from(self.steps) + step.theta) * step.dt;
+        self.steps += 1;
+        for acting in &mut self.cracks {
+            let [position, velocity] =
+                [position(acting.crack), velocity(acting.crack)].map(|faces| acting.place.of(faces));
+            acting.go_ahead(position, velocity, step);
+            acting.follow(step);
+            acting.pull(step);
+            acting.rise(time, step);
         }
-        let room = || [vec![0.0; start.upper.len()], vec![0.0; start.lower.len()]];
-        Some(CrackForces {
+    }
+
+    /// Put them on the crack nodes of all parts; `of` says where a part has them.
+    pub(super) fn spread<T>(&self, parts: &mut [T], of: impl Fn(&mut T) -> &mut Vec<f64>) {
+        parts.iter_mut().for_each(|part| of(part).fill(0.0));
+        for acting in &self.cracks {
+            let faces = parts[acting.crack..].iter_mut().zip(acting.place.spans());
+            for (face, (part, span)) in faces.enumerate() {
+                let sums = of(part);
+                let half = sums.len() / 2;
+                let impulses = acting.water[face].iter().zip(&acting.anchors[face]);
+                for (k, (water, anchor)) in impulses.enumerate() {
+                    sums[k / span.count * half + span.first + k % span.count] += water + anchor;
+                }
+            }
+        }
+    }
+
+    /// Work of the impulses of water and of anchors on given velocities.
+    pub(super) fn work<'f>(&self, velocity: impl Fn(usize) -> Faces<'f>) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for acting in &self.cracks {
+            let faces = acting.place.of(velocity(acting.crack));
+            for (sum, impulse) in sums.iter_mut().zip([&acting.water, &acting.anchors]) {
+                let of = |p: &[f64], face: Face| {
+                    let u = face.along.iter().chain(face.across);
+                    p.iter().zip(u).map(|(p, u)| p * u).sum::<f64>()
+                };
+                *sum += of(&impulse[0], faces.upper) + of(&impulse[1], faces.lower);
+            }
+        }
+        sums
+    }
+
+    /// Note what the anchors bear where the nodes are now, and return by how much their energy has grown.
+    pub(super) fn settle<'f>(&mut self, position: impl Fn(usize) -> Faces<'f>) -> f64 {
+        let before = self.stored;
+        self.stored = 0.0;
+        for acting in &mut self.cracks {
+            let faces = acting.place.of(position(acting.crack));
+            for (k, anchor) in acting.inside.anchors.iter().enumerate() {
+                let moved = since(anchor, faces, &acting.apart[k]);
+                let borne = anchor.borne(moved);
+                acting.peaks[k] = [0, 1].map(|i| acting.peaks[k][i].max(borne[i]));
+                self.stored += anchor.energy(moved);
+            }
+        }
+        self.stored - before
+    }
+
+    /// Largest tension and largest force of each anchor of a crack.
+    pub(super) fn peaks(&self, crack: usize) -> Vec<[f64; 2]> {
+        let own = self.cracks.iter().filter(|acting| acting.crack == crack);
+        own.flat_map(|acting| acting.peaks.iter().copied()).collect()
+    }
+}
+
+impl<'a> Acting<'a> {
+    fn new(
+        crack: usize,
+        place: Place,
+        inside: &'a Inside,
+        rising: Vec<&'a RisingWater>,
+        start: Meeting,
+    ) -> Self {
+        let room = || place.spans().map(|span| vec![0.0; 2 * span.count]);
+        Acting {
+            crack,
             inside,
             rising,
-            steps: 0,
-            apart: inside.anchors.iter().map(|a| apart(a, start)).collect(),
-            water: room(),
-            anchors: room(),
-            ahead: room(),
+            apart: inside.anchors.iter().map(|anchor| apart(anchor, start)).collect(),
             gaps: [
                 gaps(start.upper, start.lower, 1.0),
                 gaps(start.lower, start.upper, -1.0),
             ],
-            stored: 0.0,
             peaks: inside.anchors.iter().map(|a| [a.prestress; 2]).collect(),
-        })
+            water: room(),
+            anchors: room(),
+            ahead: room(),
+            place,
+        }
     }
 
-    /// Find the impulses of the step on both faces, and add them up in `upper` and `lower`.
-    pub(super) fn push(
-        &mut self,
-        position: Faces,
-        velocity: Faces,
-        step: TimeStep,
-        upper: &mut [f64],
-        lower: &mut [f64],
-    ) {
-        let TimeStep { dt, theta } = step;
+    /// Find where the nodes would be.
+    fn go_ahead(&mut self, position: Meeting, velocity: Meeting, TimeStep { dt, theta }: TimeStep) {
         let pairs = [(position.upper, velocity.upper), (position.lower, velocity.lower)];
         for (ahead, (x, u)) in self.ahead.iter_mut().zip(pairs) {
-            for ((ahead, x), u) in ahead.iter_mut().zip(x).zip(u) {
+            let moves = x
+                .along
+                .iter()
+                .chain(x.across)
+                .zip(u.along.iter().chain(u.across));
+            for (ahead, (x, u)) in ahead.iter_mut().zip(moves) {
                 *ahead = x + theta * dt * u;
             }
         }
-        let [above, below] = &self.ahead;
-        if let Some(water) = &self.inside.water {
-            for (face, (own, other, sign)) in [(above, below, 1.0), (below, above, -1.0)]
-                .into_iter()
-                .enumerate()
-            {
-                let nodes = own.len() / 2;
-                for node in 0..nodes {
-                    let gap = gap(own, other, sign, node);
-                    let change =
-                        water.change(face, node, gap) - water.change(face, node, self.gaps[face][node]);
-                    self.water[face][nodes + node] = dt * change;
-                }
+    }
+
+    /// Let the water follow the opening.
+    fn follow(&mut self, TimeStep { dt, .. }: TimeStep) {
+        let Some(water) = &self.inside.water else { return };
+        let [above, below] = [0, 1].map(|face| Face::whole(&self.ahead[face]));
+        let sides = [(above, below, 1.0), (below, above, -1.0)];
+        for (face, (own, other, sign)) in sides.into_iter().enumerate() {
+            let nodes = own.along.len();
+            for node in 0..nodes {
+                let gap = gap(own, other, sign, node);
+                let change = water.change(face, node, gap) - water.change(face, node, self.gaps[face][node]);
+                self.water[face][nodes + node] = dt * change;
             }
         }
+    }
+
+    /// Let the anchors stretch.
+    fn pull(&mut self, TimeStep { dt, .. }: TimeStep) {
         self.anchors.iter_mut().for_each(|face| face.fill(0.0));
-        let faces = Faces {
-            upper: above,
-            lower: below,
-        };
+        let [upper, lower] = [0, 1].map(|face| Face::whole(&self.ahead[face]));
+        let faces = Meeting { upper, lower };
         for (anchor, start) in self.inside.anchors.iter().zip(&self.apart) {
-            let moved = since(anchor, faces, start);
-            let force = anchor.pull_beyond_prestress(moved);
+            let force = anchor.pull_beyond_prestress(since(anchor, faces, start));
             for (face, (points, sign)) in anchor.place.iter().zip([-1.0, 1.0]).enumerate() {
                 let nodes = self.anchors[face].len() / 2;
                 for &(node, weight) in points.iter().take(if nodes > 0 { 3 } else { 0 }) {
@@ -171,28 +302,20 @@ impl<'a> CrackForces<'a> {
                 }
             }
         }
-        self.rise(step);
-        for (face, sum) in [upper, lower].into_iter().enumerate() {
-            for ((sum, w), a) in sum.iter_mut().zip(&self.water[face]).zip(&self.anchors[face]) {
-                *sum = w + a;
-            }
-        }
     }
 
     /// Add what water that changes with time pushes in this step.
-    fn rise(&mut self, TimeStep { dt, theta }: TimeStep) {
-        let time = (f64::from(self.steps) + theta) * dt;
-        self.steps += 1;
+    fn rise(&mut self, time: f64, TimeStep { dt, .. }: TimeStep) {
         if self.rising.is_empty() {
             return;
         }
         for (face, impulse) in self.water.iter_mut().enumerate() {
-            let across = impulse.len() / 2;
-            let across = &mut impulse[across..];
+            let nodes = impulse.len() / 2;
+            let across = &mut impulse[nodes..];
             if self.inside.water.is_none() {
                 across.fill(0.0);
             }
-            for rising in self.rising {
+            for rising in &self.rising {
                 let share = dt * rising.share(time);
                 for (impulse, change) in across.iter_mut().zip(&rising.change[face]) {
                     *impulse += share * change;
@@ -200,56 +323,37 @@ impl<'a> CrackForces<'a> {
             }
         }
     }
-
-    /// Work of the impulses of water and of anchors on given velocities.
-    pub(super) fn work(&self, velocity: Faces) -> [f64; 2] {
-        [&self.water, &self.anchors].map(|impulse| {
-            let of = |p: &[f64], u: &[f64]| p.iter().zip(u).map(|(p, u)| p * u).sum::<f64>();
-            of(&impulse[0], velocity.upper) + of(&impulse[1], velocity.lower)
-        })
-    }
-
-    /// Note what the anchors bear where the nodes are now, and return by how much their energy has grown.
-    pub(super) fn settle(&mut self, position: Faces) -> f64 {
-        let before = self.stored;
-        self.stored = 0.0;
-        for (k, anchor) in self.inside.anchors.iter().enumerate() {
-            let moved = since(anchor, position, &self.apart[k]);
-            let borne = anchor.borne(moved);
-            self.peaks[k] = [0, 1].map(|i| self.peaks[k][i].max(borne[i]));
-            self.stored += anchor.energy(moved);
-        }
-        self.stored - before
-    }
 }
 
 /// Gap of a node of one face to the other; `sign` is -1 for the lower one.
 #[inline(always)]
-fn gap(own: &[f64], other: &[f64], sign: f64, node: usize) -> f64 {
-    sign * (own[own.len() / 2 + node] - height(Face::whole(other), own[node]))
+fn gap(own: Face, other: Face, sign: f64, node: usize) -> f64 {
+    sign * (own.across[node] - height(other, own.along[node]))
 }
 
-fn gaps(own: &[f64], other: &[f64], sign: f64) -> Vec<f64> {
-    (0..own.len() / 2)
-        .map(|node| gap(own, other, sign, node))
-        .collect()
+fn gaps(own: Face, other: Face, sign: f64) -> Vec<f64> {
+    let nodes = 0..own.along.len();
+    nodes.map(|node| gap(own, other, sign, node)).collect()
 }
 
 /// How far the points of an anchor are apart, along the crack and across it.
-fn apart(anchor: &FaceAnchor, faces: Faces) -> [f64; 2] {
-    let of = |face: &[f64], point: &Point, direction: usize| {
-        let offset = direction * (face.len() / 2);
-        let share = |&(node, weight): &(usize, f64)| weight * face[offset + node];
-        if face.is_empty() {
+fn apart(anchor: &FaceAnchor, faces: Meeting) -> [f64; 2] {
+    let of = |numbers: &[f64], point: &Point| {
+        let share = |&(node, weight): &(usize, f64)| weight * numbers[node];
+        if numbers.is_empty() {
             0.0
         } else {
             point.iter().map(share).sum::<f64>()
         }
     };
-    [0, 1].map(|d| of(faces.upper, &anchor.place[0], d) - of(faces.lower, &anchor.place[1], d))
+    let [above, below] = &anchor.place;
+    [
+        of(faces.upper.along, above) - of(faces.lower.along, below),
+        of(faces.upper.across, above) - of(faces.lower.across, below),
+    ]
 }
 
-fn since(anchor: &FaceAnchor, faces: Faces, start: &[f64; 2]) -> [f64; 2] {
+fn since(anchor: &FaceAnchor, faces: Meeting, start: &[f64; 2]) -> [f64; 2] {
     let now = apart(anchor, faces);
     [now[0] - start[0], now[1] - start[1]]
 }

@@ -1,5 +1,6 @@
 //! A crack as data: its nodes, its friction, its shape.
 
+use super::crack_forces::Inside;
 use crate::friction::Law;
 
 /// Some nodes of a body that follow each other.
@@ -50,7 +51,8 @@ impl BondLaw {
 /// A crack.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// Nodes of its upper and of its lower face, among those of the bodies they belong to; no lower ones on a rigid plane.
+    /// Nodes of its upper face among those of the part above it, and of its lower face among those of the part below it; no
+    /// lower ones on a rigid plane.
     pub nodes: [Span; 2],
     /// Coefficients of friction of a node that sticks and of one that slips.
     pub friction: [f64; 2],
@@ -63,6 +65,8 @@ pub struct Line {
     pub angles: [Vec<f64>; 2],
     /// What tells rocking and drifting from elastic deformation.
     pub give: RockingThresholds,
+    /// What acts in it beside contact.
+    pub inside: Inside,
 }
 
 impl Line {
@@ -93,6 +97,7 @@ impl Line {
             bond: None,
             angles: [Vec::new(), Vec::new()],
             give,
+            inside: Inside::default(),
         }
     }
 }

@@ -1,26 +1,23 @@
 //! What is shaken, and how.
 
-use super::bodies::Sides;
 use super::body::ReducedBody;
-use super::crack_forces::{FaceAnchor, Inside, RisingWater};
+use super::crack_forces::RisingWater;
 use super::crack_line::Line;
 use super::envelope::Stressed;
 use super::reservoir::Reservoir;
 use super::still::Still;
 use crate::stop::Stop;
 
-/// Two bodies, and the cracks between them: of several, see the module `bodies`.
+/// Parts and the cracks between them: crack k is between the parts k and k + 1, the lowest one may be on a rigid plane.
 pub struct Dam {
-    /// Above and below the crack; of several, every other part.
-    pub bodies: Sides<ReducedBody>,
+    /// The parts, from the crest down; elastic rock below the base is one of them.
+    pub bodies: Vec<ReducedBody>,
     /// The cracks, from the crest down.
     pub cracks: Vec<Line>,
     /// Which nodes are watched, by the five kinds of Zhu (2004), section 6.3: 1 all nodes of the upper face, 2 of the
     /// lower, 3 all of the upper and the ends of the lower, 4 the reverse, 5 all of both. On a rigid plane those of the
     /// upper face are.
     pub contactors: u8,
-    /// What acts in the only crack beside contact.
-    pub inside: Inside,
     /// Water with sound before it.
     pub reservoir: Option<Reservoir>,
     /// The state before the earthquake, see [`super::rest`]; none where friction does not hold the dam, which then starts
@@ -35,7 +32,7 @@ impl Dam {
     /// What to add to the answer of a contact to itself, as a share of the largest.
     pub(super) fn softness(&self) -> f64 {
         let kinked = self.cracks.iter().any(|line| !line.angles[0].is_empty());
-        if kinked || self.contactors == 5 && self.bodies.lower.is_some() {
+        if kinked || self.contactors == 5 && self.bodies.len() > 1 {
             SOFTNESS
         } else {
             0.0
@@ -47,33 +44,40 @@ impl Dam {
     /// # Errors
     /// Says what is not.
     pub fn check(&self) -> Result<(), &'static str> {
-        let (above, below) = (&self.bodies.upper, &self.bodies.lower);
-        let rows = |body: &ReducedBody| (body.dampers, body.wet);
-        if below.as_ref().is_some_and(|body| rows(body) != rows(above)) {
-            return Err("both bodies need a row for each dashpot and each mode of the water");
+        let [first, rest @ ..] = &self.bodies[..] else {
+            return Err("a dam needs a part");
+        };
+        if !(rest.len()..=self.bodies.len()).contains(&self.cracks.len()) || self.cracks.is_empty() {
+            return Err("a dam needs a crack below each part, but for the lowest one, which may have one");
         }
-        if above.wet != self.reservoir.as_ref().map_or(0, Reservoir::modes) {
+        let rows = |body: &ReducedBody| (body.dampers, body.wet);
+        if rest.iter().any(|body| rows(body) != rows(first)) {
+            return Err("all parts need a row for each dashpot and each mode of the water");
+        }
+        if first.wet != self.reservoir.as_ref().map_or(0, Reservoir::modes) {
             return Err("the water needs a row for each of its modes");
         }
-        let lower = below.as_ref().map_or(0, ReducedBody::nodes);
-        let counts = [self.bodies.upper.nodes(), lower];
-        let mut met = [0, 0];
+        let mut met = vec![0; self.bodies.len()];
         for (k, line) in self.cracks.iter().enumerate() {
             for (side, span) in line.nodes.iter().enumerate() {
-                let body = (k + side) % 2;
-                if span.first + span.count > counts[body] || (span.count < 2 && (side, span.count) != (1, 0))
-                {
-                    return Err("a crack needs two nodes or more of each body, which are there");
+                let nodes = self.bodies.get(k + side).map(ReducedBody::nodes);
+                let there = nodes.map_or(span.count == 0, |nodes| {
+                    span.count > 1 && span.first + span.count <= nodes
+                });
+                if !there {
+                    return Err("a crack needs two nodes or more of each part, which are there");
                 }
                 let segments = line.angles[side].len();
                 if segments > 0 && segments + 1 != span.count {
                     return Err("a crack that is not straight needs an angle for each segment");
                 }
-                met[body] += span.count;
+                if let Some(met) = met.get_mut(k + side) {
+                    *met += span.count;
+                }
             }
         }
-        if met != counts {
-            return Err("every node of a body needs its crack");
+        if !met.iter().copied().eq(self.bodies.iter().map(ReducedBody::nodes)) {
+            return Err("every node of a part needs its crack");
         }
         for line in &self.cracks {
             let Some(bond) = line.bond else { continue };
@@ -93,20 +97,8 @@ impl Dam {
                 );
             }
         }
-        if self.cracks.len() > 1 && !self.inside.is_empty() {
-            return Err("water that follows and anchors know one crack alone");
-        }
-        let forces = |of: &[Vec<f64>; 2]| [of[0].len(), of[1].len()] == counts;
-        let water = self.inside.water.as_ref();
-        if water.is_some_and(|water| !forces(&water.still) || !forces(&water.full)) {
-            return Err("the water needs a force for each crack node");
-        }
-        let there = |anchor: &FaceAnchor| {
-            let mut faces = anchor.place.iter().zip(counts);
-            faces.all(|(point, count)| point.iter().all(|(node, _)| *node < count.max(1)))
-        };
-        if !self.inside.anchors.iter().all(there) {
-            return Err("an anchor needs nodes that are there");
+        for line in &self.cracks {
+            line.inside.check(line.nodes.map(|span| span.count))?;
         }
         Ok(())
     }
@@ -122,7 +114,7 @@ pub struct Shaking<'a> {
     pub dt: f64,
     /// Factors on the two accelerations.
     pub scale: [f64; 2],
-    /// Water in the only crack whose pressure changes meanwhile; the penalty method knows none.
+    /// Water in the cracks whose pressure changes meanwhile; the penalty method knows none.
     pub rising: &'a [RisingWater],
 }
 

@@ -1,4 +1,4 @@
-//! Damping that couples the modes of both parts: a few dashpots between them.
+//! Damping that couples the modes of all parts: a few dashpots between them.
 //!
 //! Each dashpot is a row `d` over the modes with the force `-d (d v*)` on them, `v* = theta v' + (1 - theta) v`. Only a
 //! few are needed, so the step stays diagonal but for a small system: with `e* = d v*` and the impulses `z` of the
@@ -19,7 +19,6 @@
 //! The answers of the parts have these rows behind the crack nodes; behind their velocities without contact stands
 //! `e*_f / theta`.
 
-use super::bodies::Sides;
 use super::contact::Pair;
 use super::dam::Dam;
 use super::ledger::Ledger;
@@ -54,36 +53,38 @@ pub(super) struct Dampers<'a> {
     taken: f64,
 }
 
-/// What many rows are to the bodies, for one state of damping.
+/// What many rows are to the parts, for one state of damping.
 struct Wide {
     /// `N`.
     gain: Panels,
-    /// `N W_dc`: a row for each crack node of both bodies.
+    /// `N W_dc`: a row for each crack node of all parts.
     felt: Panels,
     nodes: HeldNodes,
 }
 
-/// `W_cc - W_cd N W_dc`: how the crack nodes of both bodies, those of the upper one first, answer under what the rows hold
-/// back, row by row.
+/// `W_cc - W_cd N W_dc`: how the crack nodes of all parts, from the crest down, answer under what the rows hold back, row
+/// by row.
 pub(super) struct HeldNodes {
     matrix: Vec<Group>,
     panels: Panels,
-    columns: [usize; 2],
+    /// The first component of each part, and its number of nodes.
+    parts: Vec<(usize, usize)>,
+    /// Groups in a row.
+    stride: usize,
 }
 
 impl Wide {
-    fn new(bodies: &Sides<ModalStepper>, gain: &[f64], state: usize) -> Self {
-        let columns = [
-            bodies.upper.body.columns(),
-            bodies.lower.as_ref().map_or(0, |body| body.body.columns()),
-        ];
-        let (count, size) = (gain.len().isqrt(), columns[0] + columns[1]);
+    fn new(bodies: &[ModalStepper], gain: &[f64], state: usize) -> Self {
+        let size = bodies.iter().map(|body| body.body.columns()).sum::<usize>();
+        let count = gain.len().isqrt();
+        let mut parts = Vec::new();
         // What each link feels of each node, and the answers without links.
         let mut felt = vec![vec![0.0; size]; count];
         let mut matrix = vec![0.0; size * size];
         let mut first = 0;
         for body in bodies.iter() {
             let own = body.body.columns();
+            parts.push((first, body.body.nodes));
             let rows = body.answers(state).w.chunks_exact(body.body.stride());
             for (r, row) in rows.enumerate() {
                 let to = if r < own {
@@ -116,20 +117,16 @@ impl Wide {
             nodes: HeldNodes {
                 panels: Panels::new(&matrix, groups, groups),
                 matrix,
-                columns,
+                parts,
+                stride: groups,
             },
         }
     }
 }
 
 impl HeldNodes {
-    /// Groups in a row.
-    fn stride(&self) -> usize {
-        (self.columns[0] + self.columns[1]).div_ceil(LANES)
-    }
-
     /// Find the velocities of the crack nodes with these impulses of contact.
-    fn answer<W: Lanes>(&self, bodies: &mut Sides<ModalStepper>, impulses: &[f64], room: &mut [Group]) {
+    fn answer<W: Lanes>(&self, bodies: &mut [ModalStepper], impulses: &[f64], room: &mut [Group]) {
         room.fill([0.0; LANES]);
         self.panels.combine::<W>(impulses, room);
         let mut answers: &[f64] = room.as_flattened();
@@ -148,25 +145,24 @@ impl HeldNodes {
     #[inline(never)]
     pub(super) fn block(&self, one: &Pair, other: &Pair) -> [[f64; 2]; 2] {
         let mut block = [[0.0; 2]; 2];
-        let (stride, half) = (self.stride(), self.columns.map(|columns| columns / 2));
-        let first = [0, self.columns[0]];
-        for (side, nodes) in [&one.upper, &one.lower].into_iter().enumerate() {
+        for (part, nodes) in one.parts() {
             for &(node, a) in nodes {
                 // Of a rigid plane there are no nodes.
                 if a == 0.0 {
                     continue;
                 }
                 for (r, answers) in block.iter_mut().enumerate() {
-                    let row = &self.matrix[(first[side] + r * half[side] + node) * stride..][..stride];
+                    let (first, half) = self.parts[part];
+                    let row = &self.matrix[(first + r * half + node) * self.stride..][..self.stride];
                     let row = row.as_flattened();
-                    for (side, nodes) in [&other.upper, &other.lower].into_iter().enumerate() {
+                    for (part, nodes) in other.parts() {
                         for &(node, b) in nodes {
                             if b == 0.0 {
                                 continue;
                             }
-                            let place = first[side] + node;
-                            answers[0] += a * b * row[place];
-                            answers[1] += a * b * row[place + half[side]];
+                            let (first, half) = self.parts[part];
+                            answers[0] += a * b * row[first + node];
+                            answers[1] += a * b * row[first + node + half];
                         }
                     }
                 }
@@ -178,15 +174,15 @@ impl HeldNodes {
 
 impl<'a> Dampers<'a> {
     pub(super) fn new(
-        bodies: &Sides<ModalStepper<'a>>,
+        bodies: &[ModalStepper<'a>],
         reservoir: Option<&'a Reservoir>,
         step: TimeStep,
     ) -> Self {
-        let (dashpots, count) = (bodies.upper.body.dampers, bodies.upper.body.rows());
+        let (dashpots, count) = (bodies[0].body.dampers, bodies[0].body.rows());
         let weight = step.dt * step.theta;
         let water = reservoir.map(|reservoir| Water::new(reservoir, step));
         let mut own_matrix = vec![0.0; count * count];
-        for (k, sign) in bodies.upper.body.damper_signs.iter().enumerate() {
+        for (k, sign) in bodies[0].body.damper_signs.iter().enumerate() {
             own_matrix[k * (count + 1)] = *sign;
         }
         if let Some(water) = &water {
@@ -208,7 +204,7 @@ impl<'a> Dampers<'a> {
         let wide = water
             .is_some()
             .then(|| [0, 1].map(|state: usize| Wide::new(bodies, &gain[state], state)));
-        let nodes = wide.as_ref().map_or(0, |wide| wide[0].nodes.stride());
+        let nodes = wide.as_ref().map_or(0, |wide| wide[0].nodes.stride);
         let zeros = vec![0.0; count];
         Dampers {
             wide,
@@ -219,7 +215,7 @@ impl<'a> Dampers<'a> {
             water,
             dt: step.dt,
             gain,
-            signs: &bodies.upper.body.damper_signs,
+            signs: &bodies[0].body.damper_signs,
             pull: zeros.clone(),
             further: zeros.clone(),
             room: zeros,
@@ -244,7 +240,7 @@ impl<'a> Dampers<'a> {
 
     /// Change the velocities without contact by what the dashpots and the water do of themselves; what acts in the crack
     /// beside contact is known by now.
-    pub(super) fn begin<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, drive: Drive) {
+    pub(super) fn begin<W: Lanes>(&mut self, bodies: &mut [ModalStepper], drive: Drive) {
         let damping = drive.damping;
         self.room.fill(0.0);
         for body in bodies.iter() {
@@ -267,7 +263,7 @@ impl<'a> Dampers<'a> {
     }
 
     /// Find the velocities of the crack nodes with the impulses of contact, which the parts have.
-    pub(super) fn answer<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, damping: usize) {
+    pub(super) fn answer<W: Lanes>(&mut self, bodies: &mut [ModalStepper], damping: usize) {
         if let Some(wide) = &self.wide {
             gather(bodies, &mut self.impulses);
             let nodes = &wide[damping].nodes;
@@ -290,7 +286,7 @@ impl<'a> Dampers<'a> {
     }
 
     /// Hand the impulses of dashpots and water to the parts, whose velocities are final, and book what they take.
-    pub(super) fn finish<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, drive: Drive) {
+    pub(super) fn finish<W: Lanes>(&mut self, bodies: &mut [ModalStepper], drive: Drive) {
         if let Some(wide) = &self.wide {
             self.rows_room.fill([0.0; LANES]);
             gather(bodies, &mut self.impulses);
@@ -325,7 +321,7 @@ impl<'a> Dampers<'a> {
         if dam.reservoir.is_some() {
             0
         } else {
-            dam.bodies.upper.links()
+            dam.bodies[0].links()
         }
     }
 
@@ -356,9 +352,9 @@ fn respond(gain: &[f64], rate: &[f64], pull: &mut [f64]) {
     }
 }
 
-/// Copy the impulses on the crack nodes of both bodies.
+/// Copy the impulses on the crack nodes of all parts.
 #[inline(always)]
-fn gather(bodies: &Sides<ModalStepper>, impulses: &mut [f64]) {
+fn gather(bodies: &[ModalStepper], impulses: &mut [f64]) {
     let mut rest = impulses;
     for body in bodies.iter() {
         let (own, more) = rest.split_at_mut(body.impulse.len());

@@ -1,9 +1,8 @@
-//! The largest principal stresses of a body over a run, place by place.
+//! The largest principal stresses of a part over a run, place by place.
 //!
 //! A stress is linear in the modes, `(xx, zz, xz) = rows q`. States are gathered until there are [`BLOCK`] of them, so that
 //! the rows, which are far larger than anything a step reads, are read once for all of these; nothing else is kept.
 
-use super::bodies::Sides;
 use super::simd::{apart, Group, Lanes, Plain, LANES};
 use crate::table::columns;
 
@@ -11,7 +10,7 @@ use crate::table::columns;
 const GROUPS: usize = 2;
 const BLOCK: usize = GROUPS * LANES;
 
-/// Stresses at the places of a body by its modes.
+/// Stresses at the places of a part by its modes.
 #[derive(Clone, Copy, Debug)]
 pub struct Stresses<'a> {
     rows: &'a [[f64; 3]],
@@ -34,8 +33,8 @@ impl<'a> Stresses<'a> {
 /// What the stresses of a run are wanted of.
 #[derive(Clone, Copy, Debug)]
 pub struct Stressed<'a> {
-    /// Both bodies.
-    pub bodies: Sides<Stresses<'a>>,
+    /// Those of all parts, from the crest down.
+    pub parts: &'a [Stresses<'a>],
     /// Steps from one state that is looked at to the next.
     pub stride: usize,
 }
@@ -96,21 +95,22 @@ impl Extreme {
     }
 }
 
-/// The envelope of both bodies under way.
+/// The envelope of all parts under way.
 pub(super) struct Envelope<'a> {
     wanted: Stressed<'a>,
-    extremes: Sides<Vec<Extreme>>,
+    extremes: Vec<Vec<Extreme>>,
     /// States that are not yet looked at: mode by mode the amplitudes at all moments.
-    states: Sides<Vec<[Group; GROUPS]>>,
+    states: Vec<Vec<[Group; GROUPS]>>,
     moments: Vec<f64>,
 }
 
 impl<'a> Envelope<'a> {
     pub(super) fn new(wanted: Stressed<'a>) -> Self {
         let places = |of: &Stresses| vec![Extreme::NOTHING; of.rows.len() / of.modes];
+        let states = |of: &Stresses| vec![[[0.0; LANES]; GROUPS]; of.modes];
         Envelope {
-            extremes: wanted.bodies.map(places),
-            states: wanted.bodies.map(|of| vec![[[0.0; LANES]; GROUPS]; of.modes]),
+            extremes: wanted.parts.iter().map(places).collect(),
+            states: wanted.parts.iter().map(states).collect(),
             moments: Vec::with_capacity(BLOCK),
             wanted,
         }
@@ -123,9 +123,9 @@ impl<'a> Envelope<'a> {
     }
 
     /// Take a state into account.
-    pub(super) fn add<W: Lanes>(&mut self, moment: f64, modes: &Sides<&[Group]>) {
+    pub(super) fn add<W: Lanes>(&mut self, moment: f64, modes: &[Vec<Group>]) {
         let place = self.moments.len();
-        for (states, modes) in self.states.iter_mut().zip(modes.iter()) {
+        for (states, modes) in self.states.iter_mut().zip(modes) {
             for (state, amplitude) in states.iter_mut().zip(modes.as_flattened()) {
                 state[place / LANES][place % LANES] = *amplitude;
             }
@@ -139,8 +139,8 @@ impl<'a> Envelope<'a> {
     /// What [`look`] does.
     #[inline(always)]
     fn meet_all<W: Lanes>(&mut self) {
-        let bodies = self.extremes.iter_mut().zip(self.states.iter());
-        for ((extremes, states), of) in bodies.zip(self.wanted.bodies.iter()) {
+        let parts = self.extremes.iter_mut().zip(self.states.iter());
+        for ((extremes, states), of) in parts.zip(self.wanted.parts) {
             for (extreme, rows) in extremes.iter_mut().zip(of.rows.chunks_exact(of.modes)) {
                 extreme.meet(&product::<W>(rows, states), &self.moments);
             }
@@ -149,7 +149,7 @@ impl<'a> Envelope<'a> {
     }
 
     /// Hand over the extremes of all places.
-    pub(super) fn end(mut self) -> Sides<Vec<Extreme>> {
+    pub(super) fn end(mut self) -> Vec<Vec<Extreme>> {
         if !self.moments.is_empty() {
             look::<Plain>(&mut self);
         }

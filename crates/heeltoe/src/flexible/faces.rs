@@ -2,12 +2,24 @@
 
 use super::crack_line::Span;
 
-/// Numbers of the nodes of both faces of the crack, all along it and then all across it.
+/// Numbers of the crack nodes of the parts above and below a crack, of either all along its cracks and then all across
+/// them.
 #[derive(Clone, Copy)]
 pub(super) struct Faces<'a> {
     pub upper: &'a [f64],
     /// Empty on a rigid plane.
     pub lower: &'a [f64],
+}
+
+impl<'a> Faces<'a> {
+    /// Those around a crack, from one quantity of all parts.
+    #[inline(always)]
+    pub(super) fn around<T>(crack: usize, parts: &'a [T], of: impl Fn(&'a T) -> &'a [f64]) -> Self {
+        Faces {
+            upper: of(&parts[crack]),
+            lower: parts.get(crack + 1).map_or(&[], of),
+        }
+    }
 }
 
 /// Numbers of the nodes of one face of a crack.

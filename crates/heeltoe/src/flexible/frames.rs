@@ -1,10 +1,10 @@
 //! Frames: what is kept of a run at equal distances in time, and at its end. Forces are means since the frame before,
 //! `sum of impulses / time`.
 
-use super::bodies::Sides;
 use super::body::ReducedBody;
+use super::crack_line::Line;
 use super::dam::Dam;
-use super::faces::Faces;
+use super::faces::{Face, Meeting};
 use super::ledger::Ledger;
 use super::observe::Motion;
 use super::simd::Group;
@@ -17,21 +17,18 @@ use crate::table::columns;
 pub struct Frames {
     /// One row of [`Frames::FIELDS`] for each crack of each, from the crest down.
     pub rows: Vec<[f64; Self::FIELDS.len()]>,
-    /// Positions of the crack nodes of the upper face, all along the crack, then all across it (m).
-    pub upper: Vec<f64>,
-    /// The same of the lower face.
-    pub lower: Vec<f64>,
-    /// Mean forces on the nodes of the upper face since the frame before (N); of several cracks on those of both bodies,
-    /// the upper one first.
-    pub force: Vec<f64>,
+    /// Positions of the nodes of each crack's upper face, all along the crack, then all across it (m).
+    pub upper: Vec<Vec<f64>>,
+    /// The same of its lower face.
+    pub lower: Vec<Vec<f64>>,
+    /// Mean forces on the nodes of its upper face since the frame before (N).
+    pub force: Vec<Vec<f64>>,
     /// Status of each contactor, by its place among [`Status::NAMES`].
     pub status: Vec<u8>,
     /// Damage of the bond of each, 1 where it has none; empty without a bonded joint.
     pub damage: Vec<f64>,
-    /// Amplitudes of all modes of the upper body, on request.
-    pub modes_upper: Vec<f64>,
-    /// Amplitudes of all modes of the lower body, on request.
-    pub modes_lower: Vec<f64>,
+    /// Amplitudes of all modes of each part, on request.
+    pub modes: Vec<Vec<f64>>,
     /// Velocities of the water's modes, with them.
     pub water: Vec<f64>,
 }
@@ -40,20 +37,39 @@ impl Frames {
     /// Names of the numbers in a row.
     pub const FIELDS: [&'static str; Snapshot::FIELDS.len()] = Snapshot::FIELDS;
 
-    /// Add a frame: what its cracks do, from the crest down, where all nodes are, and the state of all contacts.
+    /// Without any.
+    pub(super) fn new(dam: &Dam) -> Self {
+        let of_cracks = || vec![Vec::new(); dam.cracks.len()];
+        Frames {
+            upper: of_cracks(),
+            lower: of_cracks(),
+            force: of_cracks(),
+            modes: vec![Vec::new(); dam.bodies.len()],
+            ..Frames::default()
+        }
+    }
+
+    /// Add a frame: what its cracks do, from the crest down, where their nodes are, and the state of all contacts.
     pub(super) fn keep<'a>(
         &mut self,
-        cracks: impl Iterator<Item = Snapshot<'a>>,
-        faces: Faces,
+        cracks: impl Iterator<Item = (Snapshot<'a>, Meeting<'a>)>,
         since: &Since,
         status: &[Status],
         damage: &[f64],
     ) {
-        self.rows.extend(cracks.map(|now| now.row()));
-        self.upper.extend_from_slice(faces.upper);
-        self.lower.extend_from_slice(faces.lower);
+        let write = |to: &mut Vec<f64>, face: Face| {
+            to.extend_from_slice(face.along);
+            to.extend_from_slice(face.across);
+        };
+        for (crack, (now, faces)) in cracks.enumerate() {
+            self.rows.push(now.row());
+            write(&mut self.upper[crack], faces.upper);
+            write(&mut self.lower[crack], faces.lower);
+        }
         let rate = since.rate();
-        self.force.extend(since.nodes.iter().map(|p| p * rate));
+        for (force, nodes) in self.force.iter_mut().zip(&since.nodes) {
+            force.extend(nodes.iter().map(|p| p * rate));
+        }
         self.status.extend(status.iter().map(|s| *s as u8));
         self.damage.extend_from_slice(damage);
     }
@@ -80,20 +96,18 @@ impl Frames {
         })
     }
 
-    /// Add the amplitudes of the modes of both bodies to a frame.
-    pub(super) fn keep_modes(&mut self, bodies: &Sides<ReducedBody>, modes: &Sides<&[Group]>) {
-        let kept = |body: &ReducedBody, modes: &[Group]| modes.as_flattened()[..body.modes].to_vec();
-        self.modes_upper.extend(kept(&bodies.upper, modes.upper));
-        if let (Some(body), Some(modes)) = (&bodies.lower, modes.lower) {
-            self.modes_lower.extend(kept(body, modes));
+    /// Add the amplitudes of the modes of all parts to a frame.
+    pub(super) fn keep_modes(&mut self, bodies: &[ReducedBody], modes: &[Vec<Group>]) {
+        for ((frames, body), modes) in self.modes.iter_mut().zip(bodies).zip(modes) {
+            frames.extend_from_slice(body.without_filling(modes));
         }
     }
 }
 
 /// Impulses since the last frame.
 pub(super) struct Since {
-    /// On the nodes of the upper body and, with several cracks, of the lower one.
-    nodes: Vec<f64>,
+    /// On the nodes of each crack's upper face.
+    nodes: Vec<Vec<f64>>,
     /// Of each crack, along and across it, and what it could bear by its law.
     sums: Vec<[f64; 3]>,
     time: f64,
@@ -101,23 +115,26 @@ pub(super) struct Since {
 
 impl Since {
     pub(super) fn new(dam: &Dam) -> Self {
-        // Of the only crack the forces on the lower face are those on the upper one.
-        let bodies = if dam.cracks.len() == 1 { 1 } else { 2 };
+        let room = |line: &Line| vec![0.0; 2 * line.nodes[0].count];
         Since {
-            nodes: vec![0.0; dam.bodies.iter().take(bodies).map(ReducedBody::columns).sum()],
+            nodes: dam.cracks.iter().map(room).collect(),
             sums: vec![[0.0; 3]; dam.cracks.len()],
             time: 0.0,
         }
     }
 
-    /// Add the impulses on the nodes of both bodies, and the sums of each crack.
-    pub(super) fn add(&mut self, nodes: Faces, sums: impl Iterator<Item = [f64; 3]>, dt: f64) {
-        for (total, p) in self.nodes.iter_mut().zip(nodes.upper.iter().chain(nodes.lower)) {
+    /// Add the impulses on a crack's upper face, and its sums.
+    pub(super) fn add(&mut self, crack: usize, upper: Face, sums: [f64; 3]) {
+        let impulses = upper.along.iter().chain(upper.across);
+        for (total, p) in self.nodes[crack].iter_mut().zip(impulses) {
             *total += p;
         }
-        for (total, sum) in self.sums.iter_mut().zip(sums) {
-            *total = [0, 1, 2].map(|k| total[k] + sum[k]);
-        }
+        let total = &mut self.sums[crack];
+        *total = [0, 1, 2].map(|k| total[k] + sums[k]);
+    }
+
+    /// Go on to the end of a step.
+    pub(super) fn go_on(&mut self, dt: f64) {
         self.time += dt;
     }
 
@@ -141,7 +158,7 @@ impl Since {
     }
 
     pub(super) fn clear(&mut self) {
-        self.nodes.fill(0.0);
+        self.nodes.iter_mut().for_each(|nodes| nodes.fill(0.0));
         self.sums.fill([0.0; 3]);
         self.time = 0.0;
     }

@@ -24,7 +24,6 @@
 //! step. Nothing here bounds the energy: with average acceleration contact makes some at every blow, and the ledger
 //! shows it.
 
-use super::bodies::Sides;
 use super::compliance::Compliance;
 use super::coulomb::Known;
 use super::coupling::Crack;
@@ -57,16 +56,14 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, penalty: &Penalty, wanted: 
     for (step, ends) in ground.windows(2).enumerate() {
         let ends = [ends[0], ends[1]].map(|a| [scale[0] * a[0], scale[1] * a[1]]);
         newmark.step(ends);
-        let position = newmark.bodies.faces(|body| &body.position);
+        let position = |crack| Faces::around(crack, &newmark.bodies, |body| &body.position);
         newmark.walk.book(step, position, 1.0);
         newmark.damping = usize::from(!newmark.walk.crack.solver.status.contains(&Status::Stick));
         if newmark.walk.observed() {
-            let nodes: Vec<f64> = newmark.bodies.upper.force.iter().map(|f| f * dt).collect();
-            let nodes = Faces {
-                upper: &nodes,
-                lower: &[],
-            };
-            newmark.walk.gather(nodes, *dt);
+            let impulse = |body: &NewmarkStepper| body.force.iter().map(|f| f * dt).collect();
+            let impulses: Vec<Vec<f64>> = newmark.bodies.iter().map(impulse).collect();
+            let around = |crack| Faces::around(crack, &impulses, |impulse| impulse);
+            newmark.walk.gather(around, *dt);
         }
         if newmark.walk.due(step) {
             newmark.balance();
@@ -89,7 +86,7 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, penalty: &Penalty, wanted: 
 /// The dam on its way.
 struct Newmark<'a> {
     walk: Walk<'a>,
-    bodies: Sides<NewmarkStepper<'a>>,
+    bodies: Vec<NewmarkStepper<'a>>,
     ledger: Ledger,
     /// State of damping.
     damping: usize,
@@ -99,10 +96,16 @@ struct Newmark<'a> {
 
 impl<'a> Newmark<'a> {
     fn new(dam: &'a Dam, dt: f64, penalty: &'a Penalty, wanted: Wanted<'a>) -> Self {
-        let bodies = dam.bodies.map(|body| NewmarkStepper::new(body, penalty, dt));
+        let bodies: Vec<_> = dam
+            .bodies
+            .iter()
+            .map(|body| NewmarkStepper::new(body, penalty, dt))
+            .collect();
         let start = energy(&bodies);
         Newmark {
-            walk: Walk::new(dam, dt, wanted, dam.bodies.faces(|body| &body.position)),
+            walk: Walk::new(dam, dt, wanted, |crack| {
+                Faces::around(crack, &dam.bodies, |body| &body.position)
+            }),
             bodies,
             ledger: Ledger {
                 start,
@@ -119,7 +122,7 @@ impl<'a> Newmark<'a> {
     fn step(&mut self, ends: [[f64; 2]; 2]) {
         let (penalty, damping, dt) = (self.penalty, self.damping, self.dt);
         let mut before: Vec<Before> = Vec::new();
-        for body in self.bodies.iter_mut() {
+        for body in &mut self.bodies {
             before.push(body.go_on(ends, damping, penalty, dt));
         }
         self.set_up();
@@ -127,8 +130,8 @@ impl<'a> Newmark<'a> {
         let held = spring_energy(crack, penalty.stiffness);
         let report = crack.solver.solve::<Plain>(&mut crack.problem, &mut Known);
         self.walk.steps.note(report);
-        let (upper, lower) = self.bodies.both_mut(|body| &mut body.force);
-        self.walk.crack.impulses(upper, lower);
+        let crack = &self.walk.crack;
+        crack.impulses(&mut self.bodies, |body| &mut body.force);
         let mut work = [0.0; 2];
         for (k, (body, before)) in self.bodies.iter_mut().zip(&before).enumerate() {
             let own = body.correct(before, damping, penalty, dt, &mut self.ledger);
@@ -155,18 +158,19 @@ impl<'a> Newmark<'a> {
     fn set_up(&mut self) {
         let (bodies, damping, dt) = (&self.bodies, self.damping, self.dt);
         let stiffness = self.penalty.stiffness;
-        let answers = || {
-            bodies.map(|body| Compliance {
+        let answers = |part: usize| {
+            let body = bodies.get(part)?;
+            Some(Compliance {
                 w: &body.w[damping],
                 nodes: body.body.nodes,
                 stride: body.body.stride(),
             })
         };
-        let old = bodies.faces(|body| &body.position);
+        let old = |crack| Faces::around(crack, bodies, |body| &body.position);
         let crack = &mut self.walk.crack;
         crack.meet(old, damping, answers);
-        crack.fill(answers(), 1.0 / stiffness);
-        let free = bodies.faces(|body| &body.free);
+        crack.fill(answers, 1.0 / stiffness);
+        let free = |crack| Faces::around(crack, bodies, |body| &body.free);
         crack.contacts.relative(free, &mut crack.problem.b);
         crack.contacts.relative(old, &mut crack.before);
         let m = crack.contacts.len();
@@ -188,14 +192,14 @@ impl<'a> Newmark<'a> {
 
     /// Look at the stresses.
     fn stress(&mut self) {
-        let modes = self.bodies.map(|body| &body.q[..]);
+        let modes: Vec<_> = self.bodies.iter().map(|body| body.q.clone()).collect();
         self.walk.stress::<Plain>(&modes);
     }
 
     /// Keep a frame.
     fn keep(&mut self) {
-        let position = self.bodies.faces(|body| &body.position);
-        let modes = self.bodies.map(|body| &body.q[..]);
+        let position = |crack| Faces::around(crack, &self.bodies, |body| &body.position);
+        let modes: Vec<_> = self.bodies.iter().map(|body| body.q.clone()).collect();
         self.walk.keep(position, &modes, &[], &self.ledger);
     }
 
@@ -207,7 +211,7 @@ impl<'a> Newmark<'a> {
         if !(sound && ledger.stored.is_finite() && self.walk.cracks[0].summary.slip.is_finite()) {
             self.walk.steps.outcome = Outcome::BlownUp;
         }
-        self.walk.end(ledger, &[])
+        self.walk.end(ledger, |_| Vec::new())
     }
 }
 
@@ -217,7 +221,7 @@ fn spring_energy(crack: &Crack, penalty: f64) -> [f64; 2] {
     [along, across].map(|forces| forces.iter().map(|force| force * force).sum::<f64>() / (2.0 * penalty))
 }
 
-fn energy(bodies: &Sides<NewmarkStepper>) -> f64 {
+fn energy(bodies: &[NewmarkStepper]) -> f64 {
     let of = |body: &NewmarkStepper| body.body.energy(&body.q, &body.v);
-    of(&bodies.upper) + bodies.lower.as_ref().map_or(0.0, of)
+    bodies.iter().map(of).sum()
 }

@@ -10,8 +10,8 @@
 //! and the contact problem asks for no more than `u_f`, `W p`, single entries of `W`, and that all follow once `p` is
 //! known. What a dam is made of besides concrete comes in here, behind these few questions.
 
-use super::bodies::Sides;
 use super::compliance::Compliance;
+use super::contact::Contacts;
 use super::crack_forces::CrackForces;
 use super::dam::Dam;
 use super::dampers::{Dampers, Holding};
@@ -23,7 +23,7 @@ use super::simd::{Group, Lanes};
 
 /// Bodies, dashpots and water in a step.
 pub(super) struct LinearDam<'a> {
-    bodies: Sides<ModalStepper<'a>>,
+    bodies: Vec<ModalStepper<'a>>,
     dampers: Dampers<'a>,
     /// What drives this step.
     drive: Drive,
@@ -34,11 +34,10 @@ impl<'a> LinearDam<'a> {
     /// The dam as it stands before the earthquake; it starts with the damping of cracks that stick.
     pub(super) fn new(dam: &'a Dam, step: TimeStep) -> Self {
         let still = dam.still.as_ref();
-        let lower = dam.bodies.lower.as_ref();
-        let bodies = Sides {
-            upper: ModalStepper::new(&dam.bodies.upper, still, 0, step),
-            lower: lower.map(|body| ModalStepper::new(body, still, 1, step)),
-        };
+        let parts = dam.bodies.iter().enumerate();
+        let bodies: Vec<_> = parts
+            .map(|(part, body)| ModalStepper::new(body, still, part, step))
+            .collect();
         LinearDam {
             dampers: Dampers::new(&bodies, dam.reservoir.as_ref(), step),
             drive: Drive {
@@ -50,40 +49,40 @@ impl<'a> LinearDam<'a> {
         }
     }
 
-    /// Where the crack nodes are.
+    /// Where the nodes around a crack are.
     #[inline(always)]
-    pub(super) fn position(&self) -> Faces<'_> {
-        self.bodies.faces(|body| &body.position)
+    pub(super) fn position(&self, crack: usize) -> Faces<'_> {
+        Faces::around(crack, &self.bodies, |body| &body.position)
     }
 
     /// Their velocities.
     #[inline(always)]
-    pub(super) fn velocity(&self) -> Faces<'_> {
-        self.bodies.faces(|body| &body.velocity)
+    pub(super) fn velocity(&self, crack: usize) -> Faces<'_> {
+        Faces::around(crack, &self.bodies, |body| &body.velocity)
     }
 
     /// Their velocities at the end of the step without contact, once what else acts in the cracks is known.
     #[inline(always)]
-    pub(super) fn free(&self) -> Faces<'_> {
-        self.bodies.faces(|body| body.at_crack(&body.free))
+    pub(super) fn free(&self, crack: usize) -> Faces<'_> {
+        Faces::around(crack, &self.bodies, |body| body.at_crack(&body.free))
     }
 
     /// Their velocities with the impulses of contact, as [`Self::answer`] finds them.
     #[inline(always)]
-    pub(super) fn answered(&self) -> Faces<'_> {
-        self.bodies.faces(|body| body.at_crack(&body.answer))
+    pub(super) fn answered(&self, crack: usize) -> Faces<'_> {
+        Faces::around(crack, &self.bodies, |body| body.at_crack(&body.answer))
     }
 
     /// The impulses on them.
     #[inline(always)]
-    pub(super) fn impulse(&self) -> Faces<'_> {
-        self.bodies.faces(|body| &body.impulse)
+    pub(super) fn impulse(&self, crack: usize) -> Faces<'_> {
+        Faces::around(crack, &self.bodies, |body| &body.impulse)
     }
 
-    /// The impulses of contact on them, to be written.
+    /// Put the impulses of contact on them.
     #[inline(always)]
-    pub(super) fn impulse_mut(&mut self) -> (&mut [f64], &mut [f64]) {
-        self.bodies.both_mut(|body| &mut body.impulse)
+    pub(super) fn spread(&mut self, contacts: &Contacts, impulses: &[f64]) {
+        contacts.spread(impulses, &mut self.bodies, |body| &mut body.impulse);
     }
 
     /// The state of damping of this step.
@@ -92,10 +91,11 @@ impl<'a> LinearDam<'a> {
         self.drive.damping
     }
 
-    /// Entries of `W` without dashpots and water.
+    /// Entries of `W` of a part without dashpots and water; none of a rigid plane.
     #[inline(always)]
-    pub(super) fn answers(&self) -> Sides<Compliance<'_>> {
-        self.bodies.map(|body| body.answers(self.drive.damping))
+    pub(super) fn answers(&self, part: usize) -> Option<Compliance<'_>> {
+        let body = self.bodies.get(part)?;
+        Some(body.answers(self.drive.damping))
     }
 
     /// What dashpots and water hold back of it.
@@ -119,24 +119,14 @@ impl<'a> LinearDam<'a> {
         }
     }
 
-    /// Let what is in the cracks beside contact push the nodes of both faces.
+    /// Let what is in the cracks beside contact push the nodes of their faces.
     pub(super) fn push(&mut self, acting: &mut CrackForces) {
-        let mut above = std::mem::take(&mut self.bodies.upper.push);
-        let mut below = match &mut self.bodies.lower {
-            Some(body) => std::mem::take(&mut body.push),
-            None => Vec::new(),
-        };
-        acting.push(
-            self.position(),
-            self.velocity(),
+        acting.find(
+            |crack| self.position(crack),
+            |crack| self.velocity(crack),
             self.step,
-            &mut above,
-            &mut below,
         );
-        self.bodies.upper.push = above;
-        if let Some(lower) = &mut self.bodies.lower {
-            lower.push = below;
-        }
+        acting.spread(&mut self.bodies, |body| &mut body.push);
     }
 
     /// Find the velocities without contact: with what acts beside it, where anything does, less the forces that the start
@@ -184,8 +174,8 @@ impl<'a> LinearDam<'a> {
 
     /// Amplitudes of all modes.
     #[inline(always)]
-    pub(super) fn amplitudes(&self) -> Sides<Vec<Group>> {
-        self.bodies.map(ModalStepper::amplitudes)
+    pub(super) fn amplitudes(&self) -> Vec<Vec<Group>> {
+        self.bodies.iter().map(ModalStepper::amplitudes).collect()
     }
 
     /// Velocities of the water's modes.
@@ -196,7 +186,7 @@ impl<'a> LinearDam<'a> {
     /// Energy of the bodies.
     pub(super) fn energy(&self) -> f64 {
         let of = |body: &ModalStepper| body.body.energy(&body.amplitudes(), &body.v);
-        of(&self.bodies.upper) + self.bodies.lower.as_ref().map_or(0.0, of)
+        self.bodies.iter().map(of).sum()
     }
 
     /// Add the works of bodies, dashpots and water to a ledger, and what they hold.

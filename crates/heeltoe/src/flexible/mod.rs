@@ -3,7 +3,6 @@
 //! Each mode obeys `w'' + c w' + omega^2 w = f - gamma a(t) + shapes^T p`, with the forces p of contact found in every step,
 //! so that nothing passes through the crack and friction is Coulomb's.
 
-mod bodies;
 mod body;
 mod bond;
 mod compliance;
@@ -44,7 +43,6 @@ mod summary;
 mod tests;
 mod walk;
 
-pub use bodies::Sides;
 pub use body::{Modes, ReducedBody};
 pub use bond::Cracked;
 pub use crack_forces::{FaceAnchor, FollowingWater, Inside, Point, RisingWater};

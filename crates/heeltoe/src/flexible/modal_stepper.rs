@@ -192,12 +192,12 @@ fn balancing(body: &ReducedBody, modes: &[Group], force: &[f64]) -> Vec<Group> {
 }
 
 impl<'a> ModalStepper<'a> {
-    /// `face` is 0 for the body above the crack, 1 for that below; without a state before the earthquake it starts from
-    /// that with the crack bonded.
-    pub(super) fn new(body: &'a ReducedBody, still: Option<&'a Still>, face: usize, step: TimeStep) -> Self {
+    /// Without a state before the earthquake the `part`, counted from the crest down, starts from that with the cracks
+    /// bonded.
+    pub(super) fn new(body: &'a ReducedBody, still: Option<&'a Still>, part: usize, step: TimeStep) -> Self {
         let columns = body.columns();
         let zeros = vec![0.0; columns];
-        let start = still.map_or(&body.start[..], |still| &still.modes[face]);
+        let start = still.map_or(&body.start[..], |still| &still.modes[part]);
         let mut left = vec![[0.0; LANES]; body.groups()];
         // Against the state before the earthquake loads and stress add up to the forces of contact, to the last bit.
         for (group, left) in left.iter_mut().enumerate() {
@@ -209,7 +209,7 @@ impl<'a> ModalStepper<'a> {
         }
         let operator = Operator::new(body, step);
         let room = vec![[0.0; LANES]; body.stride()];
-        let force = still.map_or(&[][..], |still| &still.force[face]);
+        let force = still.map_or(&[][..], |still| &still.force[part]);
         let away: Vec<f64> = force.iter().map(|force| -step.dt * force).collect();
         let released = [0, 1].map(|state: usize| {
             let mut answer = room.clone();
@@ -222,15 +222,15 @@ impl<'a> ModalStepper<'a> {
             released,
             start,
             q: vec![[0.0; LANES]; body.groups()],
-            held: still.map_or(&[], |still| &still.force[face]),
+            held: still.map_or(&[], |still| &still.force[part]),
             left,
             balanced: still.map_or(Cow::Borrowed(&body.load), |still| {
-                Cow::Owned(balancing(body, start, &still.force[face]))
+                Cow::Owned(balancing(body, start, &still.force[part]))
             }),
             v: vec![[0.0; LANES]; body.groups()],
             v_free: vec![[0.0; LANES]; body.groups()],
             mean: vec![[0.0; LANES]; if body.boundary.is_some() { body.groups() } else { 0 }],
-            position: still.map_or_else(|| body.position.clone(), |still| still.position[face].clone()),
+            position: still.map_or_else(|| body.position.clone(), |still| still.position[part].clone()),
             velocity: zeros.clone(),
             impulse: zeros.clone(),
             free: room.clone(),

@@ -1,26 +1,23 @@
-//! Where the faces of a crack are among the nodes of the bodies.
+//! Where the faces of a crack are among the nodes of the parts above and below it.
 
 use super::crack_line::{Line, Span};
 use super::faces::{Face, Faces, Meeting};
 
-/// Where the faces of a crack are among the nodes of both bodies.
+/// Where the faces of a crack are among the nodes of the part above it and of the part below it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub upper: Span,
     pub lower: Span,
-    /// Whether the part above it belongs to the lower body.
-    pub turned: bool,
 }
 
 impl Place {
     /// Those of all cracks, from the crest down.
     pub(super) fn all(cracks: &[Line]) -> Vec<Self> {
-        let place = |(k, line): (usize, &Line)| Place {
+        let place = |line: &Line| Place {
             upper: line.nodes[0],
             lower: line.nodes[1],
-            turned: k % 2 == 1,
         };
-        cracks.iter().enumerate().map(place).collect()
+        cracks.iter().map(place).collect()
     }
 
     /// Whether what is below it is a rigid plane.
@@ -33,24 +30,20 @@ impl Place {
     #[cfg(test)]
     pub(super) fn only(upper: usize, lower: usize) -> Self {
         let [upper, lower] = [upper, lower].map(|count| Span { first: 0, count });
-        Place {
-            upper,
-            lower,
-            turned: false,
-        }
+        Place { upper, lower }
+    }
+
+    /// Both faces.
+    pub(super) fn spans(&self) -> [Span; 2] {
+        [self.upper, self.lower]
     }
 
     /// Numbers of its faces.
     #[inline(always)]
     pub(super) fn of<'a>(&self, faces: Faces<'a>) -> Meeting<'a> {
-        let (upper, lower) = if self.turned {
-            (faces.lower, faces.upper)
-        } else {
-            (faces.upper, faces.lower)
-        };
         Meeting {
-            upper: Face::of(upper, self.upper),
-            lower: Face::of(lower, self.lower),
+            upper: Face::of(faces.upper, self.upper),
+            lower: Face::of(faces.lower, self.lower),
         }
     }
 }

@@ -1,6 +1,5 @@
 //! What a run of the flexible model leaves behind.
 
-use super::bodies::Sides;
 use super::envelope::Extreme;
 use super::frames::Frames;
 use super::law::worked::Worked;
@@ -15,8 +14,8 @@ pub struct Run {
     pub frames: Frames,
     /// What the contacts of cracks with a law have been through.
     pub worked: Vec<Worked>,
-    /// Extremes of the stresses at each place of both bodies, if they were asked for.
-    pub extremes: Option<Sides<Vec<Extreme>>>,
+    /// Extremes of the stresses at each place of all parts, from the crest down; none unless they were asked for.
+    pub extremes: Vec<Vec<Extreme>>,
 }
 
 impl Run {

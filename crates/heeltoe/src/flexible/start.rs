@@ -16,13 +16,12 @@
 use super::still::Still;
 use std::ops::Range;
 
-use super::bodies::Sides;
 use super::body::ReducedBody;
 use super::compliance::Compliance;
 use super::coulomb::{Known, Report};
 use super::coupling::Crack;
 use super::dam::Dam;
-use super::faces::mean_along;
+use super::faces::{mean_along, Faces};
 use super::place::Place;
 use super::scheme::TimeStep;
 use super::simd::{Group, Plain};
@@ -130,7 +129,11 @@ fn find(dam: &Dam, stop: Stop) -> Option<Still> {
     }
     let whole = quotient(dam);
     let own = if THIN * lowest < whole { whole } else { lowest };
-    let mut sides = dam.bodies.map(|body| Side::new(body, HOLD * own));
+    let mut sides: Vec<_> = dam
+        .bodies
+        .iter()
+        .map(|body| Side::new(body, HOLD * own))
+        .collect();
     let mut crack = Crack::new(dam, 0, false);
     crack.solver.thorough = true;
     let places = Place::all(&dam.cracks);
@@ -141,11 +144,11 @@ fn find(dam: &Dam, stop: Stop) -> Option<Still> {
         .flat_map(|body| [stretch(body), bent(body)].concat());
     let scale = stretched.fold(0.0_f64, |a, u| a.max(u.abs()));
     // A part that begins off the plane below it, as one that leans, is let go as it is.
-    let off = |place: &Place| {
-        let faces = place.of(sides.faces(|side| &side.position));
+    let off = |(crack, place): (usize, &Place)| {
+        let faces = place.of(position(&sides, crack));
         faces.lower.along.is_empty() && faces.upper.across.iter().any(|gap| gap.abs() > scale)
     };
-    if places.iter().any(off) {
+    if places.iter().enumerate().any(off) {
         return None;
     }
     let mut settled = 0;
@@ -155,19 +158,19 @@ fn find(dam: &Dam, stop: Stop) -> Option<Still> {
         }
         step(dam, &mut crack, &mut sides);
         let mut moved = 0.0_f64;
-        for side in sides.iter_mut() {
+        for side in &mut sides {
             moved = moved.max(side.finish());
         }
-        let reach = |place: &Place| {
-            let along = place.of(sides.faces(|side| &side.position)).upper.along;
-            along[along.len() - 1] - along[0]
+        let within = |(crack, place): (usize, &Place)| {
+            let along = place.of(position(&sides, crack)).upper.along;
+            moved < along[along.len() - 1] - along[0]
         };
-        if !(moved.is_finite() && places.iter().all(|place| moved < reach(place))) {
+        if !(moved.is_finite() && places.iter().enumerate().all(within)) {
             return None;
         }
         settled = if moved <= NOTHING * scale { settled + 1 } else { 0 };
         if settled == 6 {
-            return Some(still(&places, &sides, crack, &bonded));
+            return Some(still(&places, sides, crack, &bonded));
         }
     }
     None
@@ -194,17 +197,22 @@ fn quotient(dam: &Dam) -> f64 {
     }
 }
 
+/// Where the nodes around a crack are.
+fn position<'s>(sides: &'s [Side], crack: usize) -> Faces<'s> {
+    Faces::around(crack, sides, |side| &side.position)
+}
+
 /// Find the forces of contact of one step.
-fn step(dam: &Dam, crack: &mut Crack, sides: &mut Sides<Side>) {
-    let position = sides.faces(|side| &side.position);
-    crack.meet(position, 0, || sides.map(Side::answer));
+fn step(dam: &Dam, crack: &mut Crack, sides: &mut [Side]) {
+    let answers = |part: usize| sides.get(part).map(Side::answer);
+    crack.meet(|crack| position(sides, crack), 0, answers);
     // Softness creeps; here it must not.
     let softness = 1e-2 * crack.softness(dam.softness());
-    crack.fill(sides.map(Side::answer), softness);
+    crack.fill(answers, softness);
     sides.iter_mut().for_each(Side::begin);
     // Motion stands for velocity, forces for impulses. A gap may be negative: what an unfinished search has let enter
     // comes out again.
-    let free = sides.faces(|side| &side.free);
+    let free = |crack| Faces::around(crack, sides, |side| &side.free);
     crack.contacts.relative(free, &mut crack.problem.b);
     crack.problem.h.copy_from_slice(&crack.contacts.gaps);
     crack.set_up();
@@ -213,8 +221,7 @@ fn step(dam: &Dam, crack: &mut Crack, sides: &mut Sides<Side>) {
     if let Some(bonds) = &mut crack.bonds {
         report.go_on(bonds.rest::<Plain>(&mut crack.problem, &mut crack.solver, ONE));
         bonds.settle();
-        let (upper, lower) = sides.both_mut(|side| &mut side.force);
-        crack.impulses(upper, lower);
+        crack.impulses(sides, |side| &mut side.force);
         return;
     }
     loop {
@@ -228,8 +235,7 @@ fn step(dam: &Dam, crack: &mut Crack, sides: &mut Sides<Side>) {
             break;
         }
     }
-    let (upper, lower) = sides.both_mut(|side| &mut side.force);
-    crack.impulses(upper, lower);
+    crack.impulses(sides, |side| &mut side.force);
 }
 
 /// How far the crack of a part has moved by its deformation while it is bonded. Weight alone deforms no free part.
@@ -249,16 +255,15 @@ fn stretch(body: &ReducedBody) -> Vec<f64> {
     body.at_crack(&pairs.map(amplitude).collect::<Vec<_>>())
 }
 
-fn slips(places: &[Place], sides: &Sides<Side>) -> Vec<f64> {
-    let faces = places
-        .iter()
-        .map(|place| place.of(sides.faces(|side| &side.position)));
+fn slips(places: &[Place], sides: &[Side]) -> Vec<f64> {
+    let places = places.iter().enumerate();
+    let faces = places.map(|(crack, place)| place.of(position(sides, crack)));
     faces
         .map(|faces| mean_along(faces.upper) - mean_along(faces.lower))
         .collect()
 }
 
-fn still(places: &[Place], sides: &Sides<Side>, crack: Crack, bonded: &[f64]) -> Still {
+fn still(places: &[Place], sides: Vec<Side>, crack: Crack, bonded: &[f64]) -> Still {
     let status = crack
         .solver
         .status
@@ -277,18 +282,23 @@ fn still(places: &[Place], sides: &Sides<Side>, crack: Crack, bonded: &[f64]) ->
             .filter(|status| **status == Status::Open)
             .count()
     };
-    let (upper, lower) = (&sides.upper, sides.lower.as_ref());
-    let both = |of: &dyn Fn(&Side) -> Vec<f64>| [of(upper), lower.map_or(Vec::new(), of)];
+    let (mut modes, mut positions, mut forces) = (Vec::new(), Vec::new(), Vec::new());
+    let slips = slips(places, &sides);
+    for side in sides {
+        modes.push(side.q);
+        positions.push(side.position);
+        forces.push(side.force);
+    }
     Still {
         open: crack.contacts.of_cracks().map(open).collect(),
-        slip: slips(places, sides)
+        slip: slips
             .iter()
             .zip(bonded)
             .map(|(now, bonded)| now - bonded)
             .collect(),
-        modes: [upper.q.clone(), lower.map_or(Vec::new(), |side| side.q.clone())],
-        position: both(&|side| side.position.clone()),
-        force: both(&|side| side.force.clone()),
+        modes,
+        position: positions,
+        force: forces,
         status,
         contact: crack.solver.p,
         bonds: crack.bonds,

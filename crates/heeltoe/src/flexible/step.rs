@@ -65,9 +65,11 @@ fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
     for step in 0..shaking.ground.len() {
         moreau.set_up::<W>();
         moreau.contact::<W>();
-        moreau.walk.book(step, moreau.linear.position(), shaking.dt);
+        moreau
+            .walk
+            .book(step, |crack| moreau.linear.position(crack), shaking.dt);
         if moreau.walk.observed() {
-            moreau.walk.gather(moreau.linear.impulse(), 1.0);
+            moreau.walk.gather(|crack| moreau.linear.impulse(crack), 1.0);
         }
         let pushed = moreau.acting.is_some() || moreau.still.is_some();
         moreau.linear.join(moreau.quiet, pushed);
@@ -89,8 +91,9 @@ fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
     if moreau.walk.pending() {
         moreau.keep(&ledger);
     }
-    let anchors = moreau.acting.map_or_else(Vec::new, |acting| acting.peaks);
-    moreau.walk.end(ledger, &anchors)
+    let acting = moreau.acting;
+    let anchors = |crack| acting.as_ref().map_or_else(Vec::new, |acting| acting.peaks(crack));
+    moreau.walk.end(ledger, anchors)
 }
 
 /// The dam on its way.
@@ -111,8 +114,8 @@ impl<'a> Moreau<'a> {
         let still = dam.still.as_ref();
         let linear = LinearDam::new(dam, TimeStep { dt, theta });
         let start = linear.energy();
-        let faces = linear.position();
-        let mut walk = Walk::new(dam, dt, wanted, faces);
+        let start_at = |crack| linear.position(crack);
+        let mut walk = Walk::new(dam, dt, wanted, start_at);
         if let Some(still) = still {
             walk.crack.solver.status.copy_from_slice(&still.status);
             if let Some(laws) = &mut walk.crack.laws {
@@ -124,7 +127,7 @@ impl<'a> Moreau<'a> {
         }
         Moreau {
             walk,
-            acting: CrackForces::new(&dam.inside, shaking.rising, faces),
+            acting: CrackForces::new(&dam.cracks, shaking.rising, start_at),
             still,
             quiet: false,
             ledger: Ledger {
@@ -153,7 +156,11 @@ impl<'a> Moreau<'a> {
     fn set_up<W: Lanes>(&mut self) {
         let linear = &self.linear;
         let crack = &mut self.walk.crack;
-        crack.meet(linear.position(), linear.damping(), || linear.answers());
+        crack.meet(
+            |crack| linear.position(crack),
+            linear.damping(),
+            |part| linear.answers(part),
+        );
         if let Some(acting) = &mut self.acting {
             self.linear.push(acting);
         }
@@ -168,8 +175,8 @@ impl<'a> Moreau<'a> {
         let back = (1.0 - theta) / theta;
         let crack = &mut self.walk.crack;
         let contacts = &crack.contacts;
-        contacts.relative(self.linear.free(), &mut crack.problem.b);
-        contacts.relative(self.linear.velocity(), &mut crack.before);
+        contacts.relative(|crack| self.linear.free(crack), &mut crack.problem.b);
+        contacts.relative(|crack| self.linear.velocity(crack), &mut crack.before);
         let approach = &crack.before[contacts.len()..];
         for ((h, gap), approach) in crack.problem.h.iter_mut().zip(&contacts.gaps).zip(approach) {
             *h = (gap.max(0.0) / dt).max(back * approach);
@@ -185,8 +192,7 @@ impl<'a> Moreau<'a> {
         let (report, softness) = match self.still.filter(|_| self.quiet) {
             Some(still) => {
                 let report = crack.hold(&still.contact, self.linear.step.dt);
-                let (upper, lower) = self.linear.impulse_mut();
-                crack.impulses(upper, lower);
+                self.linear.spread(&crack.contacts, &crack.solver.p);
                 // Nothing moves, and nothing yields.
                 (report, 0.0)
             }
@@ -279,7 +285,7 @@ impl<'a> Moreau<'a> {
     /// Work of the impulses of water and anchors on the velocities as they are.
     fn acted(&self) -> [f64; 2] {
         let acting = self.acting.as_ref();
-        acting.map_or([0.0; 2], |acting| acting.work(self.linear.velocity()))
+        acting.map_or([0.0; 2], |acting| acting.work(|crack| self.linear.velocity(crack)))
     }
 
     /// Book it, from what it was before the step.
@@ -290,7 +296,7 @@ impl<'a> Moreau<'a> {
         };
         let theta = self.linear.step.theta;
         let work = [0, 1].map(|k| (1.0 - theta) * before[k] + theta * after[k]);
-        let taken_up = acting.settle(self.linear.position());
+        let taken_up = acting.settle(|crack| self.linear.position(crack));
         let ledger = &mut self.ledger;
         ledger.input += work[0];
         // What the anchors have not taken up of their work is the scheme's doing.
@@ -302,15 +308,15 @@ impl<'a> Moreau<'a> {
     /// Look at the stresses.
     fn stress<W: Lanes>(&mut self) {
         let total = self.linear.amplitudes();
-        self.walk.stress::<W>(&total.map(|modes| &modes[..]));
+        self.walk.stress::<W>(&total);
     }
 
     /// Keep a frame.
     fn keep(&mut self, ledger: &Ledger) {
         let linear = &self.linear;
         let total = linear.amplitudes();
-        let total = total.map(|modes| &modes[..]);
-        self.walk.keep(linear.position(), &total, linear.water(), ledger);
+        let position = |crack| linear.position(crack);
+        self.walk.keep(position, &total, linear.water(), ledger);
     }
 
     /// The ledger with the sums of both bodies and the energy they hold; the sums go on, so that frames change nothing.

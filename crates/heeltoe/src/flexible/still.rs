@@ -1,21 +1,23 @@
 //! The state of a dam before the earthquake; [`super::start`] finds it.
 
-use super::bodies::Sides;
 use super::body::ReducedBody;
 use super::bond::Bonds;
+use super::dam::Dam;
+use super::faces::Faces;
 use super::law::worked::Worked;
+use super::place::Place;
 use super::simd::Group;
 use super::status::Status;
 
 /// A dam at rest.
 #[derive(Clone, Debug)]
 pub struct Still {
-    /// Modes of both parts.
-    pub(super) modes: [Vec<Group>; 2],
-    /// Positions of the crack nodes of both faces.
-    pub(super) position: [Vec<f64>; 2],
+    /// Modes of all parts, from the crest down.
+    pub(super) modes: Vec<Vec<Group>>,
+    /// Positions of the crack nodes of each part.
+    pub(super) position: Vec<Vec<f64>>,
     /// Forces of contact on them.
-    pub force: [Vec<f64>; 2],
+    pub(super) force: Vec<Vec<f64>>,
     /// Force and state of each contact.
     pub(super) contact: Vec<f64>,
     pub(super) status: Vec<Status>,
@@ -30,13 +32,19 @@ pub struct Still {
 }
 
 impl Still {
-    /// Amplitudes of the modes of the upper and of the lower body.
-    pub fn amplitudes(&self, bodies: &Sides<ReducedBody>) -> [Vec<f64>; 2] {
-        let kept = |body: &ReducedBody, modes: &[Group]| modes.as_flattened()[..body.modes].to_vec();
-        let lower = bodies.lower.as_ref();
-        [
-            kept(&bodies.upper, &self.modes[0]),
-            lower.map_or(Vec::new(), |body| kept(body, &self.modes[1])),
-        ]
+    /// Amplitudes of the modes of all parts.
+    pub fn amplitudes(&self, dam: &Dam) -> Vec<Vec<f64>> {
+        let own = |(body, modes): (&ReducedBody, &Vec<Group>)| body.without_filling(modes).to_vec();
+        dam.bodies.iter().zip(&self.modes).map(own).collect()
+    }
+
+    /// Forces of contact on the upper face of each crack (N), all along it, then all across it.
+    pub fn forces(&self, dam: &Dam) -> Vec<Vec<f64>> {
+        let places = Place::all(&dam.cracks).into_iter().enumerate();
+        let own = |(crack, place): (usize, Place)| {
+            let upper = place.of(Faces::around(crack, &self.force, |force| force)).upper;
+            [upper.along, upper.across].concat()
+        };
+        places.map(own).collect()
     }
 }

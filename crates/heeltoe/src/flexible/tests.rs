@@ -1,12 +1,10 @@
 //! The contact problem against its own conditions, on random problems and on those with a known answer.
 
-use super::bodies::Sides;
 use super::body::{Modes, ReducedBody};
 use super::compliance::Compliance;
 use super::contact::Contacts;
 use super::coulomb::{Known, Problem, Report, Solver};
 use super::coupling::Crack;
-use super::crack_forces::Inside;
 use super::crack_line::{BondLaw, Line, RockingThresholds};
 use super::dam::Dam;
 use super::dampers::Holding;
@@ -224,7 +222,7 @@ fn stands(first: usize, slope: f64, status: Status) -> State {
     let place = Place::only(9, 0);
     let mut contacts = Contacts::new(3, &[place], &[]);
     let faces = |upper| Faces { upper, lower: &[] };
-    contacts.update(faces(&turned), |_| false);
+    contacts.update(|_| faces(&turned), |_| false);
     let give = RockingThresholds {
         rotation: 1e-3,
         gap: 1e-4,
@@ -283,16 +281,12 @@ fn answers(dice: &mut Dice) -> [Vec<Group>; 2] {
     [(); 2].map(|()| (0..20).map(|_| std::array::from_fn(|_| dice.roll())).collect())
 }
 
-fn faces(answers: &[Vec<Group>; 2]) -> Sides<Compliance<'_>> {
-    let [upper, lower] = [0, 1].map(|k| Compliance {
-        w: &answers[k],
+fn compliance(answers: &[Vec<Group>; 2], part: usize) -> Option<Compliance<'_>> {
+    answers.get(part).map(|w| Compliance {
+        w,
         nodes: 5,
         stride: 2,
-    });
-    Sides {
-        upper,
-        lower: Some(lower),
-    }
+    })
 }
 
 #[test]
@@ -300,29 +294,25 @@ fn what_has_not_moved_keeps_its_answer() {
     let mut dice = Dice(11);
     for contactors in [3, 5] {
         let dam = Dam {
-            bodies: Sides {
-                upper: body(&mut dice),
-                lower: Some(body(&mut dice)),
-            },
+            bodies: vec![body(&mut dice), body(&mut dice)],
             cracks: vec![Line::only([5, 5], [0.6; 2], RockingThresholds::default())],
             contactors,
-            inside: Inside::default(),
             reservoir: None,
             still: None,
         };
         let answers = answers(&mut dice);
-        let answer = || faces(&answers);
+        let answer = |part| compliance(&answers, part);
         let mut kept = Crack::new(&dam, 0, true);
         kept.solver.status.fill(Status::Open);
-        let mut upper = dam.bodies.upper.position.clone();
-        let lower = &dam.bodies.lower.as_ref().unwrap().position;
+        let mut upper = dam.bodies[0].position.clone();
+        let lower = &dam.bodies[1].position;
         let mut partly = 0;
         for step in 0..20 {
             // One node sticks in every second step; in the end one leaves the other face.
             let sticks = [Status::Open, Status::Stick][step % 2];
             kept.solver.status[0] = sticks;
             let position = Faces { upper: &upper, lower };
-            kept.meet(position, 0, answer);
+            kept.meet(|_| position, 0, answer);
             // What is not wanted for a while must not be taken for known later.
             let wanted = |contact: usize| step % 5 == 4 || contact % 5 != step % 5;
             let Crack {
@@ -334,7 +324,7 @@ fn what_has_not_moved_keeps_its_answer() {
             blocks.fill(
                 &mut problem.g,
                 contacts,
-                answer(),
+                &answer,
                 Holding::Gain(&[]),
                 0.1,
                 wanted,
@@ -342,7 +332,7 @@ fn what_has_not_moved_keeps_its_answer() {
             partly += usize::from(kept.contacts.moved.contains(&false));
             let mut new = Crack::new(&dam, 0, true);
             new.contacts.pairs.clone_from(&kept.contacts.pairs);
-            new.fill(answer(), 0.1);
+            new.fill(answer, 0.1);
             let m = kept.contacts.len();
             let there = |k: usize| wanted(k % m) && kept.contacts.pairs[k % m].is_some();
             for (k, (old, new)) in kept.problem.g.iter().zip(&new.problem.g).enumerate() {
@@ -393,7 +383,7 @@ fn a_bonded_node_meets_the_end_of_the_other_face_until_its_slip_has_broken_the_b
                 upper: &upper,
                 lower: &lower,
             };
-            contacts.update(faces, |_| false);
+            contacts.update(|_| faces, |_| false);
             assert_eq!(contacts.pairs[2].is_some(), meets, "{bond:?} {slip}");
         }
     }

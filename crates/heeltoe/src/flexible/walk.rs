@@ -5,7 +5,6 @@
 
 use std::ops::Range;
 
-use super::bodies::Sides;
 use super::body::ReducedBody;
 use super::bond::Cracked;
 use super::contact::Contactor;
@@ -14,7 +13,7 @@ use super::crack_line::Line;
 use super::dam::{Dam, Wanted};
 use super::dampers::Dampers;
 use super::envelope::Envelope;
-use super::faces::{mean_along, Faces};
+use super::faces::{mean_along, Faces, Meeting};
 use super::frames::{Frames, Since, Snapshot};
 use super::ledger::Ledger;
 use super::observe::Motion;
@@ -41,17 +40,16 @@ pub(super) struct Watch {
 }
 
 impl Watch {
+    /// `bonded` is where its nodes are while it is, `faces` where they start.
     fn new(
-        dam: &Dam,
         place: Place,
         contacts: Range<usize>,
         contactors: &[Contactor],
         line: &Line,
-        start: Faces,
+        [bonded, faces]: [Meeting; 2],
     ) -> Self {
-        let faces = place.of(start);
         let zero = mean_along(faces.upper) - mean_along(faces.lower);
-        let along = place.of(dam.bodies.faces(|body| &body.position)).upper.along;
+        let along = bonded.upper.along;
         let width = along[along.len() - 1] - along[0];
         // A bond without strength is broken from the start.
         let cracked = match line.bond {
@@ -76,8 +74,8 @@ impl Watch {
     }
 
     /// Book a step that has brought the nodes here.
-    fn book(&mut self, end: f64, dt: f64, position: Faces, crack: &Crack, normal_force: f64) {
-        let faces = self.place.of(position);
+    fn book(&mut self, end: f64, dt: f64, around: Faces, crack: &Crack, normal_force: f64) {
+        let faces = self.place.of(around);
         let after = Motion::of(faces, self.zero);
         let slip = after.slip - self.motion.slip;
         let own = self.contacts.clone();
@@ -137,27 +135,36 @@ pub(super) struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    /// `start` is where the nodes of both bodies are.
-    pub(super) fn new(dam: &'a Dam, dt: f64, wanted: Wanted<'a>, start: Faces) -> Self {
+    /// `start` is where the nodes around each crack are.
+    pub(super) fn new<'f>(
+        dam: &'a Dam,
+        dt: f64,
+        wanted: Wanted<'a>,
+        start: impl Fn(usize) -> Faces<'f>,
+    ) -> Self {
         let mut crack = Crack::new(dam, Dampers::felt(dam), true);
-        let on_rock = dam.bodies.lower.as_ref().is_some_and(ReducedBody::radiates);
+        let on_rock = dam.bodies[1..].iter().any(ReducedBody::radiates);
         crack.solver.lasting = dam.cracks.len() > 1 || on_rock;
         let contactors = &crack.contacts.contactors;
         let cracks = Place::all(&dam.cracks)
             .into_iter()
             .zip(crack.contacts.of_cracks())
-            .zip(&dam.cracks);
+            .zip(&dam.cracks)
+            .enumerate();
+        let watch = |(k, ((place, contacts), line)): (usize, ((Place, _), _))| {
+            let bonded = Faces::around(k, &dam.bodies, |body| &body.position);
+            let faces = [bonded, start(k)].map(|faces| place.of(faces));
+            Watch::new(place, contacts, contactors, line, faces)
+        };
         Walk {
             dam,
-            cracks: cracks
-                .map(|((place, contacts), line)| Watch::new(dam, place, contacts, contactors, line, start))
-                .collect(),
+            cracks: cracks.map(watch).collect(),
             crack,
             steps: Summary::default(),
             dt,
             wanted,
             since: Since::new(dam),
-            frames: Frames::default(),
+            frames: Frames::new(dam),
             envelope: wanted.stresses.map(Envelope::new),
         }
     }
@@ -180,11 +187,11 @@ impl<'a> Walk<'a> {
     }
 
     /// Book a step that has brought the nodes here; what the contact problem has found is a force times this `time`.
-    pub(super) fn book(&mut self, step: usize, position: Faces, time: f64) {
+    pub(super) fn book<'f>(&mut self, step: usize, position: impl Fn(usize) -> Faces<'f>, time: f64) {
         let end = (step + 1) as f64 * self.dt;
-        for watch in &mut self.cracks {
+        for (k, watch) in self.cracks.iter_mut().enumerate() {
             let [_, normal] = self.crack.sums(watch.contacts.clone());
-            watch.book(end, self.dt, position, &self.crack, normal / time);
+            watch.book(end, self.dt, position(k), &self.crack, normal / time);
         }
         if let Some(bonds) = &self.crack.bonds {
             let bonded = self.cracks.iter_mut().zip(&bonds.cracked).zip(&self.dam.cracks);
@@ -199,31 +206,40 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Add the impulses of a step, on the nodes of both bodies, to those since the last frame; what the contact problem
+    /// Add the impulses of a step, on the nodes around each crack, to those since the last frame; what the contact problem
     /// has found times `factor` are impulses.
-    pub(super) fn gather(&mut self, nodes: Faces, factor: f64) {
+    pub(super) fn gather<'f>(&mut self, impulse: impl Fn(usize) -> Faces<'f>, factor: f64) {
         let crack = &self.crack;
-        let sum = |(k, watch): (usize, &Watch)| {
+        for (k, watch) in self.cracks.iter().enumerate() {
             let [along, across] = crack.sums(watch.contacts.clone()).map(|sum| sum * factor);
             let borne = crack.laws.as_ref().map_or(0.0, |laws| laws.sums[k][1] * self.dt);
-            [along, across, borne]
-        };
-        self.since
-            .add(nodes, self.cracks.iter().enumerate().map(sum), self.dt);
+            let upper = watch.place.of(impulse(k)).upper;
+            self.since.add(k, upper, [along, across, borne]);
+        }
+        self.since.go_on(self.dt);
     }
 
     /// Keep a frame.
-    pub(super) fn keep(&mut self, position: Faces, modes: &Sides<&[Group]>, water: &[f64], ledger: &Ledger) {
+    pub(super) fn keep<'f>(
+        &mut self,
+        position: impl Fn(usize) -> Faces<'f>,
+        modes: &[Vec<Group>],
+        water: &[f64],
+        ledger: &Ledger,
+    ) {
         let (since, status) = (&self.since, &self.crack.solver.status);
-        let cracks = self.cracks.iter().enumerate().map(|(k, watch)| Snapshot {
-            status: &status[watch.contacts.clone()],
-            motion: &watch.motion,
-            force: since.force(k),
-            summary: &watch.summary,
-            ledger,
+        let cracks = self.cracks.iter().enumerate().map(|(k, watch)| {
+            let now = Snapshot {
+                status: &status[watch.contacts.clone()],
+                motion: &watch.motion,
+                force: since.force(k),
+                summary: &watch.summary,
+                ledger,
+            };
+            (now, watch.place.of(position(k)))
         });
         let damage = self.crack.bonds.as_ref().map_or(&[][..], |bonds| &bonds.damage);
-        self.frames.keep(cracks, position, since, status, damage);
+        self.frames.keep(cracks, since, status, damage);
         if self.wanted.modes {
             self.frames.keep_modes(&self.dam.bodies, modes);
             self.frames.water.extend_from_slice(water);
@@ -238,7 +254,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Take the stresses of a state into account, where they are wanted.
-    pub(super) fn stress<W: Lanes>(&mut self, modes: &Sides<&[Group]>) {
+    pub(super) fn stress<W: Lanes>(&mut self, modes: &[Vec<Group>]) {
         if let Some(envelope) = &mut self.envelope {
             envelope.add::<W>(self.cracks[0].summary.end_time, modes);
         }
@@ -275,12 +291,12 @@ impl<'a> Walk<'a> {
         !here || self.wanted.stop.asked()
     }
 
-    /// Hand over what there is to tell.
-    pub(super) fn end(self, ledger: Ledger, anchors: &[[f64; 2]]) -> Run {
+    /// Hand over what there is to tell; `anchors` has what those of a crack bore.
+    pub(super) fn end(self, ledger: Ledger, anchors: impl Fn(usize) -> Vec<[f64; 2]>) -> Run {
         let steps = &self.steps;
-        let told = |watch: Watch| Summary {
+        let summary = |(crack, watch): (usize, Watch)| Summary {
             ledger,
-            anchors: anchors.to_vec(),
+            anchors: anchors(crack),
             outcome: steps.outcome,
             steps: steps.steps,
             iterations: steps.iterations,
@@ -290,10 +306,10 @@ impl<'a> Walk<'a> {
             ..watch.summary
         };
         Run {
-            cracks: self.cracks.into_iter().map(told).collect(),
+            cracks: self.cracks.into_iter().enumerate().map(summary).collect(),
             frames: self.frames,
             worked: self.crack.laws.map_or_else(Vec::new, |laws| laws.contacts),
-            extremes: self.envelope.map(Envelope::end),
+            extremes: self.envelope.map_or_else(Vec::new, Envelope::end),
         }
     }
 }

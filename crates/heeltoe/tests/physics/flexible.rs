@@ -8,8 +8,7 @@
 //! ```
 
 use heeltoe::flexible::{
-    many, simulate, Dam, Inside, Line, Modes, ReducedBody, RockingThresholds, Run, Scheme, Shaking, Sides,
-    State, Wanted,
+    many, simulate, Dam, Line, Modes, ReducedBody, RockingThresholds, Run, Scheme, Shaking, State, Wanted,
 };
 use heeltoe::friction::Law;
 use heeltoe::stop::Stop;
@@ -81,16 +80,12 @@ pub fn pair_of_nodes(pair: &Pair) -> Dam {
     };
     let line = Line::only([2, 0], [pair.friction; 2], RockingThresholds::default());
     let dam = Dam {
-        bodies: Sides {
-            upper: ReducedBody::new(&modes).unwrap(),
-            lower: None,
-        },
+        bodies: vec![ReducedBody::new(&modes).unwrap()],
         cracks: vec![Line {
             law: pair.law.clone(),
             ..line
         }],
         contactors: 1,
-        inside: Inside::default(),
         reservoir: None,
         still: None,
     };
@@ -238,7 +233,7 @@ fn it_sticks_slips_lifts_and_lands_as_its_twin_does() {
         for (k, (ground, slip)) in ground.iter().zip(&slips(&run)[1..]).enumerate() {
             twin.step(*ground, dt, theta);
             near(*slip, twin.place[0], 1e-10);
-            near(run.frames.upper[4 * (k + 1) + 2], twin.place[1], 1e-10);
+            near(run.frames.upper[0][4 * (k + 1) + 2], twin.place[1], 1e-10);
             lifted += u32::from(twin.place[1] > 1e-4);
         }
         let crack = &run.cracks[0];

@@ -2,8 +2,8 @@
 //! not happen.
 
 use heeltoe::flexible::{
-    rest, simulate, Dam, Inside, Line, Modes, ReducedBody, Reservoir, RockingThresholds, Run, Scheme,
-    Shaking, Sides, Span, Wanted,
+    rest, simulate, Dam, Line, Modes, ReducedBody, Reservoir, RockingThresholds, Run, Scheme, Shaking, Span,
+    Wanted,
 };
 use heeltoe::stop::Stop;
 
@@ -108,10 +108,7 @@ impl Drawn {
 
     fn dam(&self, gap: f64) -> Dam {
         let dam = Dam {
-            bodies: Sides {
-                upper: self.body(0, gap),
-                lower: Some(self.body(1, gap)),
-            },
+            bodies: vec![self.body(0, gap), self.body(1, gap)],
             cracks: vec![Line {
                 nodes: [Span {
                     first: 0,
@@ -120,7 +117,6 @@ impl Drawn {
                 ..Line::only([NODES, NODES], [0.5; 2], RockingThresholds::default())
             }],
             contactors: 1,
-            inside: Inside::default(),
             reservoir: Some(
                 Reservoir::new(
                     &self.water_squares,
@@ -239,7 +235,7 @@ fn bodies_and_water_apart_move_as_one_system_of_equations() {
             speed = [0, 1].map(|k| speed[k] + change[k]);
         }
         let frames = &run.frames;
-        let ours = [&frames.modes_upper[..], &frames.modes_lower];
+        let ours = &frames.modes;
         for side in 0..2 {
             let last = &ours[side][ours[side].len() - MODES..];
             let most = last.iter().fold(0.0_f64, |a, q| a.max(q.abs()));

@@ -296,7 +296,7 @@ def _references(case: Case, dam: FlexibleDam) -> tuple[str, ...]:
         keys.append("water")
     if any(water[1::2].any() for water in moved):
         keys.append("sloped water")
-    if dam.water is not None:
+    if any(line.water is not None for line in dam.lines):
         keys.append(case.uplift.during_shaking)
     if case.concrete.tensile_strength is not None:
         keys.append("dynamic tension")

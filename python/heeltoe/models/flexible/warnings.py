@@ -22,7 +22,7 @@ from heeltoe.models.flexible.surroundings.rock import ENOUGH as ENOUGH_OF_ROCK
 from heeltoe.models.flexible.surroundings.rock import HIGHEST
 from heeltoe.models.runner import about_the_anchors, largest_rotation, outcome_of
 from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
-from heeltoe.result.numbers import EvidenceNumbers, SelfExcitation
+from heeltoe.result.numbers import AnchorForce, EvidenceNumbers, SelfExcitation
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
 
@@ -101,9 +101,15 @@ def warnings_of(
         *(left_out(case, max(abs(row.slip) for row in run.summaries), peak) if outcome == "ok" else ()),
         *_about_the_joints(case, dam),
         *_about_the_concrete(case, dam),
-        *about_the_anchors(anchors_of(case, run)),
+        *about_the_anchors(_most_loaded(case, run)),
         *_about_the_contact(case, run, histories),
     ]
+
+
+def _most_loaded(case: Case, run: DamRun) -> list[AnchorForce]:
+    """Return what each anchor bears at the crack at which it bears most."""
+    cracks = (anchors_of(alone, run, place) for place, alone in enumerate(case.single_crack_cases))
+    return [max(forces, key=lambda force: force.peak_tension_n) for forces in zip(*cracks, strict=True)]
 
 
 def _about_the_rock(case: Case, dam: FlexibleDam) -> Iterator[Notice]:

@@ -80,11 +80,11 @@ def _bounced(courant: float) -> _Bounced:
     per_period = int(np.ceil(_PERIOD / longest))
     step = _PERIOD / per_period
     bars = _two_bars()
-    dam = CrackedDam(bars, None, only_crack(bars, None, (0.5, 0.5)), 3)
+    dam = CrackedDam((bars,), only_crack((bars,), (0.5, 0.5)), 3)
     ground = np.zeros((3 * per_period, 2))
     run = dam.run(ground, step, 0.5, stride=1)
     summary, column = run.summary, run.frames
-    time, push = column.time, run.force[:, 2]
+    time, push = column.time, run.force[0][:, 2]
     # Between two contacts the bar is in the air for two seconds.
     touching = time[push > 1e-6 * _FORCE]
     begins = touching[np.diff(touching, prepend=-1.0) > 1.0]

@@ -182,7 +182,7 @@ def _elastic_rocking(dam: FlexibleDam, angle: float, slenderness: float) -> tupl
     """Return the same of an elastic block, and what contact has made over the turnover."""
     step, end = 5e-5, 2.5
     part = _leaning(dam, angle)
-    leaning = CrackedDam(part, None, only_crack(part, None, (1.0, 1.0)), 3)
+    leaning = CrackedDam((part,), only_crack((part,), (1.0, 1.0)), 3)
     rocking = leaning.run(np.zeros((round(end / step), 2)), step, 0.52, stride=1)
     time, turned = rocking.frames.time, rocking.frames.rotation
     # It strikes where it passes the upright; a face that flutters there passes more than once.

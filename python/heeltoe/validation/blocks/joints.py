@@ -141,7 +141,7 @@ def make_specimen(
     reduced, shapes, at = zip(*events, strict=True)
     count = at[0].size
     line = CrackLine((0, count), (0, count), (friction, friction), bond=bond)
-    return Specimen(bodies, CrackedDam(reduced[0], reduced[1], (line,), _CONTACTORS), shapes)
+    return Specimen(bodies, CrackedDam(reduced, (line,), _CONTACTORS), shapes)
 
 
 def _nearest(body: Body, place: tuple[float, float]) -> int:

@@ -2,7 +2,7 @@
 
 use super::super::contact::{Contactor, Contacts};
 use super::super::dam::Dam;
-use super::super::faces::Meeting;
+use super::super::faces::{Faces, Meeting};
 use super::super::place::Place;
 
 /// What a contact has of its crack.
@@ -16,11 +16,10 @@ pub(in super::super) struct Spot {
 
 /// Find those of all contacts, crack by crack.
 pub(in super::super) fn spots(dam: &Dam, contacts: &Contacts) -> Vec<Vec<Spot>> {
-    let faces = dam.bodies.faces(|body| &body.position);
     let places = Place::all(&dam.cracks);
-    let each = places.iter().zip(&dam.cracks).zip(contacts.of_cracks());
-    each.map(|((place, line), own)| {
-        let meeting = place.of(faces);
+    let cracks = places.iter().zip(&dam.cracks).zip(contacts.of_cracks()).enumerate();
+    cracks.map(|(crack, ((place, line), own))| {
+        let meeting = place.of(Faces::around(crack, &dam.bodies, |body| &body.position));
         let shares = [
             shares(meeting.upper.along, &line.angles[0]),
             shares(meeting.lower.along, &line.angles[1]),

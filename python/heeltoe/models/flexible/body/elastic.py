@@ -7,7 +7,7 @@ i downstream, 2 i + 1 that upwards."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -109,6 +109,11 @@ class Dam:
     def below(self, crack: int) -> Body | None:
         """The part below a crack, None where that is on a rigid plane."""
         return self.bodies[crack + 1] if crack + 1 < len(self.bodies) else None
+
+    def faces(self, crack: int) -> tuple[BodyMesh, ...]:
+        """The meshes above and, if there is one, below a crack, with its face alone."""
+        above, below = self.bodies[crack].mesh.facing(-1), self.below(crack)
+        return (above,) if below is None else (above, below.mesh.facing(0))
 
 
 def dam(case: Case, mesh: DamMesh) -> Dam:
@@ -300,11 +305,9 @@ def _body(case: Case, mesh: BodyMesh, place: int) -> Body:
 
 def _at_cracks(case: Case, mesh: BodyMesh, place: int) -> list[tuple[BodyMesh, Case, bool]]:
     """Return a part with each of its crack faces alone, the case with that crack alone, and whether it is above it."""
-    result = (
-        [] if place == 0 else [(replace(mesh, crack=mesh.faces[0], top=0), case.single_crack_cases[place - 1], False)]
-    )
+    result = [] if place == 0 else [(mesh.facing(0), case.single_crack_cases[place - 1], False)]
     if place < len(case.single_crack_cases):
-        result.append((replace(mesh, crack=mesh.faces[-1], top=0), case.single_crack_cases[place], True))
+        result.append((mesh.facing(-1), case.single_crack_cases[place], True))
     return result
 
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from heeltoe.base.arrays import Floats
 from heeltoe.base.blas import one_blas_thread
@@ -15,13 +13,13 @@ from heeltoe.case.model import Case
 from heeltoe.errors.error import expect
 from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.geometry.section import CutSection
-from heeltoe.kernel.dam import CrackedDam, CrackLine
+from heeltoe.kernel.dam import CrackAnchor, CrackedDam, CrackLine
 from heeltoe.mechanics.friction import law_of
 from heeltoe.models.flexible.body.bond import kernel_bond
 from heeltoe.models.flexible.body.bonded import NOT_OF_DAM, BondedDam, bonded_dam, case_key
 from heeltoe.models.flexible.body.damping import Damping, damping_of
 from heeltoe.models.flexible.body.elastic import Body, crack_forces
-from heeltoe.models.flexible.body.inside import CrackAnchor, FollowingWater, crack_anchors, following_water
+from heeltoe.models.flexible.body.inside import crack_anchors, following_water
 from heeltoe.models.flexible.body.modes import Modes
 from heeltoe.models.flexible.body.reservoir import WaterBody, water_body
 from heeltoe.models.flexible.body.rock import RockBody, founded, rock_body
@@ -114,8 +112,6 @@ class FlexibleDam(BondedDam):
         (2, k) forces on the nodes of each crack's upper face in it, along and across the crack [N].
     damping
         That of the concrete, with the periods of the intact dam.
-    water, anchors
-        What acts in the crack beside contact: water whose pressure changes, anchors with stiffness.
     lines
         The cracks as the kernel takes them.
     reservoir
@@ -135,8 +131,6 @@ class FlexibleDam(BondedDam):
     static: tuple[Floats, ...]
     crack_forces: tuple[Floats, ...]
     damping: Damping
-    water: FollowingWater | None
-    anchors: tuple[CrackAnchor, ...]
     lines: tuple[CrackLine, ...]
     reservoir: WaterBody | None
     rock: RockBody | None
@@ -151,6 +145,11 @@ class FlexibleDam(BondedDam):
     def give(self) -> tuple[float, float]:
         """That of the crack asked of, see :func:`heeltoe.models.flexible.body.rocking_thresholds.elastic_give`."""
         return self.lines[self.asked].give
+
+    @property
+    def anchors(self) -> tuple[CrackAnchor, ...]:
+        """Those with stiffness, crack by crack."""
+        return tuple(anchor for line in self.lines for anchor in line.anchors)
 
     @property
     def parts(self) -> tuple[ReducedBody, ...]:
@@ -204,9 +203,8 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
         part = replace(part, boundary=whole.rock + damping.between, start=part.start + whole.settled)
         reduced = (*reduced[:-1], part)
     rock = rock_body(case, bodies[-1], larger=larger)
-    water, anchors = following_water(case, bodies, rock), crack_anchors(case, bodies, rock)
     lines = _lines(case, bonded, rock)
-    kernel = _cracked(case, reduced, water, anchors, lines, reservoir, rock)
+    kernel = _cracked(case, reduced, lines, reservoir, rock)
     # The penalty method begins with its crack bonded and its springs unloaded.
     exact = case.flexible.contact == "coulomb"
     static, start = bonded.bent, Start(not exact, (0.0,) * len(lines), (0,) * len(lines))
@@ -217,12 +215,9 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
     rest = kernel.still() if exact else None
     if rest is not None:
         start = Start(True, rest.slips, rest.open_contacts)
-        amplitudes = apart(rest.modes, modes)
-        static = tuple(basis.shapes @ q for basis, q in zip(modes, amplitudes, strict=True))
-        forces = tuple(
-            rest.forces[place % 2][:, first : first + count]
-            for place, (first, count) in enumerate(line.upper for line in lines)
-        )
+        # Behind those of the dam are the modes of the rock.
+        static = tuple(basis.shapes @ q for basis, q in zip(modes, rest.modes, strict=False))
+        forces = rest.forces
     return FlexibleDam(
         **vars(bonded),
         section=case.cut,
@@ -234,8 +229,6 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
         static=static,
         crack_forces=forces,
         damping=damping,
-        water=water,
-        anchors=anchors,
         lines=lines,
         reservoir=reservoir,
         rock=rock,
@@ -246,88 +239,45 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
 def _cracked(
     case: Case,
     reduced: tuple[ReducedBody, ...],
-    water: FollowingWater | None,
-    anchors: tuple[CrackAnchor, ...],
     lines: tuple[CrackLine, ...],
     reservoir: WaterBody | None,
     rock: RockBody | None,
 ) -> CrackedDam:
-    if rock is not None:
-        reduced = (*reduced, _reduced_rock(rock, case.cut, reduced[0]))
-    upper, *lower = (side_by_side_in(reduced[first::2]) for first in range(min(2, len(reduced))))
-    contactors = case.flexible.contactors
-    return CrackedDam(
-        upper, lower[0] if lower else None, lines, contactors, water, anchors, reservoir, asked=case.asked
-    )
+    parts = reduced if rock is None else (*reduced, _reduced_rock(rock, case.cut, reduced[0]))
+    return CrackedDam(parts, lines, case.flexible.contactors, reservoir, asked=case.asked)
 
 
 def _lines(case: Case, bonded: BondedDam, rock: RockBody | None) -> tuple[CrackLine, ...]:
-    """Return the cracks of a case, with where their faces are among the nodes of the kernel's two bodies."""
-    # Parts that make up one body stand side by side in it, from the crest down.
-    sizes = [body.mesh.crack.size for body in bonded.bodies] + ([] if rock is None else [len(rock.points)])
-    firsts = [sum(sizes[place % 2 : place : 2]) for place in range(len(sizes))]
+    """Return the cracks of a case, with where their faces are among the nodes of the parts above and below them."""
     result = []
     for place, (alone, force) in enumerate(zip(case.single_crack_cases, bonded.bonded_forces, strict=True)):
-        above, below = bonded.bodies[place].mesh, bonded.below(place)
-        upper = firsts[place] + above.top, above.crack.size - above.top
-        lower = (0, 0) if below is None else (firsts[place + 1], below.mesh.faces[0].size)
-        if rock is not None and below is None:
-            lower = firsts[place + 1], len(rock.points)
-        friction, law = (alone.crack.mu_static, alone.crack.mu_kinetic), alone.crack.law
-        give = elastic_give(alone, alone.cut, force)
-        turned = (
-            angles(above, above.faces[-1], alone),
-            [] if below is None else angles(below.mesh, below.mesh.faces[0], alone),
+        above, faces = bonded.bodies[place].mesh, bonded.faces(place)
+        on_rock = rock if len(faces) == 1 else None
+        below = faces[1].crack.size if on_rock is None and len(faces) > 1 else 0
+        law = alone.crack.law
+        result.append(
+            CrackLine(
+                upper=(above.top, faces[0].crack.size),
+                lower=(0, len(on_rock.points) if on_rock is not None else below),
+                friction=(alone.crack.mu_static, alone.crack.mu_kinetic),
+                give=elastic_give(alone, alone.cut, force),
+                law=None if law is None else law_of(law),
+                angles=(
+                    angles(above, faces[0].crack, alone),
+                    [] if len(faces) == 1 else angles(faces[1], faces[1].crack, alone),
+                ),
+                bond=kernel_bond(alone, along_crack(bonded.bodies[place], alone.cut)),
+                water=following_water(alone, faces, on_rock),
+                anchors=crack_anchors(alone, faces, on_rock),
+            )
         )
-        along = along_crack(bonded.bodies[place], alone.cut)
-        bond = kernel_bond(alone, along)
-        result.append(CrackLine(upper, lower, friction, give, None if law is None else law_of(law), turned, bond))
     return tuple(result)
-
-
-def side_by_side_in(parts: tuple[ReducedBody, ...]) -> ReducedBody:
-    """Return parts of a dam that do not touch as one body of the kernel."""
-    if len(parts) == 1:
-        return parts[0]
-    ground = ("participation_horizontal", "participation_vertical")
-    names = ("omega_squared", "damping_sticking", "damping_free", "load", *ground, "start")
-    # Along the crack first, then across it.
-    along, across = (
-        block_diag(*(part.shapes.reshape(len(part.shapes), 2, -1)[:, axis] for part in parts)) for axis in (0, 1)
-    )
-    return ReducedBody(
-        **{name: np.concatenate([getattr(part, name) for part in parts]) for name in names},
-        shapes=np.hstack([along, across]),
-        position=np.concatenate([part.position.reshape(2, -1) for part in parts], axis=1).reshape(-1),
-        dampers=np.hstack([part.dampers for part in parts]),
-        damper_signs=parts[0].damper_signs,
-        wet=np.hstack([part.wet for part in parts]),
-        boundary=block_diag(*(_square(part) for part in parts))
-        if any(part.boundary.size for part in parts)
-        else parts[0].boundary,
-    )
-
-
-def _square(part: ReducedBody) -> Floats:
-    """Return the damping of its boundary over all of its modes."""
-    count = part.omega_squared.size
-    return part.boundary if part.boundary.size else np.zeros((count, count))
 
 
 def along_crack(above: Body, section: CutSection) -> Floats:
     """Return where the nodes of the part above a crack are along it (k,) [m]."""
     along: Floats = places(above.mesh.nodes[above.mesh.faces[-1]], section)[:, 0]
     return along
-
-
-def apart(of_bodies: Sequence[Floats], modes: tuple[Modes, ...]) -> tuple[Floats, ...]:
-    """Return what the kernel says of the modes of its two bodies, last axis, part by part from the crest down."""
-    result = [np.empty(0)] * len(modes)
-    for side in range(min(2, len(modes))):
-        sizes = [basis.omega_squared.size for basis in modes[side::2]]
-        # What comes after them is the rock.
-        result[side::2] = np.split(of_bodies[side], np.cumsum(sizes), axis=-1)[: len(sizes)]
-    return tuple(result)
 
 
 def damped(case: Case, dam: FlexibleDam, factor: float) -> FlexibleDam:
@@ -342,7 +292,7 @@ def damped(case: Case, dam: FlexibleDam, factor: float) -> FlexibleDam:
     if damping.between.size:
         boundary = reduced[-1].boundary + (damping.between - dam.damping.between)
         reduced = (*reduced[:-1], replace(reduced[-1], boundary=boundary))
-    kernel = _cracked(case, reduced, dam.water, dam.anchors, dam.lines, dam.reservoir, dam.rock)
+    kernel = _cracked(case, reduced, dam.lines, dam.reservoir, dam.rock)
     return replace(dam, reduced=reduced, damping=damping, kernel=kernel)
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.kernel.dam import CrackAnchor
 from heeltoe.models.flexible.body.bond import node_lengths
-from heeltoe.models.flexible.body.inside import CrackAnchor, FollowingWater
 from heeltoe.models.flexible.body.reduced import FlexibleDam, ReducedBody
 
 # Up to dt^2 stiffness / mass = 4 / (4 theta - 1) a spring is stable, at this it is followed with an error of 4 %.
@@ -20,14 +22,17 @@ def longest_step(dam: FlexibleDam, theta: float, step: float) -> tuple[float, st
     them within a step of dt, ``dt^2 W k`` has no eigenvalue above 1. Shorter steps have a larger W: a body answers
     more freely at once.
     """
-    bodies = dam.reduced
+
+    def largest(rate: Callable[[FlexibleDam, int, float, float], float]) -> float:
+        return max(rate(dam, place, theta, step) for place in range(len(dam.lines)))
+
     # Rock answers about as the part above it does.
     both = 1.0 if dam.rock is None else 2.0
     for _ in range(20):
         springs = [
-            ("uplift.opening", both * _water_rate(bodies, dam.water, theta, step)),
-            ("crack.bond", max((_bond_rate(dam, place, theta, step) for place in range(len(dam.lines))), default=0.0)),
-            ("anchors", both * max((_anchor_rate(bodies, anchor, theta, step) for anchor in dam.anchors), default=0.0)),
+            ("uplift.opening", both * largest(_water_rate)),
+            ("crack.bond", largest(_bond_rate)),
+            ("anchors", both * largest(_anchors_rate)),
         ]
         field, rate = max(springs, key=lambda spring: spring[1])
         if step * step * rate <= _FOLLOWED:
@@ -42,15 +47,22 @@ def _answer(body: ReducedBody, theta: float, step: float) -> Floats:
     return result
 
 
-def _water_rate(bodies: tuple[ReducedBody, ...], water: FollowingWater | None, theta: float, step: float) -> float:
+def _faces(dam: FlexibleDam, place: int) -> list[tuple[ReducedBody, int]]:
+    """Return the parts of the dam above and, if there is one, below a crack, with the first node of its face."""
+    line, parts = dam.lines[place], dam.reduced[place : place + 2]
+    return list(zip(parts, (line.upper[0], line.lower[0]), strict=False))
+
+
+def _water_rate(dam: FlexibleDam, place: int, theta: float, step: float) -> float:
+    water = dam.lines[place].water
     if water is None:
         return 0.0
     rate = 0.0
-    for body, still, full in zip(bodies, water.still, water.full, strict=False):
+    for (body, first), still, full in zip(_faces(dam, place), water.still, water.full, strict=False):
         change = full - still if water.law == "full while open" else still
         root = np.sqrt(np.abs(change) / water.opening)
-        count = root.size
-        across = _answer(body, theta, step)[count:, count:]
+        own = body.position.size // 2 + first
+        across = _answer(body, theta, step)[own : own + root.size, own : own + root.size]
         rate += float(np.linalg.eigvalsh(root[:, None] * across * root)[-1])
     return rate
 
@@ -61,20 +73,16 @@ def _bond_rate(dam: FlexibleDam, place: int, theta: float, step: float) -> float
     if line.bond is None:
         return 0.0
     tensile, cohesion, opening, shear, factor, first = line.bond
-    above = dam.reduced[place]
-    half, (_, count) = above.position.size // 2, line.upper
-    top = half - count
-    lengths = node_lengths(above.position[top:half])
+    bodies = _faces(dam, place)
+    (above, top), count = bodies[0], line.upper[1]
+    lengths = node_lengths(above.position[top : top + count])
+    if line.lower[1] not in (0, count):
+        # Faces of unlike meshes: the lower one answers about as the upper one does.
+        bodies = [bodies[0]] * 2
     rate = 0.0
     for direction, (strength, energy) in enumerate(((cohesion, shear), (tensile, opening))):
         root = np.sqrt(lengths * (factor * strength) ** 2 / (2.0 * first * energy))
         answer = np.zeros((count, count))
-        bodies = [(above, top)]
-        if line.lower[1] == count:
-            bodies.append((dam.reduced[place + 1], 0))
-        elif line.lower[1]:
-            # Faces of unlike meshes: the lower one answers about as the upper one does.
-            bodies.append((above, top))
         for body, start in bodies:
             own = direction * (body.position.size // 2) + start
             answer += _answer(body, theta, step)[own : own + count, own : own + count]
@@ -82,14 +90,19 @@ def _bond_rate(dam: FlexibleDam, place: int, theta: float, step: float) -> float
     return rate
 
 
-def _anchor_rate(bodies: tuple[ReducedBody, ...], anchor: CrackAnchor, theta: float, step: float) -> float:
+def _anchors_rate(dam: FlexibleDam, place: int, theta: float, step: float) -> float:
+    faces = _faces(dam, place)
+    return max((_anchor_rate(faces, anchor, theta, step) for anchor in dam.lines[place].anchors), default=0.0)
+
+
+def _anchor_rate(faces: list[tuple[ReducedBody, int]], anchor: CrackAnchor, theta: float, step: float) -> float:
     answer = np.zeros((2, 2))
-    for body, point in zip(bodies, anchor.points, strict=False):
+    for (body, first), point in zip(faces, anchor.points, strict=False):
         count = body.position.size // 2
         weights = np.zeros((2, 2 * count))
         for node, share in point:
-            weights[0, node] += share
-            weights[1, count + node] += share
+            weights[0, first + node] += share
+            weights[1, count + first + node] += share
         answer += weights @ _answer(body, theta, step) @ weights.T
     axis = np.array(anchor.axis)
     stiffness = anchor.axial_stiffness * np.outer(axis, axis) + anchor.shear_stiffness * np.diag([1.0, 0.0])

@@ -44,28 +44,11 @@ class StressPlaces:
     apart: float
 
 
-def in_bodies(places: tuple[StressPlaces, ...]) -> tuple[Floats, ...]:
-    """Return the rows of parts, from the crest down, as those of the kernel's two bodies: each has every other part."""
-    result = []
-    for side in range(min(2, len(places))):
-        rows = [item.rows for item in places[side::2]]
-        if len(rows) == 1:
-            result.append(rows[0])
-            continue
-        both = np.zeros((sum(len(row) for row in rows), sum(row.shape[1] for row in rows), 3))
-        place = mode = 0
-        for row in rows:
-            both[place : place + len(row), mode : mode + row.shape[1]] = row
-            place, mode = place + len(row), mode + row.shape[1]
-        result.append(both)
-    return tuple(result)
-
-
 @dataclass(frozen=True, eq=False)
 class StressRows:
-    """What the kernel takes: rows of its bodies, and the steps from one state that is looked at to the next."""
+    """What the kernel takes: rows of the parts, and the steps from one state that is looked at to the next."""
 
-    bodies: tuple[Floats, ...]
+    parts: tuple[Floats, ...]
     stride: int
 
 

@@ -68,6 +68,10 @@ class BodyMesh:
         """Nodes of each crack's face from the heel to the toe, the upper crack first."""
         return (self.crack[: self.top], self.crack[self.top :]) if self.top else (self.crack,)
 
+    def facing(self, face: int) -> BodyMesh:
+        """Return the part with one of its faces alone."""
+        return replace(self, crack=self.faces[face], top=0)
+
 
 @dataclass(frozen=True, eq=False)
 class DamMesh:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -65,29 +65,19 @@ class Peak:
     index: int
 
 
-def _of_parts(dam: FlexibleDam, run: DamRun) -> list[Mapping[str, Floats]]:
-    """Return the extremes that the kernel has of its bodies, part by part from the crest down."""
-    result: list[Mapping[str, Floats]] = [{}] * len(dam.bodies)
-    for side, table in enumerate(run.extremes):
-        ends = np.cumsum([stress_place.nodes.size for stress_place in dam.stress_places[side::2]])[:-1]
-        pieces = {name: np.split(values, ends) for name, values in table.by_name().items()}
-        result[side::2] = [{name: values[k] for name, values in pieces.items()} for k in range(ends.size + 1)]
-    return result
-
-
 def envelope_of(dam: FlexibleDam, run: DamRun) -> tuple[PartEnvelope, ...]:
     """Return the envelope of a run, part by part."""
     result = []
-    for body, places, static, raw in zip(dam.bodies, dam.stress_places, dam.static, _of_parts(dam, run), strict=True):
+    for body, places, static, raw in zip(dam.bodies, dam.stress_places, dam.static, run.extremes, strict=True):
         at_rest, _, _ = principal(stresses(body, static)[places.nodes])
         result.append(
             PartEnvelope(
                 nodes=places.nodes,
-                tension=raw["tension"],
-                tension_time=raw["tension_time"],
-                compression=raw["compression"],
-                compression_time=raw["compression_time"],
-                direction=np.arctan2(2.0 * raw["xz"], raw["xx"] - raw["zz"]) / 2.0,
+                tension=raw.tension,
+                tension_time=raw.tension_time,
+                compression=raw.compression,
+                compression_time=raw.compression_time,
+                direction=np.arctan2(2.0 * raw.xz, raw.xx - raw.zz) / 2.0,
                 before=at_rest,
                 bounded=places.bounded,
             )

@@ -14,7 +14,7 @@ from heeltoe.kernel.dam import DAM_STATES, DamRun
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import StaticState, build_block, static_state
 from heeltoe.models.flexible.body.bond import zone_mesh
-from heeltoe.models.flexible.body.reduced import FlexibleDam, along_crack, apart
+from heeltoe.models.flexible.body.reduced import FlexibleDam, along_crack
 from heeltoe.models.flexible.evidence.evidence import trusted
 from heeltoe.models.flexible.evidence.refinement import Answer
 from heeltoe.models.flexible.result.history import CrackHistory, watched_nodes
@@ -41,9 +41,9 @@ from heeltoe.result.numbers import (
 from heeltoe.result.response import Energy
 
 
-def anchors_of(case: Case, run: DamRun) -> list[AnchorForce]:
-    """Return what each anchor bears at most [N], and what it is good for."""
-    borne = iter(run.anchors.tolist())
+def anchors_of(case: Case, run: DamRun, place: int) -> list[AnchorForce]:
+    """Return what each anchor bears at most [N] at a crack, and what it is good for; `case` has it alone."""
+    borne = iter(run.anchors[place].tolist())
     forces = []
     for anchor in case.anchors_at_crack:
         tension, force = next(borne) if anchor.yields else (anchor.prestress, anchor.prestress)
@@ -57,26 +57,24 @@ def anchors_of(case: Case, run: DamRun) -> list[AnchorForce]:
 
 def histories_of_cracks(case: Case, dam: FlexibleDam, run: DamRun) -> tuple[CrackHistory, ...]:
     """Return the frames of a run, crack by crack from the crest down."""
-    time, modes = run.frames.time, apart(run.modes, dam.modes)
-    bodies = [table.reshape(time.size, 2, -1) for table in (run.upper, run.lower)]
-    nodes = bodies[0].shape[2]
-    # Of the only crack the kernel keeps the forces on the upper face alone.
-    split = np.split(run.force, [2 * nodes], axis=1)
-    forces = [table.reshape(time.size, 2, -1) for table in split]
+    time = run.frames.time
+
+    def by_direction(table: Floats) -> Floats:
+        return table.reshape(time.size, 2, -1)
+
     result, watched = [], 0
     for place, line in enumerate(dam.lines):
-        (first, count), (low, counted) = line.upper, line.lower
-        side = place % 2
+        count, counted = line.upper[1], line.lower[1]
         contacts = contactors_of([count, counted][: 1 + bool(counted)], case.flexible.contactors)
         result.append(
             CrackHistory(
                 time=time,
-                upper_position=bodies[side][:, :, first : first + count],
-                lower_position=bodies[1 - side][:, :, low : low + counted] if counted else None,
-                force=forces[side][:, :, first : first + count],
+                upper_position=by_direction(run.upper[place]),
+                lower_position=by_direction(run.lower[place]) if counted else None,
+                force=by_direction(run.force[place]),
                 status=run.status[:, watched : watched + contacts],
                 damage=run.damage[:, watched : watched + contacts] if line.bond is not None else None,
-                modes=modes,
+                modes=run.modes[: len(dam.modes)],
                 dam=dam,
                 contactors=case.flexible.contactors,
                 place=place,
@@ -120,7 +118,7 @@ def crack_numbers(
         crack_width_m=dam.sections[place].crack_width,
         friction=sliding_friction(case, place, dam) if several else None,
         crack_energy=CrackEnergy(friction_j=raw.crack_friction, impact_j=raw.crack_impact) if several else None,
-        anchors=anchors_of(case, run) if case.anchors else None,
+        anchors=anchors_of(case, run, place) if case.anchors else None,
         elastic_give=ElasticGive(rotation_rad=line.give[0], gap_m=line.give[1]),
         peak_normal_force_n=raw.peak_normal_force,
         before_shaking=start_of(dam, place) if case.flexible.contact == "coulomb" else None,
@@ -252,7 +250,7 @@ def crest_of(shaken: ShakenDam, run: DamRun) -> dict[str, Floats]:
     """Return the histories of the upstream edge of the crest."""
     dam, time = shaken.dam, run.frames.time
     row = 2 * int(dam.bodies[0].mesh.upstream[-1])
-    place = apart(run.modes, dam.modes)[0] @ dam.modes[0].shapes[row]
+    place = run.modes[0] @ dam.modes[0].shapes[row]
     ground = np.interp(time, shaken.shaking.time, shaken.shaking.horizontal)
     return crest_histories(time, place, ground)
 

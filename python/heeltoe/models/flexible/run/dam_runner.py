@@ -17,7 +17,7 @@ from heeltoe.models.flexible.body.inside import rising_water
 from heeltoe.models.flexible.body.modes import part_periods
 from heeltoe.models.flexible.body.reduced import FlexibleDam
 from heeltoe.models.flexible.body.step import longest_step
-from heeltoe.models.flexible.body.stress_places import StressRows, in_bodies
+from heeltoe.models.flexible.body.stress_places import StressRows
 from heeltoe.models.runner import STEP
 from heeltoe.motion.moments import step_ends, step_means
 from heeltoe.result.contract import JOINT_METER_M
@@ -111,7 +111,7 @@ class ShakenDam:
         if frame_step is not None:
             stride = max(1, min(count, round(frame_step / step)))
             often = max(1, round(min(_STRESS_STEP, frame_step) / step))
-            rows = StressRows(in_bodies(self.dam.stress_places), often) if stresses else None
+            rows = StressRows(tuple(item.rows for item in self.dam.stress_places), often) if stresses else None
         return self._shaken_dam.run(
             factor * ground,
             step,
@@ -157,7 +157,9 @@ class ShakenDam:
 
     @cached_property
     def _shaken_dam(self) -> CrackedDam:
-        return self.dam.kernel.under(rising_water(self.case, self.dam.bodies, self.dam.rock, self.shaking.drainage))
+        dam, drainage = self.dam, self.shaking.drainage
+        # The drainage follows the slip of the only crack.
+        return dam.kernel.under(rising_water(self.case, 0, dam.faces(0), dam.rock, drainage))
 
     def _ground(self, step: float) -> tuple[int, float, Floats]:
         """Return how many steps of about this length make the whole run, their length [s], and what the kernel needs to
