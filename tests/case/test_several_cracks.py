@@ -48,10 +48,6 @@ def test_cracks_stand_from_the_crest_down_and_inherit_friction_and_uplift():
             "anchors[0].distance: an anchor placed on one crack cannot be combined with",
         ),
         (
-            {"uplift.during_shaking": "zero while open"},
-            'uplift.during_shaking: uplift that changes during shaking ("zero while open") cannot',
-        ),
-        (
             {"flexible.damping": "thesis"},
             'flexible.damping: options of the thesis ("thesis") cannot be combined with several cracks',
         ),

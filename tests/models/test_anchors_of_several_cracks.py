@@ -75,10 +75,6 @@ def test_static_checks_of_each_section_know_the_anchor():
     [
         ({"distance": "5 m", "prestress": "1 MN/m"}, "anchors[0].distance: an anchor placed on one crack cannot"),
         (
-            THROUGH | {"axial_stiffness": "10 MN/m/m"},
-            "anchors[0].axial_stiffness: an anchor with stiffness cannot be combined",
-        ),
-        (
             THROUGH | {"head_elevation": "90.5 m", "foot_elevation": "89.5 m"},
             "anchors[0].foot_x: the line from its head",
         ),

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use heeltoe::flexible::{
-    many, rest, simulate, BondLaw, Dam, FaceAnchor, Inside, Line, Modes, Penalty, Point, RisingWater,
-    RockingThresholds, Scheme, Shaking, Span, Stressed, Stresses, Summary, UntilRest, Wanted,
+    many, rest, simulate, BondLaw, Crossing, Dam, FaceAnchor, Inside, Line, Modes, Penalty, Point,
+    RisingWater, RockingThresholds, Scheme, Shaking, Span, Stressed, Stresses, Summary, UntilRest, Wanted,
 };
 use heeltoe::inside::Law;
 use numpy::{PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
@@ -128,6 +128,7 @@ fn faces(given: &[Numbers]) -> PyResult<[Vec<f64>; 2]> {
 /// An anchor as Python gives it.
 #[derive(FromPyObject)]
 pub struct CrackAnchor {
+    anchor: usize,
     points: Vec<Point>,
     axis: [f64; 2],
     prestress: f64,
@@ -139,7 +140,10 @@ impl CrackAnchor {
     fn anchor(&self) -> FaceAnchor {
         let point = |face: usize| self.points.get(face).copied().unwrap_or_default();
         FaceAnchor {
-            place: [point(0), point(1)],
+            place: Crossing {
+                anchor: self.anchor,
+                points: [point(0), point(1)],
+            },
             axis: self.axis,
             prestress: self.prestress,
             axial_stiffness: self.axial_stiffness,

@@ -70,24 +70,25 @@ pub struct Anchor<Place> {
 }
 
 impl<Place> Anchor<Place> {
-    fn elongation(&self, moved: [f64; 2]) -> f64 {
+    /// Elongation where its upper end has moved so far along and across the crack.
+    pub(crate) fn elongation(&self, moved: [f64; 2]) -> f64 {
         self.axis[0] * moved[0] + self.axis[1] * moved[1]
     }
 
-    /// Tension where its upper end has moved so far along and across the crack.
-    pub(crate) fn tension(&self, moved: [f64; 2]) -> f64 {
-        (self.prestress + self.axial_stiffness * self.elongation(moved)).max(0.0)
+    /// Tension at an elongation, which may be that at several cracks.
+    pub(crate) fn tension(&self, elongation: f64) -> f64 {
+        (self.prestress + self.axial_stiffness * elongation).max(0.0)
     }
 
     /// Tension, and the force that it bears with its resistance to slip.
-    pub(crate) fn borne(&self, moved: [f64; 2]) -> [f64; 2] {
-        let tension = self.tension(moved);
+    pub(crate) fn borne(&self, moved: [f64; 2], elongation: f64) -> [f64; 2] {
+        let tension = self.tension(elongation);
         [tension, tension.hypot(self.shear_stiffness * moved[0])]
     }
 
-    /// Force along and across the crack on the part above.
+    /// Force along and across the only crack on the part above.
     pub(crate) fn pull(&self, moved: [f64; 2]) -> [f64; 2] {
-        let tension = self.tension(moved);
+        let tension = self.tension(self.elongation(moved));
         [
             -tension * self.axis[0] - self.shear_stiffness * moved[0],
             -tension * self.axis[1],
@@ -95,18 +96,21 @@ impl<Place> Anchor<Place> {
     }
 
     /// The force beyond that of the prestress, on the part below.
-    pub(crate) fn pull_beyond_prestress(&self, moved: [f64; 2]) -> [f64; 2] {
-        let more = self.tension(moved) - self.prestress;
+    pub(crate) fn pull_beyond_prestress(&self, moved: [f64; 2], elongation: f64) -> [f64; 2] {
+        let more = self.tension(elongation) - self.prestress;
         let dowel = [self.shear_stiffness * moved[0], 0.0];
         [0, 1].map(|d| more * self.axis[d] + dowel[d])
     }
 
-    /// Energy stored beyond the work of the prestress.
-    pub(crate) fn energy(&self, moved: [f64; 2]) -> f64 {
-        let e = self.elongation(moved);
-        let dowel = 0.5 * self.shear_stiffness * moved[0] * moved[0];
+    /// Energy stored by resistance to slip.
+    pub(crate) fn dowel_energy(&self, moved: [f64; 2]) -> f64 {
+        0.5 * self.shear_stiffness * moved[0] * moved[0]
+    }
+
+    /// Energy stored by elongation beyond the work of the prestress.
+    pub(crate) fn axial_energy(&self, e: f64) -> f64 {
         if self.prestress + self.axial_stiffness * e > 0.0 {
-            return dowel + 0.5 * self.axial_stiffness * e * e;
+            return 0.5 * self.axial_stiffness * e * e;
         }
         // Slack: from where its tension vanished only the prestress is missing.
         let slack = if self.axial_stiffness > 0.0 {
@@ -114,7 +118,7 @@ impl<Place> Anchor<Place> {
         } else {
             0.0
         };
-        dowel - slack - self.prestress * e
+        -slack - self.prestress * e
     }
 }
 
@@ -144,18 +148,18 @@ mod tests {
     #[test]
     fn a_slack_anchor_pulls_nothing() {
         assert_eq!(ANCHOR.pull([0.0, 0.0]), [-6.0, -8.0]);
-        assert_eq!(ANCHOR.pull_beyond_prestress([0.0, 0.0]), [0.0, 0.0]);
-        assert_eq!(ANCHOR.tension([-0.5, 0.0]), 0.0);
+        assert_eq!(ANCHOR.pull_beyond_prestress([0.0, 0.0], 0.0), [0.0, 0.0]);
+        assert_eq!(ANCHOR.tension(-0.3), 0.0);
         assert_eq!(ANCHOR.pull([-0.5, 0.0]), [25.0, 0.0]);
     }
 
     #[test]
     fn an_anchor_bears_tension_and_shear_together() {
         // A tension of 10 + 100 * 0.3 * 0.6 = 28, and a shear of 50 * 0.3 = 15.
-        let [tension, force] = ANCHOR.borne([0.3, 0.0]);
+        let [tension, force] = ANCHOR.borne([0.3, 0.0], 0.18);
         assert!((tension - 28.0).abs() < 1e-12);
         assert!((force - 28_f64.hypot(15.0)).abs() < 1e-12);
-        assert_eq!(ANCHOR.borne([-0.5, 0.0]), [0.0, 25.0]);
+        assert_eq!(ANCHOR.borne([-0.5, 0.0], -0.3), [0.0, 25.0]);
     }
 
     #[test]
@@ -165,10 +169,12 @@ mod tests {
         let work: f64 = (0..n)
             .map(|k| {
                 let share = (f64::from(k) + 0.5) / f64::from(n);
-                let force = ANCHOR.pull_beyond_prestress(end.map(|x| x * share));
+                let moved = end.map(|x| x * share);
+                let force = ANCHOR.pull_beyond_prestress(moved, ANCHOR.elongation(moved));
                 (force[0] * end[0] + force[1] * end[1]) / f64::from(n)
             })
             .sum();
-        assert!((ANCHOR.energy(end) - work).abs() < 1e-8, "{work}");
+        let stored = ANCHOR.axial_energy(ANCHOR.elongation(end)) + ANCHOR.dowel_energy(end);
+        assert!((stored - work).abs() < 1e-8, "{work}");
     }
 }

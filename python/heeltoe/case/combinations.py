@@ -296,9 +296,7 @@ RULES = (
     Rule(
         "an anchor placed on one crack", "several cracks", (), "the place is on one crack, and the anchor may cross all"
     ),
-    Rule("an anchor with stiffness", "several cracks", (), _ONE_CRACK),
     Rule("roughness", "several cracks", (), _ONE_CRACK),
-    Rule("uplift that changes during shaking", "several cracks", (), _ONE_CRACK),
     Rule("penalty contact", "several cracks", (), _ONE_CRACK),
     Rule("options of the thesis", "several cracks", (), _ONE_CRACK),
     Rule("meshes from files", "several cracks", (), _ONE_CRACK),
@@ -347,6 +345,8 @@ RULES = (
     Rule("a friction law", "several cracks", ("rigid",), "two blocks have constant coefficients of friction"),
     Rule("rotation beyond small angles", "several cracks", ("rigid",), "two blocks rotate by small angles"),
     Rule("virtual water that does not rotate", "several cracks", ("rigid",), "the virtual water of two blocks rotates"),
+    Rule("an anchor with stiffness", "several cracks", ("rigid",), "the anchors of two blocks pull with constant forces"),
+    Rule("uplift that changes during shaking", "several cracks", ("rigid",), "the uplift of two blocks is constant"),
     Rule("Zangar's water pressure", "several cracks", ("rigid",), "the virtual water of two blocks is Westergaard's"),
     Rule("roughness", "", ("flexible",), "the faces of its cracks are smooth"),
     Rule("a friction law", "penalty contact", ("flexible",), _NO_PENALTY),

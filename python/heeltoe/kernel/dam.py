@@ -50,10 +50,12 @@ class FollowingWater:
 
 @dataclass(frozen=True)
 class CrackAnchor:
-    """An anchor with stiffness.
+    """An anchor with stiffness where it crosses a crack.
 
     Attributes
     ----------
+    anchor
+        Which anchor of the dam: one that crosses several cracks has one tension, by its elongation at all of them.
     points
         Where it crosses the upper and, if there is one, the lower face: nodes of the face from 0 with their shares.
     axis
@@ -62,6 +64,7 @@ class CrackAnchor:
         Tension at the start [N], what it gains by opening along its axis and resistance by slip [N/m].
     """
 
+    anchor: int
     points: tuple[tuple[tuple[int, float], ...], ...]
     axis: tuple[float, float]
     prestress: float

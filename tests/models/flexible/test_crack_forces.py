@@ -10,8 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from heeltoe import GroundMotion, InputError, flexible, read_case
-from heeltoe.kernel.dam import CrackedDam, only_crack
-from heeltoe.models.flexible.body.inside import FollowingWater
+from heeltoe.kernel.dam import CrackedDam, FollowingWater, only_crack
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.body.step import longest_step
 from shared.dams import BASE, FAST
@@ -162,12 +161,10 @@ def test_a_change_over_a_wide_opening_is_none(elevation):
     shaking = np.column_stack([np.interp(np.arange(0.0, 1.0, 2e-4), TIME, SHAKEN.acceleration), np.zeros(5000)])
 
     def slip(opening):
-        water = dataclasses.replace(dam.water, opening=opening) if opening else None
-        upper, lower = (*dam.reduced, None)[:2]
+        (line,) = dam.lines
+        water = dataclasses.replace(line.water, opening=opening) if opening else None
         return (
-            CrackedDam(upper, lower, only_crack(upper, lower, (1.0, 1.0)), 3, water)
-            .run(shaking, 2e-4, 0.52)
-            .summary.slip
+            CrackedDam(dam.reduced, [dataclasses.replace(line, water=water)], 3).run(shaking, 2e-4, 0.52).summary.slip
         )
 
     assert abs(slip(None)) > 0.01
@@ -190,7 +187,8 @@ def test_a_rising_block_by_its_equation_of_motion(law):
     part = dam.reduced[0]
     pressed = dataclasses.replace(part, load=part.load + part.shapes[:, 5:] @ (still * share))
     water = FollowingWater(law, opening, (still * share,), (reservoir * share,))
-    kernel = CrackedDam(pressed, None, only_crack(pressed, None, (0.3, 0.3)), 3, water)
+    (line,) = only_crack((pressed,), (0.3, 0.3))
+    kernel = CrackedDam((pressed,), [dataclasses.replace(line, water=water)], 3)
     step, steps = 2e-5, 2000
     run = kernel.run(np.tile([0.0, -fall], (steps, 1)), step, 0.52, stride=10)
     time, rise = run.frames.time, run.frames.opening_heel

@@ -91,12 +91,12 @@ def test_twin(theta, damping):
     one = dam(across=1, damping=damping)
     a = ground(400, 1e-3)
     ours = run(one, a, 1e-3, theta)
-    states, place = twin(one.reduced[0], (ours.modes[0][0], ours.upper[0]), FRICTION, a, 1e-3, theta)
+    states, place = twin(one.reduced[0], (ours.modes[0][0], ours.upper[0][0]), FRICTION, a, 1e-3, theta)
     # It did something: slid, and opened.
     assert abs(ours.summary.slip) > 1e-3
     assert ours.summary.opening_heel > 1e-4
     assert ours.modes[0] == pytest.approx(states, rel=1e-7, abs=1e-7 * np.abs(states).max())
-    assert ours.upper[-1] == pytest.approx(place, abs=1e-9)
+    assert ours.upper[0][-1] == pytest.approx(place, abs=1e-9)
 
 
 # Laws of every run
@@ -107,7 +107,7 @@ def test_twin(theta, damping):
 def test_friction_stays_in_its_cone_and_nothing_pulls(elevation, contactors):
     one = dam(elevation, across=3, contactors=contactors)
     ours = run(one, ground(1500, 1e-3, 0.8 * G), 1e-3)
-    along, across = ours.force.reshape(len(ours.force), 2, -1).swapaxes(0, 1)
+    along, across = ours.force[0].reshape(len(ours.force[0]), 2, -1).swapaxes(0, 1)
     largest = across.max()
     assert across.min() >= -1e-12 * largest
     if contactors == 3 and elevation == 0.0:
@@ -149,13 +149,13 @@ def test_frames_change_nothing():
     one, a = dam(8.0), ground(1000, 1e-3)
     fine, coarse = run(one, a, 1e-3), run(one, a, 1e-3, stride=100)
     assert fine.summary == coarse.summary
-    assert (coarse.upper == fine.upper[::100]).all()
+    assert (coarse.upper[0] == fine.upper[0][::100]).all()
     # Impulses are summed up from frame to frame.
-    assert coarse.force[1:] == pytest.approx(fine.force[1:].reshape(10, 100, -1).mean(axis=1))
+    assert coarse.force[0][1:] == pytest.approx(fine.force[0][1:].reshape(10, 100, -1).mean(axis=1))
     none = one.kernel.run(a, 1e-3, 0.52)
     assert none.summary == fine.summary
     assert not any(
-        table.size for table in (*none.frames.by_name().values(), none.upper, none.force, none.status, *none.modes)
+        table.size for table in (*none.frames.by_name().values(), *none.upper, *none.force, none.status, *none.modes)
     )
 
 
@@ -200,9 +200,9 @@ def test_a_lower_part_that_cannot_move_is_a_plane(contactors):
         wet=np.empty((0, 1)),
         boundary=np.empty((0, 0)),
     )
-    response = CrackedDam(
-        one.reduced[0], still, only_crack(one.reduced[0], still, (FRICTION, FRICTION)), contactors
-    ).run(a, dt, 0.52, stride=1)
+    parts = one.reduced[0], still
+    line = only_crack(parts, (FRICTION, FRICTION))
+    response = CrackedDam(parts, line, contactors).run(a, dt, 0.52, stride=1)
     plane = run(one, a, dt)
     assert abs(plane.summary.slip) > 0.05
     assert response.frames.slip == pytest.approx(plane.frames.slip, abs=1e-9)
@@ -221,7 +221,7 @@ def test_parts_that_do_not_fit_are_refused():
     ):
         misfit = dataclasses.replace(part, **wrong)
         with pytest.raises(ValueError, match=text):
-            CrackedDam(misfit, None, only_crack(misfit, None, (0.5, 0.5)), 3)
+            CrackedDam((misfit,), only_crack((misfit,), (0.5, 0.5)), 3)
 
 
 # Random dams

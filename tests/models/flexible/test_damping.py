@@ -205,8 +205,9 @@ def test_parts_must_agree_in_their_dashpots():
     lower = dataclasses.replace(
         one.reduced[1], dampers=np.empty((0, one.reduced[1].load.size)), damper_signs=np.empty(0)
     )
+    parts = one.reduced[0], lower
     with pytest.raises(ValueError, match="dashpot"):
-        CrackedDam(one.reduced[0], lower, only_crack(one.reduced[0], lower, (0.6, 0.6)), 3)
+        CrackedDam(parts, only_crack(parts, (0.6, 0.6)), 3)
 
 
 def test_the_penalty_method_wants_a_damping_without_dashpots():

@@ -54,7 +54,6 @@ def test_the_base_alone_where_the_neck_is_bonded(monkeypatch):
 
 
 def test_three_cracks_are_two_where_the_middle_one_is_bonded():
-    """Then the first and the third part stand side by side in one body of the kernel."""
     fields = DAM | {"crack": {"elevation": "12 m", "friction": 0.7}}
     fields["further_cracks"] = [{"elevation": "90 m", "friction": 0.8}, {"elevation": "40 m", "friction": 1.0}]
     case = read_case(fields)

@@ -9,7 +9,8 @@
 //! ```
 //!
 //! Then an anchor by itself is as stable, up to `dt^2 stiffness / mass = 4 / (4 theta - 1)`, as the scheme is with the
-//! stiffness of the concrete, and loses energy at the same small rate. The static pressure and the prestress are among
+//! stiffness of the concrete, and loses energy at the same small rate. An anchor that crosses several cracks has one
+//! tension, which goes by what it is elongated at all of them; it resists slip at each by itself. The static pressure and the prestress are among
 //! the static loads of the bodies; here are the differences from them.
 
 use super::crack_line::Line;
@@ -63,9 +64,18 @@ impl RisingWater {
 /// A point of a face: its nodes with their weights.
 pub type Point = [(usize, f64); 3];
 
-/// An anchor between two points that face each other before the earthquake: on the upper face and on the lower one, the
-/// latter not used on a rigid plane.
-pub type FaceAnchor = Anchor<[Point; 2]>;
+/// Where an anchor crosses a crack.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing {
+    /// Which anchor of the dam it is.
+    pub anchor: usize,
+    /// Points that face each other before the earthquake: on the upper face and on the lower one, the latter not used on a
+    /// rigid plane.
+    pub points: [Point; 2],
+}
+
+/// An anchor at one of its cracks.
+pub type FaceAnchor = Anchor<Crossing>;
 
 /// All that acts in a crack beside contact.
 #[derive(Clone, Debug, Default)]
@@ -94,7 +104,7 @@ impl Inside {
             }
         }
         let there = |anchor: &FaceAnchor| {
-            let mut faces = anchor.place.iter().zip(counts);
+            let mut faces = anchor.place.points.iter().zip(counts);
             faces.all(|(point, count)| point.iter().all(|(node, _)| *node < count.max(1)))
         };
         if !self.anchors.iter().all(there) {
@@ -110,6 +120,8 @@ pub(super) struct CrackForces<'a> {
     cracks: Vec<Acting<'a>>,
     /// Steps so far.
     steps: u32,
+    /// Elongation of each anchor of the dam at all of its cracks.
+    elongation: Vec<f64>,
     /// Energy in the anchors.
     pub stored: f64,
 }
@@ -122,8 +134,9 @@ struct Acting<'a> {
     rising: Vec<&'a RisingWater>,
     /// Gap of each node at the start, up to which the static pressure holds.
     gaps: [Vec<f64>; 2],
-    /// How far apart the points of each anchor were at the start.
+    /// How far apart the points of each anchor were at the start, and how far they have moved against each other.
     apart: Vec<[f64; 2]>,
+    moved: Vec<[f64; 2]>,
     /// Impulses of water and of anchors in this step on the nodes of the upper and of the lower face, all along the crack,
     /// then all across it.
     water: [Vec<f64>; 2],
@@ -149,9 +162,12 @@ impl<'a> CrackForces<'a> {
             acts.then(|| Acting::new(crack, place, inside, rising, place.of(start(crack))))
         };
         let cracks: Vec<_> = places.filter_map(acting).collect();
+        let anchors = lines.iter().flat_map(|line| &line.inside.anchors);
+        let count = anchors.map(|anchor| anchor.place.anchor + 1).max();
         (!cracks.is_empty()).then_some(CrackForces {
             cracks,
             steps: 0,
+            elongation: vec![0.0; count.unwrap_or(0)],
             stored: 0.0,
         })
     }
@@ -170,8 +186,22 @@ impl<'a> CrackForces<'a> {
                 [position(acting.crack), velocity(acting.crack)].map(|faces| acting.place.of(faces));
             acting.go_ahead(position, velocity, step);
             acting.follow(step);
-            acting.pull(step);
             acting.rise(time, step);
+            acting.stretch_ahead();
+        }
+        self.add_up();
+        for acting in &mut self.cracks {
+            acting.pull(&self.elongation, step);
+        }
+    }
+
+    /// Add up how far the anchors are elongated.
+    fn add_up(&mut self) {
+        self.elongation.fill(0.0);
+        for acting in &self.cracks {
+            for (anchor, moved) in acting.inside.anchors.iter().zip(&acting.moved) {
+                self.elongation[anchor.place.anchor] += anchor.elongation(*moved);
+            }
         }
     }
 
@@ -209,15 +239,25 @@ impl<'a> CrackForces<'a> {
 
     /// Note what the anchors bear where the nodes are now, and return by how much their energy has grown.
     pub(super) fn settle<'f>(&mut self, position: impl Fn(usize) -> Faces<'f>) -> f64 {
-        let before = self.stored;
-        self.stored = 0.0;
         for acting in &mut self.cracks {
             let faces = acting.place.of(position(acting.crack));
+            stretch(&mut acting.moved, acting.inside, faces, &acting.apart);
+        }
+        self.add_up();
+        let before = self.stored;
+        self.stored = 0.0;
+        // Elongation is stored once, wherever it is.
+        let mut stored = vec![false; self.elongation.len()];
+        for acting in &mut self.cracks {
             for (k, anchor) in acting.inside.anchors.iter().enumerate() {
-                let moved = since(anchor, faces, &acting.apart[k]);
-                let borne = anchor.borne(moved);
+                let (moved, which) = (acting.moved[k], anchor.place.anchor);
+                let elongation = self.elongation[which];
+                let borne = anchor.borne(moved, elongation);
                 acting.peaks[k] = [0, 1].map(|i| acting.peaks[k][i].max(borne[i]));
-                self.stored += anchor.energy(moved);
+                self.stored += anchor.dowel_energy(moved);
+                if !std::mem::replace(&mut stored[which], true) {
+                    self.stored += anchor.axial_energy(elongation);
+                }
             }
         }
         self.stored - before
@@ -244,6 +284,7 @@ impl<'a> Acting<'a> {
             inside,
             rising,
             apart: inside.anchors.iter().map(|anchor| apart(anchor, start)).collect(),
+            moved: vec![[0.0; 2]; inside.anchors.len()],
             gaps: [
                 gaps(start.upper, start.lower, 1.0),
                 gaps(start.lower, start.upper, -1.0),
@@ -260,11 +301,7 @@ impl<'a> Acting<'a> {
     fn go_ahead(&mut self, position: Meeting, velocity: Meeting, TimeStep { dt, theta }: TimeStep) {
         let pairs = [(position.upper, velocity.upper), (position.lower, velocity.lower)];
         for (ahead, (x, u)) in self.ahead.iter_mut().zip(pairs) {
-            let moves = x
-                .along
-                .iter()
-                .chain(x.across)
-                .zip(u.along.iter().chain(u.across));
+            let moves = x.along.iter().chain(x.across).zip(u.along.iter().chain(u.across));
             for (ahead, (x, u)) in ahead.iter_mut().zip(moves) {
                 *ahead = x + theta * dt * u;
             }
@@ -286,14 +323,23 @@ impl<'a> Acting<'a> {
         }
     }
 
-    /// Let the anchors stretch.
-    fn pull(&mut self, TimeStep { dt, .. }: TimeStep) {
-        self.anchors.iter_mut().for_each(|face| face.fill(0.0));
+    /// Find how the points of the anchors would have moved.
+    fn stretch_ahead(&mut self) {
         let [upper, lower] = [0, 1].map(|face| Face::whole(&self.ahead[face]));
-        let faces = Meeting { upper, lower };
-        for (anchor, start) in self.inside.anchors.iter().zip(&self.apart) {
-            let force = anchor.pull_beyond_prestress(since(anchor, faces, start));
-            for (face, (points, sign)) in anchor.place.iter().zip([-1.0, 1.0]).enumerate() {
+        stretch(
+            &mut self.moved,
+            self.inside,
+            Meeting { upper, lower },
+            &self.apart,
+        );
+    }
+
+    /// Let the anchors pull, by their elongations.
+    fn pull(&mut self, elongation: &[f64], TimeStep { dt, .. }: TimeStep) {
+        self.anchors.iter_mut().for_each(|face| face.fill(0.0));
+        for (anchor, moved) in self.inside.anchors.iter().zip(&self.moved) {
+            let force = anchor.pull_beyond_prestress(*moved, elongation[anchor.place.anchor]);
+            for (face, (points, sign)) in anchor.place.points.iter().zip([-1.0, 1.0]).enumerate() {
                 let nodes = self.anchors[face].len() / 2;
                 for &(node, weight) in points.iter().take(if nodes > 0 { 3 } else { 0 }) {
                     for (direction, force) in force.iter().enumerate() {
@@ -346,14 +392,17 @@ fn apart(anchor: &FaceAnchor, faces: Meeting) -> [f64; 2] {
             point.iter().map(share).sum::<f64>()
         }
     };
-    let [above, below] = &anchor.place;
+    let [above, below] = &anchor.place.points;
     [
         of(faces.upper.along, above) - of(faces.lower.along, below),
         of(faces.upper.across, above) - of(faces.lower.across, below),
     ]
 }
 
-fn since(anchor: &FaceAnchor, faces: Meeting, start: &[f64; 2]) -> [f64; 2] {
-    let now = apart(anchor, faces);
-    [now[0] - start[0], now[1] - start[1]]
+/// Write how far the points of each anchor have moved against each other.
+fn stretch(moved: &mut [[f64; 2]], inside: &Inside, faces: Meeting, start: &[[f64; 2]]) {
+    for ((moved, anchor), start) in moved.iter_mut().zip(&inside.anchors).zip(start) {
+        let now = apart(anchor, faces);
+        *moved = [now[0] - start[0], now[1] - start[1]];
+    }
 }

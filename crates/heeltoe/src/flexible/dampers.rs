@@ -173,11 +173,7 @@ impl HeldNodes {
 }
 
 impl<'a> Dampers<'a> {
-    pub(super) fn new(
-        bodies: &[ModalStepper<'a>],
-        reservoir: Option<&'a Reservoir>,
-        step: TimeStep,
-    ) -> Self {
+    pub(super) fn new(bodies: &[ModalStepper<'a>], reservoir: Option<&'a Reservoir>, step: TimeStep) -> Self {
         let (dashpots, count) = (bodies[0].body.dampers, bodies[0].body.rows());
         let weight = step.dt * step.theta;
         let water = reservoir.map(|reservoir| Water::new(reservoir, step));

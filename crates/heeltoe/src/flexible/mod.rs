@@ -45,7 +45,7 @@ mod walk;
 
 pub use body::{Modes, ReducedBody};
 pub use bond::Cracked;
-pub use crack_forces::{FaceAnchor, FollowingWater, Inside, Point, RisingWater};
+pub use crack_forces::{Crossing, FaceAnchor, FollowingWater, Inside, Point, RisingWater};
 pub use crack_line::{BondLaw, Line, RockingThresholds, Span};
 pub use dam::{Dam, Shaking, UntilRest, Wanted};
 pub use envelope::{Extreme, Stressed, Stresses};

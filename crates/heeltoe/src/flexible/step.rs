@@ -92,7 +92,11 @@ fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
         moreau.keep(&ledger);
     }
     let acting = moreau.acting;
-    let anchors = |crack| acting.as_ref().map_or_else(Vec::new, |acting| acting.peaks(crack));
+    let anchors = |crack| {
+        acting
+            .as_ref()
+            .map_or_else(Vec::new, |acting| acting.peaks(crack))
+    };
     moreau.walk.end(ledger, anchors)
 }
 
@@ -285,7 +289,9 @@ impl<'a> Moreau<'a> {
     /// Work of the impulses of water and anchors on the velocities as they are.
     fn acted(&self) -> [f64; 2] {
         let acting = self.acting.as_ref();
-        acting.map_or([0.0; 2], |acting| acting.work(|crack| self.linear.velocity(crack)))
+        acting.map_or([0.0; 2], |acting| {
+            acting.work(|crack| self.linear.velocity(crack))
+        })
     }
 
     /// Book it, from what it was before the step.

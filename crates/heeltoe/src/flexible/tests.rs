@@ -321,14 +321,7 @@ fn what_has_not_moved_keeps_its_answer() {
                 problem,
                 ..
             } = &mut kept;
-            blocks.fill(
-                &mut problem.g,
-                contacts,
-                &answer,
-                Holding::Gain(&[]),
-                0.1,
-                wanted,
-            );
+            blocks.fill(&mut problem.g, contacts, &answer, Holding::Gain(&[]), 0.1, wanted);
             partly += usize::from(kept.contacts.moved.contains(&false));
             let mut new = Crack::new(&dam, 0, true);
             new.contacts.pairs.clone_from(&kept.contacts.pairs);

@@ -56,7 +56,10 @@ fn column(run: &Run, name: &str) -> Vec<f64> {
 }
 
 fn gaps(run: &Run) -> Vec<f64> {
-    run.frames.upper[0].chunks_exact(4).map(|frame| frame[2]).collect()
+    run.frames.upper[0]
+        .chunks_exact(4)
+        .map(|frame| frame[2])
+        .collect()
 }
 
 #[test]

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from heeltoe.kernel.dam import CrackedDam
-from heeltoe.models.flexible.body.reduced import side_by_side_in
 from heeltoe.validation.random_dams import LEFT, MADE, draw
 from models.rigid.test_friction_laws import random_law
 
@@ -17,9 +16,8 @@ def check(seed):
     rng = np.random.default_rng(seed)
     drawn = draw(rng)
     law = random_law(rng)
-    upper, *lower = (side_by_side_in(drawn.dam.reduced[k::2]) for k in range(len(drawn.dam.reduced)))
     lines = tuple(replace(line, law=law) for line in drawn.dam.lines)
-    kernel = CrackedDam(upper, lower[0] if lower else None, lines, drawn.case.flexible.contactors)
+    kernel = CrackedDam(drawn.dam.reduced, lines, drawn.case.flexible.contactors)
     run = replace(drawn, dam=replace(drawn.dam, kernel=kernel, lines=lines)).run()
     summary = run.summary
     assert all(np.isfinite(value) for value in summary.by_name().values())

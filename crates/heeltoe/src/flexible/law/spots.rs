@@ -17,26 +17,31 @@ pub(in super::super) struct Spot {
 /// Find those of all contacts, crack by crack.
 pub(in super::super) fn spots(dam: &Dam, contacts: &Contacts) -> Vec<Vec<Spot>> {
     let places = Place::all(&dam.cracks);
-    let cracks = places.iter().zip(&dam.cracks).zip(contacts.of_cracks()).enumerate();
-    cracks.map(|(crack, ((place, line), own))| {
-        let meeting = place.of(Faces::around(crack, &dam.bodies, |body| &body.position));
-        let shares = [
-            shares(meeting.upper.along, &line.angles[0]),
-            shares(meeting.lower.along, &line.angles[1]),
-        ];
-        let contactors = &contacts.contactors[own];
-        // Where all nodes of both faces are watched, each place is there twice.
-        let twice = dam.contactors == 5 && !shares[1].is_empty();
-        let spot = |contactor: &Contactor| {
-            let face = usize::from(!contactor.of_upper);
-            Spot {
-                length: shares[face][contactor.node] * if twice { 0.5 } else { 1.0 },
-                double: double(contactor, contactors, meeting),
-            }
-        };
-        contactors.iter().map(spot).collect()
-    })
-    .collect()
+    let cracks = places
+        .iter()
+        .zip(&dam.cracks)
+        .zip(contacts.of_cracks())
+        .enumerate();
+    cracks
+        .map(|(crack, ((place, line), own))| {
+            let meeting = place.of(Faces::around(crack, &dam.bodies, |body| &body.position));
+            let shares = [
+                shares(meeting.upper.along, &line.angles[0]),
+                shares(meeting.lower.along, &line.angles[1]),
+            ];
+            let contactors = &contacts.contactors[own];
+            // Where all nodes of both faces are watched, each place is there twice.
+            let twice = dam.contactors == 5 && !shares[1].is_empty();
+            let spot = |contactor: &Contactor| {
+                let face = usize::from(!contactor.of_upper);
+                Spot {
+                    length: shares[face][contactor.node] * if twice { 0.5 } else { 1.0 },
+                    double: double(contactor, contactors, meeting),
+                }
+            };
+            contactors.iter().map(spot).collect()
+        })
+        .collect()
 }
 
 /// Length of a face that belongs to each node, as a uniform stress makes forces on them: of an edge of three nodes, which

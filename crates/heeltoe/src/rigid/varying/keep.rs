@@ -97,7 +97,8 @@ impl Varying<'_> {
     /// Note what the anchors bear.
     pub(super) fn strain(&mut self) {
         for (peak, anchor) in self.anchors.iter_mut().zip(&self.turning.anchors) {
-            let borne = anchor.borne(self.turning.anchor_moves(self.corner, &self.state, anchor));
+            let moved = self.turning.anchor_moves(self.corner, &self.state, anchor);
+            let borne = anchor.borne(moved, anchor.elongation(moved));
             *peak = [0, 1].map(|i| peak[i].max(borne[i]));
         }
     }

@@ -73,7 +73,7 @@ def crack_anchors(alone: Case, faces: Sequence[BodyMesh], rock: RockBody | None 
     """Return the anchors of a crack that have a stiffness, as :func:`following_water`; prestress alone is a constant
     load."""
     result = []
-    for anchor in alone.anchors_at_crack:
+    for place, anchor in enumerate(alone.anchors_at_crack):
         if not anchor.yields:
             continue
         points = []
@@ -84,6 +84,6 @@ def crack_anchors(alone: Case, faces: Sequence[BodyMesh], rock: RockBody | None 
             points.append(tuple((rock.beyond + node, share) for node, share in points[-1]))
         axis = (math.sin(anchor.inclination), math.cos(anchor.inclination))
         result.append(
-            CrackAnchor(tuple(points), axis, anchor.prestress, anchor.axial_stiffness, anchor.shear_stiffness)
+            CrackAnchor(place, tuple(points), axis, anchor.prestress, anchor.axial_stiffness, anchor.shear_stiffness)
         )
     return tuple(result)

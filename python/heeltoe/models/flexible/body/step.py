@@ -32,7 +32,8 @@ def longest_step(dam: FlexibleDam, theta: float, step: float) -> tuple[float, st
         springs = [
             ("uplift.opening", both * largest(_water_rate)),
             ("crack.bond", largest(_bond_rate)),
-            ("anchors", both * largest(_anchors_rate)),
+            # An anchor is one spring at all cracks that it crosses.
+            ("anchors", both * sum(_anchors_rate(dam, place, theta, step) for place in range(len(dam.lines)))),
         ]
         field, rate = max(springs, key=lambda spring: spring[1])
         if step * step * rate <= _FOLLOWED:
