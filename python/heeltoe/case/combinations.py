@@ -345,7 +345,9 @@ RULES = (
     Rule("a friction law", "several cracks", ("rigid",), "two blocks have constant coefficients of friction"),
     Rule("rotation beyond small angles", "several cracks", ("rigid",), "two blocks rotate by small angles"),
     Rule("virtual water that does not rotate", "several cracks", ("rigid",), "the virtual water of two blocks rotates"),
-    Rule("an anchor with stiffness", "several cracks", ("rigid",), "the anchors of two blocks pull with constant forces"),
+    Rule(
+        "an anchor with stiffness", "several cracks", ("rigid",), "the anchors of two blocks pull with constant forces"
+    ),
     Rule("uplift that changes during shaking", "several cracks", ("rigid",), "the uplift of two blocks is constant"),
     Rule("Zangar's water pressure", "several cracks", ("rigid",), "the virtual water of two blocks is Westergaard's"),
     Rule("roughness", "", ("flexible",), "the faces of its cracks are smooth"),
