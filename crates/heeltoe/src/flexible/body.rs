@@ -175,7 +175,7 @@ impl ReducedBody {
         self.boundary.is_some()
     }
 
-    /// Number of rows by which something ties the modes of both bodies: dashpots first, then water.
+    /// Number of rows by which something ties the modes of all parts: dashpots first, then water.
     pub(super) fn rows(&self) -> usize {
         self.dampers + self.wet
     }

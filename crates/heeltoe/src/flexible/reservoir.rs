@@ -1,4 +1,4 @@
-//! Water with sound: a reservoir in modes of its velocity potential, tied to the wet faces of both bodies.
+//! Water with sound: a reservoir in modes of its velocity potential, tied to the wet faces of all parts.
 //!
 //! With `x` the amplitudes, `L` the rows of the wet faces over the modes of a body and `v_g` the ground's velocity
 //!

@@ -325,7 +325,7 @@ impl<'a> Moreau<'a> {
         self.walk.keep(position, &total, linear.water(), ledger);
     }
 
-    /// The ledger with the sums of both bodies and the energy they hold; the sums go on, so that frames change nothing.
+    /// The ledger with the sums of all parts and the energy they hold; the sums go on, so that frames change nothing.
     fn balance(&self) -> Ledger {
         let mut ledger = self.ledger;
         self.linear.book(&mut ledger);

@@ -101,7 +101,7 @@ def elastic_dam(case: Case) -> Dam:
 
 @one_blas_thread()
 def bonded_dam(case: Case) -> BondedDam:
-    """Mesh and assemble both parts of a case and find their modes; the last few are kept.
+    """Mesh and assemble the parts of a case and find their modes; the last few are kept.
 
     Raises
     ------

@@ -1,7 +1,7 @@
 """Damping of the concrete: what each mode gets, the few dashpots between modes, and the ratios that really come of it.
 
-With the motion v of both parts in their modes, the damping force is ``-(c v + d^T s d v)``: coefficients c mode by mode
-and a few rows d over the modes of both parts, the dashpots, with signs s."""
+With the motion v of all parts in their modes, the damping force is ``-(c v + d^T s d v)``: coefficients c mode by mode
+and a few rows d over the modes of all parts, the dashpots, with signs s."""
 
 from __future__ import annotations
 

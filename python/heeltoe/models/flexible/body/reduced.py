@@ -169,7 +169,7 @@ _KEPT: Kept[FlexibleDam] = Kept(4)
 
 @one_blas_thread()
 def build_flexible_dam(case: Case, larger: float = 1.0) -> FlexibleDam:
-    """Mesh, assemble and reduce both parts of a case; the last few are kept, by all that they depend on. Rock and water
+    """Mesh, assemble and reduce the parts of a case; the last few are kept, by all that they depend on. Rock and water
     with sound reach so many times `larger` as far as they need.
 
     Raises
