@@ -213,9 +213,13 @@ impl<'a> CrackForces<'a> {
             for (face, (part, span)) in faces.enumerate() {
                 let sums = of(part);
                 let half = sums.len() / 2;
-                let impulses = acting.water[face].iter().zip(&acting.anchors[face]);
-                for (k, (water, anchor)) in impulses.enumerate() {
-                    sums[k / span.count * half + span.first + k % span.count] += water + anchor;
+                let (along, across) = sums.split_at_mut(half);
+                let (water, anchors) = (&acting.water[face], &acting.anchors[face]);
+                for (direction, sums) in [along, across].into_iter().enumerate() {
+                    let impulses = water.iter().zip(anchors).skip(direction * span.count);
+                    for (sum, (water, anchor)) in sums[span.first..][..span.count].iter_mut().zip(impulses) {
+                        *sum += water + anchor;
+                    }
                 }
             }
         }
