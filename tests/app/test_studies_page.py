@@ -155,6 +155,13 @@ def test_keys_alone_make_a_study(studies):
     assert studies.evaluate("document.activeElement.tagName") == "SELECT"
     studies.focus(".varied .row:last-child button")
     studies.keyboard.press("Enter")
+    studies.focus("button:text-is('Fragility')")
+    studies.keyboard.press("Enter")
+    # More runs than are done before the next key, on any machine.
+    studies.focus("#study-samples")
+    studies.keyboard.press("ControlOrMeta+A")
+    studies.keyboard.type("1000000")
+    studies.wait_for_function("() => /^1,000,000 runs/.test(document.querySelector('.outlook').textContent)")
     studies.wait_for_function("() => !document.querySelector('button.main:disabled')")
     studies.focus("text=Run the study")
     studies.keyboard.press("Enter")
