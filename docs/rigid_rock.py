@@ -1,6 +1,6 @@
 """Print the tables of docs/rigid-rock.md: what rigid rock and water without sound leave out of the slip of made dams.
 
-python docs/rigid_rock.py [FIRST] [END]    # dams FIRST to END of 100; all without, a quarter of an hour on one core
+python docs/rigid_rock.py [FIRST] [END]    # dams FIRST to END of 100; all without, ten minutes on one core
 """
 
 from __future__ import annotations
