@@ -30,8 +30,9 @@ from heeltoe.validation.row import Row
 from heeltoe.validation.sources import ENDS_WITH_MOTION
 from heeltoe.validation.thesis_dams import record_named
 
-#: Dams with a straight crack and constant friction, with a friction law, a crack with two kinks, or two cracks.
-Kind = Literal["plain", "law", "kinks", "two cracks"]
+#: Dams with a straight crack and constant friction, with a friction law, a crack with two kinks, or two cracks; plain
+#: ones on elastic rock before water with sound.
+Kind = Literal["plain", "law", "kinks", "two cracks", "rock and water"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 #: So many of those that are called converged must stay where they are.
 COVERED = 0.95
@@ -152,6 +153,14 @@ def draw(seed: int, kind: Kind = "plain") -> Case:
     if kind == "two cracks":
         friction = float(own.uniform(0.6, 1.4))
         fields["further_cracks"] = [{"elevation": f"{height * own.uniform(0.4, 0.85)} m", "friction": friction}]
+    if kind == "rock and water":
+        fields["reservoir"] |= {"compressible": True, "floor_reflection": float(own.choice([0.3, 0.75, 0.9, 1.0]))}
+        fields["rock"] = {
+            "modulus": f"{10.0 ** own.uniform(0.5, 1.8):.4g} GPa",
+            "poisson": float(own.uniform(0.1, 0.35)),
+            "density": f"{own.uniform(2200.0, 2800.0):.5g} kg/m^3",
+            "damping": float(own.choice([0.0, 0.02, 0.05])),
+        }
     return read_case(fields)
 
 

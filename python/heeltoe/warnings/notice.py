@@ -236,6 +236,12 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "no waves leave the rock ({path} = {value}): vibrations of the dam hardly die out, and slips come out too "
         "large, for massless rock several times; set {path} = {other}",
     ),
+    "rock-undamped": (
+        "grave",
+        "rock.damping",
+        "the crack is on rock without damping (rock.damping = 0): sliding feeds the shortest waves along it, so that "
+        "the slip may grow with each finer mesh, and its uncertainty does not count that; set rock.damping = {usual:g}",
+    ),
     "rock-coarse": (
         "caution",
         "rock.modulus",

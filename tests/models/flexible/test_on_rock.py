@@ -27,6 +27,7 @@ from heeltoe.models.flexible.surroundings import water as water_module
 from heeltoe.models.flexible.surroundings.left_out import CLASSES
 from heeltoe.models.flexible.surroundings.response import base_nodes
 from heeltoe.models.flexible.surroundings.rock import full_rock
+from heeltoe.validation.evidence import draw
 from shared.dams import example
 
 PULSES = [["0 s", "0 g"], ["0.1 s", "0.6 g"], ["0.3 s", "-0.9 g"], ["0.5 s", "0.9 g"], ["0.6 s", "0 g"]]
@@ -340,6 +341,31 @@ def test_the_example_runs():
     lower, upper = (table[table.side == side] for side in ("lower", "upper"))
     assert lower.x_m.min() < upper.x_m.min()
     assert lower.x_m.max() > upper.x_m.max()
+
+
+def test_rock_without_damping_below_a_crack_is_warned_of():
+    def warned(**changes):
+        codes = {notice.code for notice in flexible(read_case(dam(**changes))).warnings}
+        return "rock-undamped" in codes
+
+    undamped = ROCK | {"damping": 0.0}
+    assert warned(rock=undamped)
+    assert not warned()
+    assert not warned(rock=undamped, crack=HIGH)
+
+
+@pytest.mark.slow
+def test_on_rock_without_damping_the_slip_grows_with_a_finer_mesh():
+    case = draw(37, "rock and water")
+    slips = {
+        (damping, across): flexible(
+            case.with_({"rock.damping": damping, "flexible.elements_across": across}), evidence="none"
+        ).residual_slip_m
+        for damping in (0.0, 0.02)
+        for across in (8, 16)
+    }
+    assert slips[0.0, 16] > 1.2 * slips[0.0, 8]
+    assert slips[0.02, 16] == pytest.approx(slips[0.02, 8], rel=0.01)
 
 
 def test_a_result_says_what_rigid_rock_and_water_without_sound_leave_out():

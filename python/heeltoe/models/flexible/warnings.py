@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from heeltoe.case.crack.kinks import climbs
+from heeltoe.case.dam import Rock
 from heeltoe.case.model import Case
 from heeltoe.case.warnings import concrete_warnings
 from heeltoe.kernel.dam import DamRun, DamSummary
@@ -115,6 +116,9 @@ def _most_loaded(case: Case, run: DamRun) -> list[AnchorForce]:
 def _about_the_rock(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
     if dam.rock_error > ENOUGH_OF_ROCK:
         yield Notice("rock-coarse", error=dam.rock_error, highest_hz=HIGHEST)
+    # A part bonded to the rock slides on damped concrete.
+    if case.rock is not None and dam.rock is not None and case.rock.damping == 0.0:
+        yield Notice("rock-undamped", usual=Rock.model_fields["damping"].default)
     if case.rock is not None and case.rock.massless:
         yield Notice("rock-keeps-waves", path="rock.massless", value="true", other="false")
     elif case.rock is not None and not case.rock.radiation:
