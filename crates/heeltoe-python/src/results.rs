@@ -396,12 +396,15 @@ fn tables(py: Python<'_>, values: Vec<Vec<f64>>, rows: usize) -> PyResult<Py<PyT
 
 impl AtRest {
     pub fn of(py: Python<'_>, dam: &elastic::Dam, still: &elastic::Still) -> PyResult<Self> {
-        let modes = still.amplitudes(dam).into_iter().map(|modes| array(py, modes));
+        let modes = still
+            .amplitudes(&dam.bodies)
+            .into_iter()
+            .map(|modes| array(py, modes));
         Ok(AtRest {
             slips: PyTuple::new(py, &still.slip)?.unbind(),
             open_contacts: PyTuple::new(py, &still.open)?.unbind(),
             modes: PyTuple::new(py, modes.collect::<Vec<_>>())?.unbind(),
-            forces: tables(py, still.forces(dam), 2)?,
+            forces: tables(py, still.forces(&dam.cracks), 2)?,
         })
     }
 }

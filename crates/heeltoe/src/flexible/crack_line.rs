@@ -1,6 +1,6 @@
 //! A crack as data: its nodes, its friction, its shape.
 
-use super::crack_forces::Inside;
+use super::inside::Inside;
 use crate::friction::Law;
 
 /// Some nodes of a body that follow each other.

@@ -1,9 +1,9 @@
 //! What is shaken, and how.
 
 use super::body::ReducedBody;
-use super::crack_forces::RisingWater;
 use super::crack_line::Line;
 use super::envelope::Stressed;
+use super::inside::RisingWater;
 use super::reservoir::Reservoir;
 use super::still::Still;
 use crate::stop::Stop;

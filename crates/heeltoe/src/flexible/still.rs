@@ -2,7 +2,7 @@
 
 use super::body::ReducedBody;
 use super::bond::Bonds;
-use super::dam::Dam;
+use super::crack_line::Line;
 use super::faces::Faces;
 use super::law::worked::Worked;
 use super::place::Place;
@@ -33,14 +33,14 @@ pub struct Still {
 
 impl Still {
     /// Amplitudes of the modes of all parts.
-    pub fn amplitudes(&self, dam: &Dam) -> Vec<Vec<f64>> {
+    pub fn amplitudes(&self, bodies: &[ReducedBody]) -> Vec<Vec<f64>> {
         let own = |(body, modes): (&ReducedBody, &Vec<Group>)| body.without_filling(modes).to_vec();
-        dam.bodies.iter().zip(&self.modes).map(own).collect()
+        bodies.iter().zip(&self.modes).map(own).collect()
     }
 
     /// Forces of contact on the upper face of each crack (N), all along it, then all across it.
-    pub fn forces(&self, dam: &Dam) -> Vec<Vec<f64>> {
-        let places = Place::all(&dam.cracks).into_iter().enumerate();
+    pub fn forces(&self, cracks: &[Line]) -> Vec<Vec<f64>> {
+        let places = Place::all(cracks).into_iter().enumerate();
         let own = |(crack, place): (usize, Place)| {
             let upper = place.of(Faces::around(crack, &self.force, |force| force)).upper;
             [upper.along, upper.across].concat()
