@@ -10,8 +10,8 @@
 //!
 //! Then an anchor by itself is as stable, up to `dt^2 stiffness / mass = 4 / (4 theta - 1)`, as the scheme is with the
 //! stiffness of the concrete, and loses energy at the same small rate. An anchor that crosses several cracks has one
-//! tension, which goes by what it is elongated at all of them; it resists slip at each by itself. The static pressure and the prestress are among
-//! the static loads of the bodies; here are the differences from them.
+//! tension, by its elongation at all of them, and resists slip at each by itself. The static pressure and the prestress
+//! are among the static loads of the bodies; here are the differences from them.
 
 use super::crack_line::Line;
 use super::faces::{height, Face, Faces, Meeting};
