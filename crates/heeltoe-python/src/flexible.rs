@@ -35,7 +35,8 @@ pub struct ReducedBody<'py> {
 }
 
 impl ReducedBody<'_> {
-    fn body(&self) -> PyResult<heeltoe::flexible::ReducedBody> {
+    /// With the rows that tie it to water.
+    fn body(&self, wet: &[f64]) -> PyResult<heeltoe::flexible::ReducedBody> {
         let modes = Modes {
             omega_squared: self.omega_squared.as_slice()?,
             damping: [self.damping_sticking.as_slice()?, self.damping_free.as_slice()?],
@@ -49,7 +50,7 @@ impl ReducedBody<'_> {
             position: self.position.as_slice()?,
             dampers: self.dampers.as_slice()?,
             damper_signs: self.damper_signs.as_slice()?,
-            wet: self.wet.as_slice()?,
+            wet,
             boundary: self.boundary.as_slice()?,
         };
         heeltoe::flexible::ReducedBody::new(&modes).map_err(wrong)
@@ -291,11 +292,21 @@ impl CrackedDam {
         if asked >= cracks.len() {
             return Err(wrong("the crack asked of is not there"));
         }
+        let mut water = reservoir.map(|water| water.reservoir()).transpose()?;
+        let rows: Vec<&[f64]> = parts
+            .iter()
+            .map(|part| part.wet.as_slice())
+            .collect::<Result<_, _>>()?;
+        let ties = match &mut water {
+            Some(water) => water.tie(&rows).map_err(wrong)?,
+            None => rows.iter().map(|rows| rows.to_vec()).collect(),
+        };
+        let bodies = parts.iter().zip(&ties).map(|(part, ties)| part.body(ties));
         let dam = Dam {
-            bodies: parts.iter().map(ReducedBody::body).collect::<PyResult<_>>()?,
+            bodies: bodies.collect::<PyResult<_>>()?,
             cracks: cracks.iter().map(CrackLine::line).collect::<PyResult<_>>()?,
             contactors,
-            reservoir: reservoir.map(|water| water.reservoir()).transpose()?,
+            reservoir: water,
             still: None,
         };
         dam.check().map_err(wrong)?;

@@ -54,8 +54,8 @@ impl Dam {
         if rest.iter().any(|body| rows(body) != rows(first)) {
             return Err("all parts need a row for each dashpot and each mode of the water");
         }
-        if first.wet != self.reservoir.as_ref().map_or(0, Reservoir::modes) {
-            return Err("the water needs a row for each of its modes");
+        if first.wet != self.reservoir.as_ref().map_or(0, Reservoir::ties) {
+            return Err("the parts need the rows that tie them to the water");
         }
         let mut met = vec![0; self.bodies.len()];
         for (k, line) in self.cracks.iter().enumerate() {

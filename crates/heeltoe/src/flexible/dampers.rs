@@ -243,7 +243,7 @@ impl<'a> Dampers<'a> {
             add(&mut self.room, body.rates(&body.free));
         }
         if let Some(water) = &mut self.water {
-            water.begin(drive.ground, &mut self.room[self.dashpots..]);
+            water.begin::<W>(drive.ground, &mut self.room[self.dashpots..]);
         }
         if let Some(wide) = &self.wide {
             self.rows_room.fill([0.0; LANES]);

@@ -19,6 +19,7 @@ mod faces;
 mod frames;
 mod idce;
 mod inside;
+mod inverse;
 mod kinks;
 mod law;
 mod ledger;

@@ -20,6 +20,7 @@ use std::borrow::Cow;
 
 use super::body::{ReducedBody, BUNDLE};
 use super::compliance::Compliance;
+use super::inverse::inverse;
 use super::ledger::Sums;
 use super::panels::Panels;
 use super::simd::{apart, combine, fma, inlined, Group, Lanes, Plain, LANES};
@@ -97,32 +98,6 @@ impl Dense {
         let d = Panels::new(&d[..body.modes * groups], groups, body.modes.div_ceil(LANES));
         Dense { d, shapes }
     }
-}
-
-/// The inverse of a symmetric positive matrix, row by row.
-fn inverse(mut a: Vec<f64>, size: usize) -> Vec<f64> {
-    // Gauss and Jordan in place: column k becomes that of the inverse. No pivots are needed.
-    for k in 0..size {
-        let pivot = 1.0 / a[k * size + k];
-        let mut own: Vec<f64> = a[k * size..][..size].iter().map(|x| pivot * x).collect();
-        own[k] = pivot;
-        for (r, row) in a.chunks_exact_mut(size).enumerate() {
-            if r == k {
-                continue;
-            }
-            let factor = std::mem::replace(&mut row[k], 0.0);
-            row.iter_mut().zip(&own).for_each(|(x, y)| *x -= factor * y);
-        }
-        a[k * size..][..size].copy_from_slice(&own);
-    }
-    // Rounding has left it not quite symmetric.
-    for r in 0..size {
-        for c in 0..r {
-            let mean = 0.5 * (a[r * size + c] + a[c * size + r]);
-            (a[r * size + c], a[c * size + r]) = (mean, mean);
-        }
-    }
-    a
 }
 
 /// The state of a body, and room for a step.

@@ -20,10 +20,21 @@
 //! ```
 //!
 //! which is a dashpot (see [`super::dampers`]) with a memory.
+//!
+//! The rows have as few dimensions as the wet faces have nodes: `L = F B` with the orthonormal columns of `F` and a few
+//! rows `B` for each body. In their place the bodies have `B`, whose impulses `y = F^T z` obey the same with
+//!
+//! ```text
+//! K^-1  for  A / (theta dt),      G r  for  r,      Y = (A / (theta dt))^-1 F,      K = F^T Y,      G = K^-1 Y^T
+//! ```
+//!
+//! and those on the rows themselves, by which the water goes on, are `z = Y K^-1 y + M r`.
 
+use super::inverse::inverse;
 use super::ledger::Ledger;
+use super::panels::Panels;
 use super::scheme::TimeStep;
-use super::simd::{apart, Group, Lanes, Plain, LANES};
+use super::simd::{apart, in_groups, Group, Lanes, Plain, LANES};
 
 /// A reservoir in its modes; `m` of them.
 pub struct Reservoir {
@@ -33,7 +44,12 @@ pub struct Reservoir {
     leaving: [Vec<f64>; 2],
     /// Share in the horizontal and in the vertical motion of the ground, `2 x m`.
     ground: [Vec<f64>; 2],
+    /// `F`, column by column.
+    ties: Vec<Vec<f64>>,
 }
+
+/// A column is a sum of others where no more than this part of the largest is left of it.
+const LEFT: f64 = 1e-12;
 
 impl Reservoir {
     /// # Errors
@@ -52,7 +68,79 @@ impl Reservoir {
             omega_squared: omega_squared.to_vec(),
             leaving: leaving.map(<[f64]>::to_vec),
             ground: ground.map(<[f64]>::to_vec),
+            ties: (0..modes)
+                .map(|k| (0..modes).map(|c| f64::from(u8::from(c == k))).collect())
+                .collect(),
         })
+    }
+
+    /// Tie it to the bodies by as few rows as say what these do, `modes x modes of the body` of each body, row by row;
+    /// those of each body are returned.
+    ///
+    /// # Errors
+    /// Where the rows are not as many as the modes.
+    pub fn tie(&mut self, rows: &[&[f64]]) -> Result<Vec<Vec<f64>>, &'static str> {
+        let modes = self.modes();
+        if rows.iter().any(|rows| !rows.len().is_multiple_of(modes)) {
+            return Err("the water needs a row for each of its modes");
+        }
+        let column = |rows: &[f64], c: usize| -> Vec<f64> {
+            let count = rows.len() / modes;
+            (0..modes).map(|k| rows[k * count + c]).collect()
+        };
+        // Gram and Schmidt, each time with the column of which most is left.
+        let columns = rows
+            .iter()
+            .flat_map(|rows| (0..rows.len() / modes).map(|c| column(rows, c)));
+        let mut left: Vec<Vec<f64>> = columns.collect();
+        let size = |x: &Vec<f64>| dot(x, x);
+        let enough = LEFT * LEFT * left.iter().map(size).fold(0.0, f64::max);
+        self.ties.clear();
+        while let Some(most) = left.iter().max_by(|a, b| size(a).total_cmp(&size(b))) {
+            if size(most) <= enough || self.ties.len() == modes {
+                break;
+            }
+            let mut tie = most.clone();
+            // Once more for what rounding has left.
+            for other in &self.ties {
+                take_off(&mut tie, other);
+            }
+            let length = size(&tie).sqrt();
+            tie.iter_mut().for_each(|x| *x /= length);
+            left.iter_mut().for_each(|column| take_off(column, &tie));
+            self.ties.push(tie);
+        }
+        if self.ties.is_empty() {
+            // It wets nothing.
+            self.ties
+                .push((0..modes).map(|k| f64::from(u8::from(k == 0))).collect());
+        }
+        let few = |rows: &&[f64]| {
+            let count = rows.len() / modes;
+            let along = |tie: &Vec<f64>| -> Vec<f64> {
+                (0..count)
+                    .map(|c| (0..modes).map(|k| tie[k] * rows[k * count + c]).sum())
+                    .collect()
+            };
+            self.ties.iter().flat_map(along).collect()
+        };
+        Ok(rows.iter().map(few).collect())
+    }
+
+    /// `A / (theta dt)`, row by row.
+    fn impedance(&self, TimeStep { dt, theta }: TimeStep) -> Vec<f64> {
+        let (modes, weight) = (self.modes(), theta * dt);
+        let [floor, far] = &self.leaving;
+        let mut a: Vec<f64> = floor.iter().zip(far).map(|(a, b)| a + b).collect();
+        for (k, square) in self.omega_squared.iter().enumerate() {
+            a[k * (modes + 1)] += 1.0 / weight + weight * square;
+        }
+        a
+    }
+
+    /// Number of rows that tie it to the bodies.
+    pub(super) fn ties(&self) -> usize {
+        self.ties.len()
     }
 
     /// Number of its modes.
@@ -61,10 +149,30 @@ impl Reservoir {
     }
 }
 
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Take off what a vector has in the direction of another, of length 1.
+fn take_off(x: &mut [f64], unit: &[f64]) {
+    let share = dot(x, unit);
+    x.iter_mut().zip(unit).for_each(|(x, unit)| *x -= share * unit);
+}
+
 /// A reservoir under way.
 pub(super) struct Water<'a> {
     of: &'a Reservoir,
     step: TimeStep,
+    /// `K^-1`, row by row.
+    impedance: Vec<f64>,
+    /// `G`, `Y K^-1` and `M`.
+    remembered: Panels,
+    followed: Panels,
+    own: Panels,
+    /// `r`, and room for `G r` and for `z`.
+    rest: Vec<f64>,
+    ties_room: Vec<Group>,
+    modes_room: Vec<Group>,
     /// Amplitudes and their velocities.
     amplitude: Vec<f64>,
     pub velocity: Vec<f64>,
@@ -134,10 +242,55 @@ apart! {
 
 impl<'a> Water<'a> {
     pub(super) fn new(of: &'a Reservoir, step: TimeStep) -> Self {
-        let zeros = vec![0.0; of.modes()];
+        let (modes, ties, weight) = (of.modes(), of.ties(), step.dt * step.theta);
+        let zeros = vec![0.0; modes];
+        let inverted = inverse(of.impedance(step), modes);
+        let answers: Vec<Vec<f64>> = of
+            .ties
+            .iter()
+            .map(|tie| inverted.chunks_exact(modes).map(|row| dot(row, tie)).collect())
+            .collect();
+        let own = |tie: &Vec<f64>| {
+            answers
+                .iter()
+                .map(|answer| dot(tie, answer))
+                .collect::<Vec<f64>>()
+        };
+        let impedance = inverse(of.ties.iter().flat_map(own).collect(), ties);
+        // `Y K^-1`, of which `G` is the other way round.
+        let followed: Vec<Vec<f64>> = impedance
+            .chunks_exact(ties)
+            .map(|row| {
+                let share = |k: usize| row.iter().zip(&answers).map(|(a, answer)| a * answer[k]).sum();
+                (0..modes).map(share).collect()
+            })
+            .collect();
+        let mut rest: Vec<f64> = inverted.iter().map(|x| -weight * x).collect();
+        for (answer, followed) in answers.iter().zip(&followed) {
+            for (row, y) in rest.chunks_exact_mut(modes).zip(answer) {
+                row.iter_mut()
+                    .zip(followed)
+                    .for_each(|(x, g)| *x += weight * y * g);
+            }
+        }
+        // Products go over rows.
+        let panels = |rows: &[f64], width: usize| {
+            let groups = width.div_ceil(LANES);
+            Panels::new(&in_groups(rows, width), groups, groups)
+        };
+        let turned: Vec<f64> = (0..modes)
+            .flat_map(|k| followed.iter().map(move |row| row[k]))
+            .collect();
         Water {
             of,
             step,
+            remembered: panels(&turned, ties),
+            followed: panels(&followed.concat(), modes),
+            own: panels(&rest, modes),
+            impedance,
+            rest: zeros.clone(),
+            ties_room: vec![[0.0; LANES]; ties.div_ceil(LANES)],
+            modes_room: vec![[0.0; LANES]; modes.div_ceil(LANES)],
             amplitude: zeros.clone(),
             velocity: zeros.clone(),
             ground: [0.0; 2],
@@ -152,16 +305,9 @@ impl<'a> Water<'a> {
         }
     }
 
-    /// `A / (theta dt)`, row by row.
-    pub(super) fn impedance(&self) -> Vec<f64> {
-        let TimeStep { dt, theta } = self.step;
-        let (modes, weight) = (self.of.modes(), theta * dt);
-        let [floor, far] = &self.of.leaving;
-        let mut a: Vec<f64> = floor.iter().zip(far).map(|(a, b)| a + b).collect();
-        for (k, square) in self.of.omega_squared.iter().enumerate() {
-            a[k * (modes + 1)] += 1.0 / weight + weight * square;
-        }
-        a
+    /// `K^-1`, row by row: what stands for dashpots where the bodies are tied.
+    pub(super) fn impedance(&self) -> &[f64] {
+        &self.impedance
     }
 
     /// Whether it rests, and the ground with it in a step that changes its velocity so.
@@ -171,22 +317,31 @@ impl<'a> Water<'a> {
     }
 
     /// Add to the rates of the rows what it does of itself in a step in which the ground's velocity changes so.
-    pub(super) fn begin(&mut self, change: [f64; 2], rates: &mut [f64]) {
+    pub(super) fn begin<W: Lanes>(&mut self, change: [f64; 2], rates: &mut [f64]) {
         let TimeStep { dt, theta } = self.step;
         let [x, z] = [0, 1].map(|k| self.ground[k] + theta * change[k]);
         let weight = 1.0 / (theta * theta * dt);
-        for (k, rate) in rates.iter_mut().enumerate() {
+        for (k, rest) in self.rest.iter_mut().enumerate() {
             let drive = self.of.ground[0][k] * x + self.of.ground[1][k] * z;
             let spring = self.of.omega_squared[k] * self.amplitude[k];
             self.drive[k] = drive;
-            *rate += weight * (self.velocity[k] - theta * dt * (spring - drive));
+            *rest = weight * (self.velocity[k] - theta * dt * (spring - drive));
+        }
+        self.ties_room.fill([0.0; LANES]);
+        self.remembered.combine::<W>(&self.rest, &mut self.ties_room);
+        for (rate, more) in rates.iter_mut().zip(self.ties_room.as_flattened()) {
+            *rate += more;
         }
     }
 
-    /// Go on to the end of the step under these impulses on the rows.
+    /// Go on to the end of the step under these impulses on what ties it to the bodies.
     pub(super) fn finish<W: Lanes>(&mut self, change: [f64; 2], impulses: &[f64]) {
         let TimeStep { dt, theta } = self.step;
-        for (k, impulse) in impulses.iter().enumerate() {
+        self.modes_room.fill([0.0; LANES]);
+        self.followed.combine::<W>(impulses, &mut self.modes_room);
+        self.own.combine::<W>(&self.rest, &mut self.modes_room);
+        let modes = self.velocity.len();
+        for (k, impulse) in self.modes_room.as_flattened()[..modes].iter().enumerate() {
             let mean = -impulse / dt;
             let new = (mean - (1.0 - theta) * self.velocity[k]) / theta;
             let (way, more) = (dt * mean, new - self.velocity[k]);

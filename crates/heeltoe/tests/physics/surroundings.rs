@@ -88,7 +88,7 @@ impl Drawn {
         }
     }
 
-    fn body(&self, side: usize, gap: f64) -> ReducedBody {
+    fn body(&self, side: usize, gap: f64, wet: &[f64]) -> ReducedBody {
         let across = if side == 0 { gap } else { 0.0 };
         ReducedBody::new(&Modes {
             omega_squared: &self.squares[side],
@@ -100,15 +100,25 @@ impl Drawn {
             position: &[0.0, 10.0, across, across],
             dampers: &[],
             damper_signs: &[],
-            wet: &self.wet[side],
+            wet,
             boundary: if side == 1 { &self.boundary } else { &[] },
         })
         .unwrap()
     }
 
     fn dam(&self, gap: f64) -> Dam {
+        self.tied(gap, &self.wet, self.reservoir())
+    }
+
+    fn reservoir(&self) -> Reservoir {
+        let leaving = [&self.leaving[0][..], &self.leaving[1]];
+        Reservoir::new(&self.water_squares, leaving, [&self.ground[0], &self.ground[1]]).unwrap()
+    }
+
+    /// With these rows that tie the bodies to the reservoir.
+    fn tied(&self, gap: f64, wet: &[Vec<f64>], reservoir: Reservoir) -> Dam {
         let dam = Dam {
-            bodies: vec![self.body(0, gap), self.body(1, gap)],
+            bodies: vec![self.body(0, gap, &wet[0]), self.body(1, gap, &wet[1])],
             cracks: vec![Line {
                 nodes: [Span {
                     first: 0,
@@ -117,14 +127,7 @@ impl Drawn {
                 ..Line::only([NODES, NODES], [0.5; 2], RockingThresholds::default())
             }],
             contactors: 1,
-            reservoir: Some(
-                Reservoir::new(
-                    &self.water_squares,
-                    [&self.leaving[0], &self.leaving[1]],
-                    [&self.ground[0], &self.ground[1]],
-                )
-                .unwrap(),
-            ),
+            reservoir: Some(reservoir),
             still: None,
         };
         dam.check().unwrap();
@@ -279,6 +282,70 @@ fn the_ledger_closes_while_it_slides_lifts_and_lands() {
         moved += u32::from(summary.slip.abs() > 1e-3 && summary.opening_heel.max(summary.opening_toe) > 1e-5);
     }
     assert!(moved > 10, "{moved}");
+}
+
+#[test]
+fn as_few_rows_as_there_are_dimensions_tie_the_water_as_all_do() {
+    let (dt, ground) = (1e-3, waves(3000, 1e-3, 0.25));
+    for (seed, dimensions) in [(2, 1), (5, 2), (9, 3)] {
+        let mut drawn = Drawn::new(seed);
+        for rows in &mut drawn.wet {
+            // The other rows are sums of the first ones, alike in both bodies.
+            for k in dimensions * MODES..WATER * MODES {
+                let first = k % MODES;
+                rows[k] = 0.7 * rows[first] - f64::from(u8::from(dimensions > 1)) * rows[k - MODES];
+            }
+        }
+        let mut reservoir = drawn.reservoir();
+        let few = reservoir.tie(&[&drawn.wet[0], &drawn.wet[1]]).unwrap();
+        assert_eq!(
+            [few[0].len(), few[1].len()],
+            [dimensions * MODES; 2],
+            "{dimensions}"
+        );
+        let all = shake(&rest(drawn.dam(0.0), Stop::default()), &ground, dt, 0.6);
+        let tied = shake(
+            &rest(drawn.tied(0.0, &few, reservoir), Stop::default()),
+            &ground,
+            dt,
+            0.6,
+        );
+        assert!(all.cracks[0].slip.abs() > 1e-4, "{}", all.cracks[0].slip);
+        near(
+            tied.cracks[0].slip,
+            all.cracks[0].slip,
+            1e-9 * all.cracks[0].slip.abs(),
+        );
+        let (one, other) = (tied.cracks[0].ledger, all.cracks[0].ledger);
+        for (one, other) in [
+            (one.floor, other.floor),
+            (one.far_end, other.far_end),
+            (one.stored, other.stored),
+        ] {
+            near(one, other, 1e-9 * other.abs());
+        }
+        let most = all.frames.water.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        for (one, other) in tied.frames.water.iter().zip(&all.frames.water) {
+            near(*one, *other, 1e-9 * most);
+        }
+    }
+}
+
+#[test]
+fn water_that_wets_nothing_leaves_the_dam_alone() {
+    let (dt, ground) = (1e-3, waves(2000, 1e-3, 0.25));
+    let mut drawn = Drawn::new(4);
+    drawn.wet.iter_mut().for_each(|rows| rows.fill(0.0));
+    let mut reservoir = drawn.reservoir();
+    let rows = reservoir.tie(&[&drawn.wet[0], &drawn.wet[1]]).unwrap();
+    let run = shake(
+        &rest(drawn.tied(0.0, &rows, reservoir), Stop::default()),
+        &ground,
+        dt,
+        0.6,
+    );
+    let all = shake(&rest(drawn.dam(0.0), Stop::default()), &ground, dt, 0.6);
+    near(run.cracks[0].slip, all.cracks[0].slip, 1e-12);
 }
 
 #[test]
