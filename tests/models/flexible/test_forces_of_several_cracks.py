@@ -97,6 +97,20 @@ def test_a_stiff_anchor_holds_the_base_and_bears_one_tension_at_both_cracks():
     assert neck["peak_force_n"] != base["peak_force_n"]
 
 
+@pytest.mark.parametrize("changes", [{}, {"further_cracks": [{"elevation": "90 m", "friction": 5.0}]}])
+def test_an_anchor_is_overloaded_where_it_is_at_one_of_its_cracks(changes):
+    """Its tension is the same at both; the force at the crack that slips more is larger."""
+
+    def result(capacity):
+        free = {"elements_across": 4, "evidence": "none"}
+        return flexible(dam(anchors=[DOWEL | {"capacity": f"{capacity} N/m"}], flexible=free, **changes))
+
+    forces = [crack["anchors"][0]["peak_force_n"] for crack in result(1e9).to_json()["cracks"]]
+    (warning,) = (item for item in result(sum(forces) / 2).warnings if item.code == "anchor-overloaded")
+    assert forces[0] != forces[1]
+    assert f"{max(forces) / 1e6:.4g} MN/m" in str(warning)
+
+
 @pytest.mark.parametrize(
     ("blocks", "name"),
     [({"anchors": [TENDON]}, "an anchor with stiffness"), ({"uplift": water(LAWS[0])}, "uplift that changes")],

@@ -110,7 +110,7 @@ def warnings_of(
 def _most_loaded(case: Case, run: DamRun) -> list[AnchorForce]:
     """Return what each anchor bears at the crack at which it bears most."""
     cracks = (anchors_of(alone, run, place) for place, alone in enumerate(case.single_crack_cases))
-    return [max(forces, key=lambda force: force.peak_tension_n) for forces in zip(*cracks, strict=True)]
+    return [max(forces, key=lambda force: force.peak_force_n) for forces in zip(*cracks, strict=True)]
 
 
 def _about_the_rock(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
