@@ -192,7 +192,13 @@ def _cracks(subject: Subject) -> list[Block]:
     head = ("", *(f"crack at {written('{at_m:g m}', subject.units, at_m=crack.elevation)}" for crack in cracks))
     rows: list[tuple[Inline, ...]] = [
         (label, *(n(f"cracks.{place}.{key}", quantity) for place in range(len(cracks))))
-        for label, key, quantity in _OF_CRACKS
+        for label, key, quantity in (
+            *_OF_CRACKS,
+            *(
+                (f"Largest force of anchor {place + 1}", f"anchors.{place}.peak_force_n", None)
+                for place in range(len(subject.case.anchors))
+            ),
+        )
     ]
     caption = "Each crack by itself, from the crest down; unless stated, values are those of the crack that slips most."
     return [Table(head, tuple(rows), caption, "l" + "r" * len(cracks))]
