@@ -62,6 +62,27 @@ def test_runs_with_evidence_end_at_once_and_say_how_far_they_have_come(monkeypat
     assert time.perf_counter() - begun < 15.0
 
 
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timers that signal here")
+def test_both_signs_end_at_once_and_say_how_far_they_have_come():
+    def handler(*_):
+        raise KeyboardInterrupt
+
+    case = example("typical-base", "motion.duration=400s", "analysis.silence=0s", "flexible.evidence=none")
+    build_flexible_dam(case)
+    before = signal.signal(signal.SIGALRM, handler)
+    try:
+        begun = time.perf_counter()
+        signal.setitimer(signal.ITIMER_REAL, 2.0)
+        with pytest.raises(KeyboardInterrupt) as raised:
+            run(case, "flexible")
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+    (note,) = raised.value.__notes__
+    assert re.fullmatch(r"the run had come to \d+\.\d\d s of the earthquake and -?\d+\.\d mm of slip", note)
+    assert time.perf_counter() - begun < 15.0
+
+
 PANICS = [
     _kernel.InternalError("index out of bounds (src/walk.rs:7:1)"),
     type("PanicException", (BaseException,), {})("odd"),

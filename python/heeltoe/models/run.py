@@ -120,15 +120,13 @@ def _elastic_by_sign(
     run: Callable[[Earthquake, Rested | None], Response],
 ) -> Response:
     """Run an elastic dam both ways round without evidence, and the worse way with it."""
-    from heeltoe.models.flexible.model import rest_of
+    from heeltoe.models.flexible.model import rest_both_ways
 
     began = perf_counter()
-    rest = rest_of(case, shaking, output_step=output_step, stresses=True)
-    ways = {"recorded": (shaking, rest(shaking))}
-    if ways["recorded"][1].outcome == "unstable":
-        return run(*ways["recorded"])
-    turned = shaking.reversed()
-    ways["reversed"] = (turned, rest(turned))
+    recorded, *others = rest_both_ways(case, shaking, output_step)
+    if recorded.outcome == "unstable":
+        return run(shaking, recorded)
+    ways = {"recorded": (shaking, recorded), "reversed": (shaking.reversed(), others[0])}
     worst = max(ways, key=lambda sign: ways[sign][1].badness(case))
     took = perf_counter() - began
     response = run(*ways[worst])

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, flexible, read_case
+from heeltoe.models.flexible import model
+from heeltoe.models.flexible.body import reduced
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.evidence import refinement
-from heeltoe.models.flexible.evidence.refinement import _finer, _moved_by_mesh
+from heeltoe.models.flexible.evidence.refinement import _finer, _moved_by_mesh, answer, build_ahead
 from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import with_mesh
@@ -174,3 +176,36 @@ def test_the_work_of_runs_is_counted_once():
     trials.prepare([own], [(finer, (1.0, 0.99))])
     assert (trials.runs, trials.work) == (3, 1.0 + 2.0 * 2.0)
     assert trials.cost([(own, (1.0,)), (finer, SCALES)]) == 3.0 * 2.0
+
+
+def test_what_evidence_asks_for_may_be_built_ahead(monkeypatch):
+    case = read_case(
+        FIELDS | {"reservoir": {"depth": "24 m", "compressible": True}, "flexible": {"elements_across": 7}}
+    )
+    shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(MOTION, None, 0.5).shaking)
+    build_ahead(shaken, 0.01)
+
+    def build(*_):
+        raise AssertionError
+
+    monkeypatch.setattr(reduced, "_build", build)
+    meshes = answer(shaken, 0.01, "full").evidence
+    assert meshes.other_elements_across == 4
+    assert meshes.residual_slip_m.surroundings is not None
+
+
+def test_a_vibration_that_grows_is_looked_at_at_the_mesh_that_is_told(monkeypatch):
+    told = []
+
+    def growth(shaken, run, *_):
+        told.append(run)
+
+    finer = iter([Level(1, 0)])
+    monkeypatch.setattr(refinement, "_finer", lambda *_: next(finer, None))
+    monkeypatch.setattr(model, "self_excitation", growth)
+    response = flexible(dam(elements_across=4), MOTION)
+    assert response.evidence["elements_across"] == 8
+    # That of the first mesh was on its way meanwhile.
+    first, last = told
+    assert last is not first
+    assert last.summary.slip == response.residual_slip_m

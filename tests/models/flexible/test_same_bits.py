@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -34,6 +35,24 @@ def test_the_threads_of_the_linear_algebra_change_no_bit(name, model):
         for threads in ("1", "2")
     }
     assert len(slips) == 1
+
+
+# Both signs of the motion and all of the evidence, with rock and water, of which much is built and run side by side.
+_ALL = """
+import heeltoe, json
+case = heeltoe.read_case({file!r}, ["motion.duration=1s", "flexible.elements_across=4"])
+print(json.dumps(heeltoe.run(case).to_json()))
+"""
+
+
+def test_what_runs_side_by_side_changes_no_bit():
+    code = _ALL.format(file=str(ROOT / "examples" / "on-rock.toml"))
+    results = [
+        json.loads(subprocess.run([sys.executable, "-c", code], env=env, capture_output=True, check=True).stdout)
+        for env in (os.environ, {**os.environ, "OPENBLAS_NUM_THREADS": "1"})
+    ]
+    one, other = ({**result, "seconds": 0.0} for result in results)
+    assert one == other
 
 
 def test_the_last_of_several_restores_the_threads():

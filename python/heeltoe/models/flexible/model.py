@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from typing import NamedTuple
 
+from heeltoe.base.beside import beside, pass_notes
 from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
-from heeltoe.kernel.dam import DamRun
+from heeltoe.kernel.dam import DamRun, Ending
 from heeltoe.mechanics.block import Block, build_block, static_state
 from heeltoe.mechanics.references import cited
 from heeltoe.models.flexible.body.cost import check_cost
 from heeltoe.models.flexible.body.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.models.flexible.evidence.growth import self_excitation
-from heeltoe.models.flexible.evidence.refinement import Answer, answer
+from heeltoe.models.flexible.evidence.refinement import Answer, answer, build_ahead
 from heeltoe.models.flexible.result.envelope import envelope_of
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.models.flexible.result.tables import crack_responses, crest_of, dam_numbers, energy_of, histories_of_cracks
@@ -30,7 +33,7 @@ from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import CRACKED, leading_crack
 from heeltoe.result.crest import CrestMotion, crest_motion
 from heeltoe.result.limits import allowed_of
-from heeltoe.result.numbers import SignNumbers
+from heeltoe.result.numbers import SelfExcitation, SignNumbers
 from heeltoe.result.rest import LAST_S, last_change, still_since
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
@@ -77,7 +80,11 @@ def run_flexible(
     frame_step = frame_step_of(end, output_step)
     silence = max(case.analysis.silence - earthquake.silence, 0.0)
     check_cost(case, analysing(case, earthquake.run_end, frame_step, silence=silence))
-    result, earthquake = answer_at_rest(case, block, earthquake, frame_step, first)
+    first = first or run_until_rest(case, build_flexible_dam(case), block, earthquake, frame_step)
+    begun, ending = first, Ending()
+    # The growth at the first mesh and step, which are seldom too coarse.
+    with beside(lambda: _growth(begun.shaken, begun.run, begun.outcome, begun.leads, ending), ending.ask) as at_first:
+        result, earthquake = answer_at_rest(case, block, earthquake, frame_step, first)
     shaken, run = result.shaken, result.run
     # Its mesh may be finer by now.
     case, dam = shaken.case, shaken.dam
@@ -87,8 +94,8 @@ def run_flexible(
     tension = None if outcome == "unstable" else tension_of(result, envelope)
     cracks = tuple(crack_responses(result, histories, static_state(block)))
     leads = leading_crack([crack.residual_slip_m for crack in cracks])
-    # One that slides by itself needs no vibration to go on.
-    growth = None if outcome == "unstable" else self_excitation(shaken, run, leads)
+    is_first = run is first.run and leads == first.leads
+    growth = at_first.result() if is_first else _growth(shaken, run, outcome, leads)
     numbers = dam_numbers(shaken, run, growth, tension)
     return FlexibleResponse(
         model="flexible",
@@ -112,6 +119,13 @@ def run_flexible(
         silence_s=earthquake.silence,
         envelope=envelope,
     )
+
+
+def _growth(
+    shaken: ShakenDam, run: DamRun, outcome: str, leads: int, ending: Ending | None = None
+) -> SelfExcitation | None:
+    # One that slides by itself needs no vibration to go on.
+    return None if outcome == "unstable" else self_excitation(shaken, run, leads, ending)
 
 
 class Rested(NamedTuple):
@@ -200,6 +214,7 @@ def run_until_rest(
     *,
     step_of: Callable[[ShakenDam], float] = ShakenDam.first_step,
     stresses: bool = True,
+    ending: Ending | None = None,
 ) -> Rested:
     """Run a dam, without evidence, until it is at rest: what single runs, rows of studies and drains between motions
     are made of.
@@ -216,6 +231,8 @@ def run_until_rest(
         Says the time step [s].
     stresses
         Whether the extremes of the stresses are wanted, too.
+    ending
+        What ends a run on another thread than the main one.
 
     Raises
     ------
@@ -228,7 +245,7 @@ def run_until_rest(
         step = step_of(shaken)
         # Water and anchors may have made it shorter than could be expected.
         check_cost(case, analysing(case, through.run_end, frame_step, step))
-        response = shaken.run(step, frame_step, stresses=stresses)
+        response = shaken.run(step, frame_step, ending, stresses=stresses)
         return Rested(through, shaken, response, *judge_outcome(dam, block, response))
 
     longest = case.analysis.silence
@@ -239,7 +256,7 @@ def run_until_rest(
         return until_rest(run, lambda rested: rested.reach, earthquake, longest)
     # One run goes on from where it is, and ends where the dam is at rest.
     check_cost(case, analysing(case, earthquake.run_end + longest, frame_step, step))
-    response = shaken.run(step, frame_step, stresses=stresses, pauses=pauses)
+    response = shaken.run(step, frame_step, ending, stresses=stresses, pauses=pauses)
     seconds = STEP * math.ceil((response.summary.end_time - earthquake.end) / STEP - 0.5)
     through = earthquake.silent(min(max(seconds, 0.0), longest))
     outcome = judge_outcome(dam, block, response)
@@ -252,7 +269,6 @@ def rest_of(
     *,
     output_step: float | None = None,
     step_of: Callable[[ShakenDam], float] = ShakenDam.first_step,
-    stresses: bool = False,
 ) -> Callable[[Earthquake], Rested]:
     """Return what runs a dam until it is at rest, its elastic parts built once.
 
@@ -266,9 +282,42 @@ def rest_of(
     frame_step = frame_step_of(earthquake.end, output_step)
 
     def run(through: Earthquake) -> Rested:
-        return run_until_rest(case, dam, block, through, frame_step, step_of=step_of, stresses=stresses)
+        return run_until_rest(case, dam, block, through, frame_step, step_of=step_of, stresses=False)
 
     return run
+
+
+def rest_both_ways(case: Case, earthquake: Earthquake, output_step: float | None) -> list[Rested]:
+    """Run a dam with its motion as recorded and reversed until it is at rest, without evidence; one that does not stand
+    with its motion as recorded alone. What evidence will ask for is built meanwhile.
+
+    Raises
+    ------
+    InputError
+        As :func:`run_until_rest`.
+    """
+    check(case, "flexible")
+    dam, block, ending = build_flexible_dam(case), build_block(case), Ending()
+    frame_step = frame_step_of(earthquake.end, output_step)
+
+    def run(through: Earthquake) -> Rested:
+        return run_until_rest(case, dam, block, through, frame_step, ending=ending)
+
+    if not stands(dam, block):
+        return [run(earthquake)]
+    with ThreadPoolExecutor(2) as pool:
+        ways = [pool.submit(run, through) for through in (earthquake, earthquake.reversed())]
+        try:
+            if case.flexible.evidence == "full":
+                # What cannot be built is for the runs and the evidence to complain about.
+                with suppress(InputError):
+                    build_ahead(ShakenDam(case, dam, earthquake.shaking), frame_step)
+            return [way.result() for way in ways]
+        except BaseException as error:
+            ending.ask()
+            pool.shutdown()
+            pass_notes(ways, error)
+            raise
 
 
 def answer_at_rest(

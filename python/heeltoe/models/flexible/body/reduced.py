@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.beside import beside
 from heeltoe.base.blas import one_blas_thread
 from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
@@ -186,8 +187,10 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
     bodies, modes = bonded.bodies, bonded.modes
     sections = tuple(single_crack_case.cut for single_crack_case in case.single_crack_cases)
     damping = damping_of(case, bonded)
-    reservoir = water_body(case, bodies, longer=larger)
-    whole = founded(case, bonded, larger=larger)
+    with beside(lambda: water_body(case, bodies, longer=larger)) as water:
+        whole = founded(case, bonded, larger=larger)
+        rock = rock_body(case, bodies[-1], larger=larger)
+    reservoir = water.result()
     if whole is not None:
         damping = damping.founded(whole.held, whole.bent)
         modes = (*modes[:-1], whole.modes)
@@ -202,7 +205,6 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
         part = reduced[-1]
         part = replace(part, boundary=whole.rock + damping.between, start=part.start + whole.settled)
         reduced = (*reduced[:-1], part)
-    rock = rock_body(case, bodies[-1], larger=larger)
     lines = _lines(case, bonded, rock)
     kernel = _cracked(case, reduced, lines, reservoir, rock)
     # The penalty method begins with its crack bonded and its springs unloaded.

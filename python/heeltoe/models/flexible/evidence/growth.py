@@ -16,7 +16,7 @@ from scipy.linalg import block_diag
 
 from heeltoe.base.arrays import Floats
 from heeltoe.base.blas import one_blas_thread
-from heeltoe.kernel.dam import DamRun
+from heeltoe.kernel.dam import DamRun, Ending
 from heeltoe.models.flexible.body.reduced import FlexibleDam, ReducedBody, build_flexible_dam, damped
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.slip_history import sliding_friction
@@ -173,7 +173,9 @@ _FEW = 3
 
 
 @one_blas_thread()
-def self_excitation(shaken: ShakenDam, run: DamRun, leads: int = 0) -> SelfExcitation | None:
+def self_excitation(
+    shaken: ShakenDam, run: DamRun, leads: int = 0, ending: Ending | None = None
+) -> SelfExcitation | None:
     """Return how a vibration of the dam grows as it slides; None where it never slides. Of several cracks that slide,
     the fastest growth counts of all of them sliding at once and of one by itself while the others stick; of many, of
     the one that leads by itself.
@@ -187,6 +189,8 @@ def self_excitation(shaken: ShakenDam, run: DamRun, leads: int = 0) -> SelfExcit
         with twice the damping.
     leads
         Place of the crack of whose slip is told.
+    ending
+        What ends the run with twice the damping on another thread than the main one.
     """
     times = [raw.time_sliding + raw.time_slide_rocking for raw in run.summaries]
     sliding = [place for place, time in enumerate(times) if time > 0.0]
@@ -208,7 +212,7 @@ def self_excitation(shaken: ShakenDam, run: DamRun, leads: int = 0) -> SelfExcit
     if rate * max(times) > _MATTERS and run.outcome == "ok":
         raw = run.summaries[leads]
         other = replace(shaken, dam=damped(shaken.case, shaken.dam, 2.0))
-        damped_slip = other.run(raw.end_time / raw.steps).summaries[leads].slip
+        damped_slip = other.run(raw.end_time / raw.steps, ending=ending).summaries[leads].slip
     return SelfExcitation(
         growth_1_s=rate,
         period_s=period if math.isfinite(period) else None,

@@ -96,6 +96,13 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
     return Answer(trials.dam_of(level.mesh), trials.whole(level), evidence[trials.asked], beside, evidence)
 
 
+def build_ahead(shaken: ShakenDam, frame_step: float) -> None:
+    """Build the dams that full evidence for a run at the first step will ask for, of which the last few are kept."""
+    stand = _Stand(Trials(shaken, shaken.first_step(), frame_step), Level(0, 0), full=True)
+    # Asking for it builds it.
+    stand.wanted(means=False)
+
+
 def _affordable(trials: Trials, level: Level, *, full: bool, means: bool) -> bool:
     """Return whether the runs that evidence at a level needs are within what a result may cost."""
     # The run that is told and one at twice or half its step are the least; they may be too much before a dam is built.

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.beside import pass_notes
 from heeltoe.errors.error import InputError
 from heeltoe.kernel.dam import DAM_OUTCOMES, DamRun, Ending
 from heeltoe.models.flexible.body.cost import Cost, building, parts_of, surroundings_of
@@ -152,9 +153,7 @@ class Trials:
                 # Threads hear of no signal; what the run with frames has come to is told.
                 self._ending.ask()
                 pool.shutdown(cancel_futures=True)
-                ended = None if shown.cancelled() else shown.exception()
-                for note in getattr(ended, "__notes__", ()):
-                    error.add_note(note)
+                pass_notes([shown], error)
                 raise
 
     @property

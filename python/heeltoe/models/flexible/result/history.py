@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pyarrow as pa
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.kernel.dam import CONTACT_STATUSES
 from heeltoe.models.flexible.body.elastic import stresses
 from heeltoe.models.flexible.body.reduced import FlexibleDam
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 #: Status of a node that is not watched.
 UNWATCHED = -1
@@ -165,6 +167,8 @@ def crack_table(history: CrackHistory) -> pa.Table:
     - ``gap_m`` to the other face; null beyond its end;
     - ``status``: a name of :meth:`CrackHistory.status_names`; null where the node is not watched.
     """
+    import pyarrow as pa
+
     counts = [face.shape[2] for face in history.faces]
     # Single nodes of the lower face, which need not stand below those of the upper, have no force of their own.
     force = [history.forces(), *(np.full_like(face, np.nan) for face in history.faces[1:])]
@@ -198,11 +202,15 @@ def _every_frame(history: CrackHistory, values: Sequence[NDArray[Any]]) -> NDArr
 
 
 def _nullable(values: Floats) -> pa.Array:
+    import pyarrow as pa
+
     return pa.array(values, mask=np.isnan(values))
 
 
 def _named(numbers: NDArray[Any], names: list[str]) -> pa.Array:
     """Return the names that numbers count, null for negative ones."""
+    import pyarrow as pa
+
     return pa.DictionaryArray.from_arrays(pa.array(numbers, mask=numbers < 0), names).cast(pa.string())
 
 

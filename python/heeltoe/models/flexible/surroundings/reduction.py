@@ -55,8 +55,10 @@ class LinearBody:
         away from that: they cost no further factors (Bai and Su, SIAM Journal on Matrix Analysis 2005)."""
         options = {"SymmetricMode": True}
         factors = splu(self.operator(rate), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options=options)
-        slope = self.damping + 2.0 * rate * self.mass
         terms = [factors.solve(forces.astype(complex))]
+        if not count:
+            return terms
+        slope = self.damping + 2.0 * rate * self.mass
         for place in range(count):
             pushed = slope @ terms[-1] + (self.mass @ terms[-2] if place else 0.0)
             terms.append(factors.solve(-pushed))

@@ -27,7 +27,6 @@ import numpy as np
 import scipy.linalg
 import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
-from scipy.spatial import cKDTree
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.models.flexible.surroundings.edges import (
@@ -277,10 +276,10 @@ def full_rock(base: Floats, material: RockMaterial, *, highest: float = HIGHEST,
     def energy_density(u: Any, v: Any, _: Any) -> Any:
         return elastic(u, v, 1.0)
 
-    def absorbed(u: Any, v: Any, w: Any) -> Any:
-        x, z = w.x
-        distance = np.maximum(np.hypot(x, z) - half, 0.0)
-        rise = _GRADIENT / material.shear_speed * distance**2 / (distance + _START * half)
+    distance = np.maximum(np.hypot(*basis.global_coordinates()) - half, 0.0)
+    rise = _GRADIENT / material.shear_speed * distance**2 / (distance + _START * half)
+
+    def absorbed(u: Any, v: Any, _: Any) -> Any:
         return elastic(u, v, rise)
 
     def inertia(u: Any, v: Any, _: Any) -> Any:
@@ -478,6 +477,8 @@ def _rates(material: RockMaterial, half: float, highest: float) -> Rates:
 def _halves(full: FullRock, half: float) -> list[Sparse]:
     """Return all motions, (N, n), as those that are the same on both sides of the middle and those that are opposite,
     where the rock is the same on both sides and neither moves the other; elsewhere all together."""
+    from scipy.spatial import cKDTree
+
     count = full.points.shape[0]
     everything = [sparse.identity(count, format="csr")]
     places = np.column_stack([full.points, 10.0 * half * full.axis])
