@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+import ast
+import inspect
+from functools import cache
+from itertools import pairwise
+from textwrap import dedent
 from typing import Annotated
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, GetJsonSchemaHandler, WithJsonSchema
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
 
 from heeltoe.base.display import Named
 from heeltoe.case.quantities import DimensionlessNumber, Duration, Length
@@ -37,4 +44,28 @@ class Fields(Named, BaseModel):
     """A block of fields: no unknown ones, no changes later; the texts below them go into the JSON schema."""
 
     # The validator of a block by itself is made when it is asked for; that of a case has all of its blocks.
-    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True, defer_build=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        result = handler(schema)
+        properties = handler.resolve_ref_schema(result)["properties"]
+        for name, text in field_texts(cls).items():
+            properties[cls.model_fields[name].alias or name]["description"] = text
+        return result
+
+
+@cache
+def field_texts(block: type[BaseModel]) -> dict[str, str]:
+    """Return the texts below the fields of a block, by name. They are read from its source when they are asked for: who
+    runs a case does not wait for that."""
+    texts: dict[str, str] = {}
+    for kind in reversed(block.__mro__):
+        if issubclass(kind, Fields) and kind is not Fields:
+            (source,) = ast.parse(dedent(inspect.getsource(kind))).body
+            assert isinstance(source, ast.ClassDef)
+            for field, text in pairwise(source.body):
+                match field, text:
+                    case ast.AnnAssign(target=ast.Name(name)), ast.Expr(ast.Constant(str(words))):
+                        texts[name] = inspect.cleandoc(words)
+    return texts

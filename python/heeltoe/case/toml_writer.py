@@ -9,6 +9,7 @@ from typing import Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel
 
+from heeltoe.case.fields import field_texts
 from heeltoe.case.lists import CRACKS, as_one_list
 from heeltoe.case.model import Case
 from heeltoe.case.sentences import block_of
@@ -98,10 +99,10 @@ def _long(value: object) -> bool:
 def _meaning(model: type[BaseModel] | None, name: str) -> str:
     """Return the choices of a field, or the first sentence that says what it means."""
     field = model.model_fields.get(name) if model else None
-    if field is None:
+    if model is None or field is None:
         return ""
     choices = get_args(field.annotation) if get_origin(field.annotation) is Literal else ()
-    description = " ".join((field.description or "").split())
+    description = " ".join(field_texts(model).get(name, "").split())
     return f"one of {', '.join(choices)}" if choices else re.split(r"(?<=[a-z)])[.;] ", description)[0].rstrip(".")
 
 

@@ -12,6 +12,7 @@ from pydantic.fields import FieldInfo
 from heeltoe.case.combinations import rules_of
 from heeltoe.case.crack.crack import Crack
 from heeltoe.case.field_usage import READERS, readers
+from heeltoe.case.fields import field_texts
 from heeltoe.case.joints import JOINTS, JOINTS_MEANING, Joints
 from heeltoe.case.lists import CRACKS, CRACKS_MEANING
 from heeltoe.case.model import Case
@@ -48,19 +49,20 @@ def fields_of_a_study() -> Iterator[Meaning]:
 
 
 def _walk(model: type[BaseModel], above: str, kind: str) -> Iterator[Meaning]:
+    texts = field_texts(model)
     for name, field in model.model_fields.items():
-        path = above + (field.alias or name)
+        path, meaning = above + (field.alias or name), _one_line(texts.get(name))
         # What varies may be a list or a distribution, which is told once for all.
         blocks = [] if path == "vary" or path.endswith(".values") else list(kinds_in(field.annotation))
         if not blocks:
-            yield _leaf(path, field, kind)
+            yield _leaf(path, field, meaning, kind)
         elif len(blocks) == 1:
             place = f"{path}[]" if is_list(field) else path
-            yield from _block(path, place, blocks[0], _one_line(field.description), kind)
+            yield from _block(path, place, blocks[0], meaning, kind)
         else:
             # A list of blocks of several kinds.
             places = [f"{path}[{get_args(block.model_fields['step'].annotation)[0]}]" for block in blocks]
-            yield _named(path, _one_line(field.description), "a list of blocks", kind, tuple(places))
+            yield _named(path, meaning, "a list of blocks", kind, tuple(places))
             for place, block in zip(places, blocks, strict=True):
                 yield from _block(place, place, block, _one_line(block.__doc__), kind)
 
@@ -85,7 +87,7 @@ def _named(path: str, meaning: str, holds: str, kind: str, parts: tuple[str, ...
     )
 
 
-def _leaf(path: str, field: FieldInfo, kind: str) -> Meaning:
+def _leaf(path: str, field: FieldInfo, meaning: str, kind: str) -> Meaning:
     quantities = quantities_of(field)
     unit = DIMENSIONS[quantities[0]].unit if len(quantities) == 1 else ""
     default = "" if field.is_required() else _shown(field.get_default(call_default_factory=True), unit)
@@ -93,7 +95,7 @@ def _leaf(path: str, field: FieldInfo, kind: str) -> Meaning:
     return Meaning(
         path,
         kind,
-        _one_line(field.description),
+        meaning,
         _holds(field),
         needed or default,
         _limits(field),

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel
 
+from heeltoe.case.fields import field_texts
 from heeltoe.case.project import Project
 from heeltoe.errors.sanitize import plain
 from heeltoe.units.sentences import UNITS, scale
@@ -73,7 +74,8 @@ def shown_values(values: Sequence[Any], units: str = "si", name: str = "") -> li
 
 def _walked(model: BaseModel, written: Mapping[str, Any], prefix: str) -> Iterator[tuple[str, Any, bool, str]]:
     blocks: list[tuple[BaseModel, Mapping[str, Any], str]] = []
-    for name, info in type(model).model_fields.items():
+    texts = field_texts(type(model))
+    for name in type(model).model_fields:
         value = getattr(model, name)
         if isinstance(value, Project):
             continue
@@ -82,7 +84,7 @@ def _walked(model: BaseModel, written: Mapping[str, Any], prefix: str) -> Iterat
         elif isinstance(value, tuple) and value and isinstance(value[0], BaseModel):
             blocks += [(item, written[name][k], f"{prefix}{name}[{k}].") for k, item in enumerate(value)]
         else:
-            meaning = " ".join((info.description or "").split())
+            meaning = " ".join(texts.get(name, "").split())
             yield prefix + name, written[name], name in model.model_fields_set, meaning
     for block in blocks:
         yield from _walked(*block)
