@@ -477,13 +477,11 @@ def _rates(material: RockMaterial, half: float, highest: float) -> Rates:
 def _halves(full: FullRock, half: float) -> list[Sparse]:
     """Return all motions, (N, n), as those that are the same on both sides of the middle and those that are opposite,
     where the rock is the same on both sides and neither moves the other; elsewhere all together."""
-    from scipy.spatial import cKDTree
-
     count = full.points.shape[0]
     everything = [sparse.identity(count, format="csr")]
-    places = np.column_stack([full.points, 10.0 * half * full.axis])
-    away, twin = cKDTree(places).query(places * [-1.0, 1.0, 1.0])
-    if away.max() > _SAME * half:
+    twin = _twins(full, _SAME * half)
+    away = full.points[twin] - full.points * [-1.0, 1.0]
+    if np.hypot(*away.T).max() > _SAME * half:
         return everything
     # Downstream is upstream in a mirror.
     turned = np.where(full.axis == 0, -1.0, 1.0)
@@ -500,6 +498,23 @@ def _halves(full: FullRock, half: float) -> list[Sparse]:
             )
         )
     return halves
+
+
+def _twins(full: FullRock, same: float) -> Integers:
+    """Return of each unknown (N,) the one as far on the other side of the middle, where the rock is the same there but
+    for lengths of rounding."""
+
+    def places(values: Floats) -> Integers:
+        ascending = np.argsort(values)
+        result = np.empty(values.size, dtype=np.int64)
+        result[ascending] = np.cumsum(np.diff(values[ascending], prepend=values[ascending[0]]) > same)
+        return result
+
+    x, z = full.points.T
+    here, there = (np.lexsort([places(along), places(z), full.axis]) for along in (x, -x))
+    twin = np.empty(x.size, dtype=np.int64)
+    twin[there] = here
+    return twin
 
 
 def smooth_tractions(base: Floats) -> Floats:
