@@ -2,6 +2,7 @@
 
 mod flexible;
 mod law;
+mod memory;
 mod results;
 mod rigid;
 mod stack;
@@ -19,6 +20,9 @@ use pyo3::prelude::*;
 
 use tables::{table, wrong, Numbers};
 use watch::{quiet, watched, InternalError};
+
+#[global_allocator]
+static MEMORY: memory::WholeLines = memory::WholeLines;
 
 /// The compiled half of heeltoe.
 #[pymodule]
