@@ -214,6 +214,11 @@ impl ReducedBody {
         self.width().div_ceil(LANES)
     }
 
+    /// Motion of a component of the crack, or rate of a link, in a mode.
+    pub(super) fn shape(&self, component: usize, mode: usize) -> f64 {
+        self.shapes[place(self.width(), mode / LANES, component)][mode % LANES]
+    }
+
     /// Motion of the crack, or rates of the dashpots, in the modes of a group.
     fn shapes_of(&self, group: usize) -> impl Iterator<Item = &Group> {
         let width = self.width();
@@ -230,43 +235,6 @@ impl ReducedBody {
             for (row, a) in matrix.chunks_exact_mut(stride).zip(&shapes) {
                 for (value, b) in row.as_flattened_mut().iter_mut().zip(&shapes) {
                     *value += (0..LANES).map(|l| a[l] * weight[l] * b[l]).sum::<f64>();
-                }
-            }
-        }
-        matrix
-    }
-
-    /// `shapes D` with a symmetric matrix over all modes, row by row, in the order of the shapes.
-    pub(super) fn shapes_times(&self, d: &[Group]) -> Vec<Group> {
-        let (width, groups) = (self.width(), self.groups());
-        let mut product = vec![[0.0; LANES]; self.shapes.len()];
-        for c in 0..width {
-            let mut sum = vec![[0.0; LANES]; groups];
-            for group in 0..groups {
-                for (l, share) in self.shapes[place(width, group, c)].iter().enumerate() {
-                    let row = &d[(LANES * group + l) * groups..][..groups];
-                    for (sum, row) in sum.as_flattened_mut().iter_mut().zip(row.as_flattened()) {
-                        *sum += share * row;
-                    }
-                }
-            }
-            for (group, sum) in sum.iter().enumerate() {
-                product[place(width, group, c)] = *sum;
-            }
-        }
-        product
-    }
-
-    /// `shapes turned^T`, as [`ReducedBody::compliance`], of what [`ReducedBody::shapes_times`] returns.
-    pub(super) fn compliance_to(&self, turned: &[Group]) -> Vec<Group> {
-        let (width, stride) = (self.width(), self.stride());
-        let mut matrix = vec![[0.0; LANES]; width * stride];
-        for group in 0..self.groups() {
-            for (r, row) in matrix.chunks_exact_mut(stride).enumerate() {
-                let a = &self.shapes[place(width, group, r)];
-                for (c, value) in row.as_flattened_mut().iter_mut().take(width).enumerate() {
-                    let b = &turned[place(width, group, c)];
-                    *value += (0..LANES).map(|l| a[l] * b[l]).sum::<f64>();
                 }
             }
         }

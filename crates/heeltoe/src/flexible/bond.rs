@@ -28,7 +28,7 @@
 use super::coulomb::{ContactOperator, Known, Problem, Report, Solver};
 use super::crack_line::Line;
 use super::scheme::TimeStep;
-use super::simd::Lanes;
+use super::simd::{largest, Lanes};
 use super::status::Status;
 
 /// Share of the change of a pass that the spring of a node which closes may hand on to the next.
@@ -362,12 +362,8 @@ impl Bonds {
         self.passes += 1;
         let m = solver.status.len();
         let way = |u: f64, before: f64| step.dt * (step.theta * u + (1.0 - step.theta) * before);
-        let fastest = problem.b.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let largest = solver
-            .p
-            .iter()
-            .chain(&self.shift)
-            .fold(0.0_f64, |a, p| a.max(p.abs()));
+        let fastest = largest(&problem.b);
+        let largest = largest(&solver.p).max(largest(&self.shift));
         for bond in self.iter_mut() {
             let k = bond.contact;
             let mut ways = [k, m + k].map(|i| way(solver.u[i], before[i]));

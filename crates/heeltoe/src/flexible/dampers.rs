@@ -27,6 +27,7 @@ use super::panels::Panels;
 use super::reservoir::{Reservoir, Water};
 use super::scheme::TimeStep;
 use super::simd::{in_groups, Group, Lanes, LANES};
+use super::symmetric::{add_product, Symmetric};
 
 /// The dashpots of a run, and the water that is tied to the bodies as they are.
 pub(super) struct Dampers<'a> {
@@ -46,7 +47,7 @@ pub(super) struct Dampers<'a> {
     further: Vec<f64>,
     /// Room for what the rows feel, for the impulses on the crack nodes, and for sums over both.
     room: Vec<f64>,
-    impulses: Vec<f64>,
+    impulses: Vec<Group>,
     rows_room: Vec<Group>,
     nodes_room: Vec<Group>,
     /// Energy the dashpots have taken.
@@ -66,7 +67,7 @@ struct Wide {
 /// by row.
 pub(super) struct HeldNodes {
     matrix: Vec<Group>,
-    panels: Panels,
+    tiles: Symmetric,
     /// The first component of each part, and its number of nodes.
     parts: Vec<(usize, usize)>,
     /// Groups in a row.
@@ -110,13 +111,12 @@ impl Wide {
             }
         }
         let (wide, groups) = (count.div_ceil(LANES), size.div_ceil(LANES));
-        let matrix = in_groups(&matrix, size);
         Wide {
             gain: Panels::new(&in_groups(gain, count), wide, wide),
             felt: Panels::new(&in_groups(&gained, count), wide, wide),
             nodes: HeldNodes {
-                panels: Panels::new(&matrix, groups, groups),
-                matrix,
+                tiles: Symmetric::new(&matrix, size),
+                matrix: in_groups(&matrix, size),
                 parts,
                 stride: groups,
             },
@@ -126,9 +126,9 @@ impl Wide {
 
 impl HeldNodes {
     /// Find the velocities of the crack nodes with these impulses of contact.
-    fn answer<W: Lanes>(&self, bodies: &mut [ModalStepper], impulses: &[f64], room: &mut [Group]) {
+    fn answer<W: Lanes>(&self, bodies: &mut [ModalStepper], impulses: &[Group], room: &mut [Group]) {
         room.fill([0.0; LANES]);
-        self.panels.combine::<W>(impulses, room);
+        add_product::<W>(&self.tiles, impulses, room);
         let mut answers: &[f64] = room.as_flattened();
         for body in bodies.iter_mut() {
             let (own, rest) = answers.split_at(body.impulse.len());
@@ -215,7 +215,7 @@ impl<'a> Dampers<'a> {
             pull: zeros.clone(),
             further: zeros.clone(),
             room: zeros,
-            impulses: bodies.iter().flat_map(|body| &body.impulse).copied().collect(),
+            impulses: vec![[0.0; LANES]; nodes],
             taken: 0.0,
         }
     }
@@ -231,7 +231,7 @@ impl<'a> Dampers<'a> {
 
     /// Velocities of the water's modes.
     pub(super) fn water(&self) -> &[f64] {
-        self.water.as_ref().map_or(&[], |water| &water.velocity)
+        self.water.as_ref().map_or(&[], Water::velocities)
     }
 
     /// Change the velocities without contact by what the dashpots and the water do of themselves; what acts in the crack
@@ -287,7 +287,7 @@ impl<'a> Dampers<'a> {
             self.rows_room.fill([0.0; LANES]);
             gather(bodies, &mut self.impulses);
             let felt = &wide[drive.damping].felt;
-            felt.combine::<W>(&self.impulses, &mut self.rows_room);
+            felt.combine::<W>(self.impulses.as_flattened(), &mut self.rows_room);
             negate(self.rows_room.as_flattened(), &mut self.further);
         }
         add(&mut self.pull, &self.further);
@@ -350,8 +350,8 @@ fn respond(gain: &[f64], rate: &[f64], pull: &mut [f64]) {
 
 /// Copy the impulses on the crack nodes of all parts.
 #[inline(always)]
-fn gather(bodies: &[ModalStepper], impulses: &mut [f64]) {
-    let mut rest = impulses;
+fn gather(bodies: &[ModalStepper], impulses: &mut [Group]) {
+    let mut rest = impulses.as_flattened_mut();
     for body in bodies.iter() {
         let (own, more) = rest.split_at_mut(body.impulse.len());
         own.copy_from_slice(&body.impulse);

@@ -5,6 +5,7 @@
 
 mod body;
 mod bond;
+mod boundary;
 mod compliance;
 mod contact;
 mod contact_operator;
@@ -41,6 +42,7 @@ mod status;
 mod step;
 mod still;
 mod summary;
+mod symmetric;
 #[cfg(test)]
 mod tests;
 mod walk;

@@ -19,8 +19,8 @@ use super::scheme::TimeStep;
 use std::borrow::Cow;
 
 use super::body::{ReducedBody, BUNDLE};
+use super::boundary::{Boundary, Room};
 use super::compliance::Compliance;
-use super::inverse::inverse;
 use super::ledger::Sums;
 use super::panels::Panels;
 use super::simd::{apart, combine, fma, inlined, Group, Lanes, Plain, LANES};
@@ -33,27 +33,22 @@ pub(super) struct Operator {
     w: [Vec<Group>; 2],
     /// What impulses of the links are to the crack nodes.
     linked: [Panels; 2],
-    /// Where a boundary takes energy: `D`, and `shapes D` in the order of the shapes.
-    dense: Option<[Dense; 2]>,
-}
-
-/// `D` of a body whose boundary takes energy.
-struct Dense {
-    d: Panels,
-    shapes: Vec<Group>,
+    /// Where a boundary takes energy.
+    boundary: Option<[Boundary; 2]>,
 }
 
 impl Operator {
     fn new(body: &ReducedBody, step: TimeStep) -> Self {
         let TimeStep { dt, theta } = step;
         if let Some(boundary) = &body.boundary {
-            let dense = [0, 1].map(|state| Dense::new(body, boundary, state, step));
-            let w = [0, 1].map(|state: usize| body.compliance_to(&dense[state].shapes));
+            let [(sticking, one), (free, other)] =
+                [0, 1].map(|state: usize| Boundary::new(body, boundary, state, step));
+            let w = [one, other];
             return Operator {
                 d: [Vec::new(), Vec::new()],
                 linked: Operator::linked(body, &w),
                 w,
-                dense: Some(dense),
+                boundary: Some([sticking, free]),
             };
         }
         let d = [0, 1].map(|state| {
@@ -69,34 +64,13 @@ impl Operator {
             d,
             linked: Operator::linked(body, &w),
             w,
-            dense: None,
+            boundary: None,
         }
     }
 
     fn linked(body: &ReducedBody, w: &[Vec<Group>; 2]) -> [Panels; 2] {
         let (columns, stride) = (body.columns(), body.stride());
         [0, 1].map(|state: usize| Panels::new(&w[state][columns * stride..], stride, columns.div_ceil(LANES)))
-    }
-}
-
-impl Dense {
-    fn new(body: &ReducedBody, boundary: &[Group], state: usize, step: TimeStep) -> Self {
-        let (groups, weight) = (body.groups(), step.dt * step.theta);
-        let size = LANES * groups;
-        let mut a: Vec<f64> = boundary.as_flattened().iter().map(|c| weight * c).collect();
-        let (c, w) = (
-            body.damping[state].as_flattened(),
-            body.omega_squared.as_flattened(),
-        );
-        for k in 0..size {
-            a[k * (size + 1)] += 1.0 + weight * c[k] + weight * weight * w[k];
-        }
-        let inverse = inverse(a, size);
-        let d: Vec<Group> = inverse.as_chunks::<LANES>().0.to_vec();
-        let shapes = body.shapes_times(&d);
-        // Not the modes that fill up the last groups.
-        let d = Panels::new(&d[..body.modes * groups], groups, body.modes.div_ceil(LANES));
-        Dense { d, shapes }
     }
 }
 
@@ -118,8 +92,9 @@ pub(super) struct ModalStepper<'a> {
     pub v: Vec<Group>,
     /// What the step would end with without contact; with a boundary that takes energy, the momentum it begins with.
     v_free: Vec<Group>,
-    /// With such a boundary: `v*`.
+    /// With such a boundary: `v*`, and room for the numbers of a block.
     mean: Vec<Group>,
+    room: Room,
     /// Of the crack nodes: position, velocity, impulse.
     pub position: Vec<f64>,
     pub velocity: Vec<f64>,
@@ -205,6 +180,7 @@ impl<'a> ModalStepper<'a> {
             v: vec![[0.0; LANES]; body.groups()],
             v_free: vec![[0.0; LANES]; body.groups()],
             mean: vec![[0.0; LANES]; if body.boundary.is_some() { body.groups() } else { 0 }],
+            room: Room::new(body),
             position: still.map_or_else(|| body.position.clone(), |still| still.position[part].clone()),
             velocity: zeros.clone(),
             impulse: zeros.clone(),
@@ -226,8 +202,8 @@ impl<'a> ModalStepper<'a> {
         self.pushes[..columns].copy_from_slice(&self.impulse);
         self.pushes[columns..].copy_from_slice(&self.pull);
         let touched = self.pushes.iter().any(|p| *p != 0.0);
-        if self.operator.dense.is_some() {
-            return advance_dense::<W>(self, now.map(|now| (now, touched)), next, step);
+        if self.operator.boundary.is_some() {
+            return advance_absorbing::<W>(self, now.map(|now| (now, touched)), next, step);
         }
         self.lanes.fill([0.0; LANES]);
         let (body, mut sums) = (self.body, self.sums);
@@ -258,31 +234,19 @@ impl<'a> ModalStepper<'a> {
         }
     }
 
-    /// What [`advance_dense`] does.
+    /// What [`advance_absorbing`] does.
     #[inline(always)]
-    fn go_on_dense<W: Lanes>(&mut self, now: Option<(Drive, bool)>, next: Drive, step: TimeStep) {
+    fn go_on_absorbing<W: Lanes>(&mut self, now: Option<(Drive, bool)>, next: Drive, step: TimeStep) {
         let TimeStep { dt, theta } = step;
-        let (width, late, body) = (self.body.width(), 1.0 - theta, self.body);
-        let Some(dense) = &self.operator.dense else {
+        let (late, body, room) = (1.0 - theta, self.body, &mut self.room);
+        let Some(boundary) = &self.operator.boundary else {
             return;
         };
         if let Some((now, touched)) = now {
             if touched {
-                let bundles = body.shapes.chunks_exact(BUNDLE * width);
-                for (shapes, g) in bundles.zip(self.v_free.chunks_exact_mut(BUNDLE)) {
-                    let mut push = [[0.0; LANES]; BUNDLE];
-                    inlined::combine::<W>(shapes, BUNDLE, &self.pushes, &mut push);
-                    for (g, push) in g.as_flattened_mut().iter_mut().zip(push.as_flattened()) {
-                        *g += theta * push;
-                    }
-                }
+                boundary[now.damping].push::<W>(&self.pushes, theta, &mut self.v_free, room);
             }
-            self.mean.fill([0.0; LANES]);
-            let used = body.modes.div_ceil(LANES);
-            let momentum = self.v_free.as_flattened();
-            dense[now.damping]
-                .d
-                .combine::<W>(momentum, &mut self.mean[..used]);
+            boundary[now.damping].hold::<W>(&self.v_free, &mut self.mean, room);
             // Copies, as in `finish`.
             let (mut sums, back) = (self.sums, 1.0 / theta);
             for group in 0..body.groups() {
@@ -327,18 +291,7 @@ impl<'a> ModalStepper<'a> {
             }
             self.v_free[group] = g;
         }
-        self.lanes.fill([0.0; LANES]);
-        let bundles = dense[next.damping].shapes.chunks_exact(BUNDLE * width);
-        for (shapes, g) in bundles.zip(self.v_free.as_chunks::<BUNDLE>().0) {
-            let mut values = [W::all(0.0); BUNDLE];
-            for (value, g) in values.iter_mut().zip(g) {
-                *value = W::load(g);
-            }
-            add_products(shapes.as_chunks::<BUNDLE>().0, values, &mut self.lanes);
-        }
-        for (free, lanes) in self.free.iter_mut().zip(self.lanes.as_chunks::<LANES>().0) {
-            *free = W::sums(lanes);
-        }
+        boundary[next.damping].motion::<W>(&self.v_free, &mut self.free, room);
         let free = self.free.as_flattened_mut();
         for (free, before) in free.iter_mut().zip(&self.velocity) {
             *free -= late * before;
@@ -513,8 +466,8 @@ apart! {
 
 apart! {
     /// The same where a boundary takes energy; `now` with whether there are any impulses.
-    fn advance_dense(body: &mut ModalStepper<'_>, now: Option<(Drive, bool)>, next: Drive, step: TimeStep) -> () =
-        ModalStepper::go_on_dense;
+    fn advance_absorbing(body: &mut ModalStepper<'_>, now: Option<(Drive, bool)>, next: Drive, step: TimeStep) -> () =
+        ModalStepper::go_on_absorbing;
 }
 
 apart! {

@@ -34,7 +34,8 @@ use super::inverse::inverse;
 use super::ledger::Ledger;
 use super::panels::Panels;
 use super::scheme::TimeStep;
-use super::simd::{apart, in_groups, Group, Lanes, Plain, LANES};
+use super::simd::{apart, fma, in_groups, Group, Lanes, Plain, LANES};
+use super::symmetric::{add_product, Symmetric};
 
 /// A reservoir in its modes; `m` of them.
 pub struct Reservoir {
@@ -168,27 +169,30 @@ pub(super) struct Water<'a> {
     /// `G`, `Y K^-1` and `M`.
     remembered: Panels,
     followed: Panels,
-    own: Panels,
+    own: Symmetric,
     /// `r`, and room for `G r` and for `z`.
-    rest: Vec<f64>,
+    rest: Vec<Group>,
     ties_room: Vec<Group>,
     modes_room: Vec<Group>,
+    /// Squared circular frequencies, and shares in the motion of the ground.
+    omega_squared: Vec<Group>,
+    share: [Vec<Group>; 2],
     /// Amplitudes and their velocities.
-    amplitude: Vec<f64>,
-    pub velocity: Vec<f64>,
+    amplitude: Vec<Group>,
+    velocity: Vec<Group>,
     /// Velocity of the ground.
     ground: [f64; 2],
     /// What the ground does to the modes in this step.
-    drive: Vec<f64>,
-    /// What leaves, and `x*` of the last steps, one in a lane, in which it has not been booked.
+    drive: Vec<Group>,
+    /// What leaves, and `x*` of the last steps, one after the other, in which it has not been booked.
     leaving: [Leaving; 2],
     means: Vec<Group>,
     waiting: usize,
     /// Energies: put in by the ground, left through the floor and the far end, taken by the scheme, all that went in.
-    input: f64,
+    input: Group,
     left: [f64; 2],
-    numerical: f64,
-    turnover: f64,
+    numerical: Group,
+    turnover: Group,
 }
 
 /// The lower half of a symmetric matrix, row by row, what is beside the diagonal twice; nothing where it is zero.
@@ -243,7 +247,7 @@ apart! {
 impl<'a> Water<'a> {
     pub(super) fn new(of: &'a Reservoir, step: TimeStep) -> Self {
         let (modes, ties, weight) = (of.modes(), of.ties(), step.dt * step.theta);
-        let zeros = vec![0.0; modes];
+        let zeros = vec![[0.0; LANES]; modes.div_ceil(LANES)];
         let inverted = inverse(of.impedance(step), modes);
         let answers: Vec<Vec<f64>> = of
             .ties
@@ -286,22 +290,24 @@ impl<'a> Water<'a> {
             step,
             remembered: panels(&turned, ties),
             followed: panels(&followed.concat(), modes),
-            own: panels(&rest, modes),
+            own: Symmetric::new(&rest, modes),
             impedance,
             rest: zeros.clone(),
             ties_room: vec![[0.0; LANES]; ties.div_ceil(LANES)],
-            modes_room: vec![[0.0; LANES]; modes.div_ceil(LANES)],
+            modes_room: zeros.clone(),
+            omega_squared: in_groups(&of.omega_squared, modes),
+            share: of.ground.each_ref().map(|share| in_groups(share, modes)),
             amplitude: zeros.clone(),
             velocity: zeros.clone(),
             ground: [0.0; 2],
+            means: vec![[0.0; LANES]; LANES * zeros.len()],
             drive: zeros,
             leaving: of.leaving.each_ref().map(|matrix| Leaving::new(matrix)),
-            means: vec![[0.0; LANES]; of.modes()],
             waiting: 0,
-            input: 0.0,
+            input: [0.0; LANES],
             left: [0.0; 2],
-            numerical: 0.0,
-            turnover: 0.0,
+            numerical: [0.0; LANES],
+            turnover: [0.0; LANES],
         }
     }
 
@@ -310,54 +316,64 @@ impl<'a> Water<'a> {
         &self.impedance
     }
 
+    /// Velocities of its modes.
+    pub(super) fn velocities(&self) -> &[f64] {
+        &self.velocity.as_flattened()[..self.of.modes()]
+    }
+
     /// Whether it rests, and the ground with it in a step that changes its velocity so.
     pub(super) fn rests(&self, change: [f64; 2]) -> bool {
         let zero = |numbers: &[f64]| numbers.iter().all(|x| *x == 0.0);
-        zero(&self.ground) && zero(&change) && zero(&self.velocity) && zero(&self.amplitude)
+        let still = |numbers: &[Group]| zero(numbers.as_flattened());
+        zero(&self.ground) && zero(&change) && still(&self.velocity) && still(&self.amplitude)
     }
 
     /// Add to the rates of the rows what it does of itself in a step in which the ground's velocity changes so.
     pub(super) fn begin<W: Lanes>(&mut self, change: [f64; 2], rates: &mut [f64]) {
-        let TimeStep { dt, theta } = self.step;
-        let [x, z] = [0, 1].map(|k| self.ground[k] + theta * change[k]);
-        let weight = 1.0 / (theta * theta * dt);
-        for (k, rest) in self.rest.iter_mut().enumerate() {
-            let drive = self.of.ground[0][k] * x + self.of.ground[1][k] * z;
-            let spring = self.of.omega_squared[k] * self.amplitude[k];
-            self.drive[k] = drive;
-            *rest = weight * (self.velocity[k] - theta * dt * (spring - drive));
-        }
+        set_off::<W>(self, change);
         self.ties_room.fill([0.0; LANES]);
-        self.remembered.combine::<W>(&self.rest, &mut self.ties_room);
+        self.remembered
+            .combine::<W>(self.rest.as_flattened(), &mut self.ties_room);
         for (rate, more) in rates.iter_mut().zip(self.ties_room.as_flattened()) {
             *rate += more;
         }
     }
 
+    /// What [`set_off`] does.
+    #[inline(always)]
+    fn remember<W: Lanes>(&mut self, change: [f64; 2]) {
+        let TimeStep { dt, theta } = self.step;
+        let [x, z] = [0, 1].map(|k| self.ground[k] + theta * change[k]);
+        let weight = 1.0 / (theta * theta * dt);
+        for (group, rest) in self.rest.iter_mut().enumerate() {
+            let [along, up] = [0, 1].map(|k: usize| self.share[k][group]);
+            let (w, amplitude, velocity) = (
+                self.omega_squared[group],
+                self.amplitude[group],
+                self.velocity[group],
+            );
+            let (mut drive, mut own) = ([0.0; LANES], [0.0; LANES]);
+            for l in 0..LANES {
+                drive[l] = fma::<W>(along[l], x, up[l] * z);
+                let spring = fma::<W>(w[l], amplitude[l], -drive[l]);
+                own[l] = weight * fma::<W>(-theta * dt, spring, velocity[l]);
+            }
+            (self.drive[group], *rest) = (drive, own);
+        }
+    }
+
     /// Go on to the end of the step under these impulses on what ties it to the bodies.
     pub(super) fn finish<W: Lanes>(&mut self, change: [f64; 2], impulses: &[f64]) {
-        let TimeStep { dt, theta } = self.step;
         self.modes_room.fill([0.0; LANES]);
         self.followed.combine::<W>(impulses, &mut self.modes_room);
-        self.own.combine::<W>(&self.rest, &mut self.modes_room);
-        let modes = self.velocity.len();
-        for (k, impulse) in self.modes_room.as_flattened()[..modes].iter().enumerate() {
-            let mean = -impulse / dt;
-            let new = (mean - (1.0 - theta) * self.velocity[k]) / theta;
-            let (way, more) = (dt * mean, new - self.velocity[k]);
-            let work = self.drive[k] * way;
-            self.input += work;
-            self.turnover += work.abs();
-            self.numerical += (theta - 0.5) * (more * more + self.of.omega_squared[k] * way * way);
-            self.means[k][self.waiting] = mean;
-            self.amplitude[k] += way;
-            self.velocity[k] = new;
-        }
+        add_product::<W>(&self.own, &self.rest, &mut self.modes_room);
+        go_on::<W>(self);
         // Eight steps together: reading a matrix is what its product costs.
         self.waiting += 1;
         if self.waiting == LANES {
+            let means = self.by_modes();
             for (left, matrix) in self.left.iter_mut().zip(&self.leaving) {
-                *left += dt * powers::<W>(matrix, &self.means);
+                *left += self.step.dt * powers::<W>(matrix, &means);
             }
             self.means.fill([0.0; LANES]);
             self.waiting = 0;
@@ -367,28 +383,80 @@ impl<'a> Water<'a> {
         }
     }
 
+    /// What [`go_on`] does.
+    #[inline(always)]
+    fn move_on<W: Lanes>(&mut self) {
+        let TimeStep { dt, theta } = self.step;
+        let (late, back, turned) = (1.0 - theta, 1.0 / theta, -1.0 / dt);
+        // Copies, so that the compiler sees that nothing overlaps, and uses wide registers.
+        let (mut input, mut turnover, mut numerical) = (self.input, self.turnover, self.numerical);
+        let groups = self.modes_room.len();
+        for (group, impulse) in self.modes_room.iter().enumerate() {
+            let (w, drive) = (self.omega_squared[group], self.drive[group]);
+            let (mut amplitude, mut velocity) = (self.amplitude[group], self.velocity[group]);
+            let mut means = [0.0; LANES];
+            for l in 0..LANES {
+                let mean = turned * impulse[l];
+                let new = back * fma::<W>(-late, velocity[l], mean);
+                let (way, more) = (dt * mean, new - velocity[l]);
+                let work = drive[l] * way;
+                input[l] += work;
+                turnover[l] += work.abs();
+                numerical[l] += (theta - 0.5) * fma::<W>(more, more, w[l] * way * way);
+                means[l] = mean;
+                amplitude[l] += way;
+                velocity[l] = new;
+            }
+            self.means[self.waiting * groups + group] = means;
+            (self.amplitude[group], self.velocity[group]) = (amplitude, velocity);
+        }
+        (self.input, self.turnover, self.numerical) = (input, turnover, numerical);
+    }
+
+    /// `x*` of the steps that have not been booked, those of a mode in one group.
+    fn by_modes(&self) -> Vec<Group> {
+        let means = self.means.as_flattened();
+        let stride = means.len() / LANES;
+        (0..self.of.modes())
+            .map(|mode| std::array::from_fn(|step| means[step * stride + mode]))
+            .collect()
+    }
+
     /// Energy it holds.
     fn stored(&self) -> f64 {
         let modes = self
             .velocity
+            .as_flattened()
             .iter()
-            .zip(&self.amplitude)
-            .zip(&self.of.omega_squared);
+            .zip(self.amplitude.as_flattened())
+            .zip(self.omega_squared.as_flattened());
         modes.map(|((v, x), square)| 0.5 * (v * v + square * x * x)).sum()
     }
 
     /// Add its energies to a ledger.
     pub(super) fn book(&self, ledger: &mut Ledger) {
+        let means = self.by_modes();
         let waiting = self
             .leaving
             .each_ref()
-            .map(|matrix| powers::<Plain>(matrix, &self.means));
+            .map(|matrix| powers::<Plain>(matrix, &means));
         let [floor, far] = [0, 1].map(|k| self.left[k] + self.step.dt * waiting[k]);
-        ledger.input += self.input;
+        let sum = |group: &Group| group.iter().sum::<f64>();
+        ledger.input += sum(&self.input);
         ledger.floor += floor;
         ledger.far_end += far;
-        ledger.numerical += self.numerical;
+        ledger.numerical += sum(&self.numerical);
         ledger.stored += self.stored();
-        ledger.turnover += self.turnover + floor + far;
+        ledger.turnover += sum(&self.turnover) + floor + far;
     }
+}
+
+apart! {
+    /// Find what the water does of itself in a step in which the ground's velocity changes so.
+    fn set_off(water: &mut Water<'_>, change: [f64; 2]) -> () = Water::remember;
+}
+
+apart! {
+    /// Let the modes go on to the end of the step under the impulses on them, and book their energies.
+    fn go_on(water: &mut Water<'_>) -> () = Water::move_on;
 }

@@ -343,6 +343,14 @@ pub(super) fn in_groups(matrix: &[f64], count: usize) -> Vec<Group> {
     groups
 }
 
+/// Copy numbers into groups, the last of which is filled up with zeros.
+#[inline(always)]
+pub(super) fn fill(numbers: &[f64], groups: &mut [Group]) {
+    let (numbers_to, rest) = groups.as_flattened_mut().split_at_mut(numbers.len());
+    numbers_to.copy_from_slice(numbers);
+    rest.fill(0.0);
+}
+
 /// `sum a b`, lane by lane: a plain sum waits for each addition.
 #[inline(always)]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -354,6 +362,26 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
         }
     }
     lanes.iter().sum::<f64>() + rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum::<f64>()
+}
+
+/// The largest of all amounts, lane by lane as [`dot`]; a number that is none is the most.
+#[inline(always)]
+pub(super) fn largest(numbers: &[f64]) -> f64 {
+    let (wide, rest) = numbers.as_chunks::<LANES>();
+    let more = |most: f64, x: f64| {
+        if x.abs() > most || x.is_nan() {
+            x.abs()
+        } else {
+            most
+        }
+    };
+    let mut lanes = [0.0; LANES];
+    for numbers in wide {
+        for l in 0..LANES {
+            lanes[l] = more(lanes[l], numbers[l]);
+        }
+    }
+    lanes.iter().chain(rest).fold(0.0, |most, x| more(most, *x))
 }
 
 /// `a b + c`, in one rounding where the machine has it.
@@ -368,7 +396,7 @@ pub(super) fn fma<W: Lanes>(a: f64, b: f64, c: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{combine, Group, Lanes, Plain, LANES};
+    use super::{combine, largest, Group, Lanes, Plain, LANES};
 
     /// Sums of 7 rows of 11 groups, with what was there, and of the lanes of the first eight.
     fn found<W: Lanes>() -> (Vec<Group>, Group) {
@@ -416,6 +444,18 @@ mod tests {
         }
         if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
             check::<Avx2>();
+        }
+    }
+    #[test]
+    fn a_number_that_is_none_is_the_most() {
+        for count in [0, 1, 7, 8, 9, 34] {
+            let mut numbers: Vec<f64> = (0..count).map(|k| -f64::from(k)).collect();
+            assert_eq!(largest(&numbers), f64::from((count - 1).max(0)));
+            for k in 0..numbers.len() {
+                let number = std::mem::replace(&mut numbers[k], f64::NAN);
+                assert!(largest(&numbers).is_nan());
+                numbers[k] = number;
+            }
         }
     }
 }

@@ -54,9 +54,15 @@ impl Kept {
         }
     }
 
+    /// Whether those turned to last are the factors of a set of states.
+    #[inline(always)]
+    pub(super) fn last_for(&self, status: &[Status]) -> bool {
+        self.all[self.now].belong_to(status)
+    }
+
     /// Turn to the factors of a set of states; false where they are not known.
     pub(super) fn turn_to(&mut self, status: &[Status]) -> bool {
-        if self.all[self.now].belong_to(status) {
+        if self.last_for(status) {
             return true;
         }
         let known = self.all.iter().position(|factors| factors.belong_to(status));

@@ -4,7 +4,7 @@
 //! p += M (-u - h),      u = G p + b,      until u + h is small where it must vanish.
 //! ```
 
-use super::super::simd::Lanes;
+use super::super::simd::{largest, Lanes};
 use super::problem::{ContactOperator, Problem};
 
 /// What old factors may leave, relative to the fastest node: less than what counts as a violation.
@@ -25,13 +25,12 @@ pub(super) trait Linear {
 pub(super) fn missing(unknowns: &[usize], u: &[f64], h: &[f64], x: &mut Vec<f64>) -> f64 {
     let m = h.len();
     x.clear();
-    for &k in unknowns {
-        let room = if k < m { 0.0 } else { h[k - m] };
-        x.push(-u[k] - room);
-    }
-    // A number that is none is the most.
-    let larger = |most: f64, x: &f64| if x.abs() <= most { most } else { x.abs() };
-    x.iter().fold(0.0, larger)
+    x.extend(
+        unknowns
+            .iter()
+            .map(|&k| if k < m { -u[k] } else { -u[k] - h[k - m] }),
+    );
+    largest(x)
 }
 
 /// Correct what a solution misses; false where that is more than `rounded`, relative to the fastest node, and corrections
@@ -44,7 +43,7 @@ pub(super) fn settle<W: Lanes>(
     u: &mut [f64],
     rounded: f64,
 ) -> bool {
-    let fastest = problem.b.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    let fastest = largest(&problem.b);
     let mut before = fastest;
     loop {
         let now = linear.amiss(u, &problem.h);

@@ -24,7 +24,7 @@ pub(super) use self::problem::{ContactOperator, Known, Problem};
 use self::factors::{factor, Kept};
 use self::inverse::Inverse;
 use self::linear::{settle, Linear};
-use super::simd::Lanes;
+use super::simd::{largest, Lanes};
 use super::status::Status;
 
 /// How a solution was found.
@@ -219,16 +219,26 @@ impl Solver {
         if self.follow::<W>(problem, crack) {
             return true;
         }
-        self.solved.clear();
+        // With the same set the last solution goes on, as in `follow`; what lasts is corrected anyway.
+        let goes_on =
+            self.inverse.is_none() && !self.solved.is_empty() && self.factors.last_for(&self.status);
         let known = self.inverse.is_none() && self.factors.turn_to(&self.status);
         if known {
-            self.factors.now().solve::<W>(problem, &mut self.p);
-            crack.velocities::<W>(problem, &self.p, &mut self.u);
             let factors = self.factors.now();
+            if factors.old() && goes_on {
+                begin_with(&mut self.u, &problem.b, &self.solved);
+                factors.amiss(&self.u, &problem.h);
+                factors.add::<W>(problem, &mut self.p);
+            } else {
+                factors.solve::<W>(problem, &mut self.p);
+            }
+            crack.velocities::<W>(problem, &self.p, &mut self.u);
             if !factors.old() || settle::<W>(factors, problem, crack, &mut self.p, &mut self.u, 0.0) {
+                self.keep(problem);
                 return true;
             }
         }
+        self.solved.clear();
         let status = &self.status;
         crack.fill(problem, |contact| status[contact].closed());
         let factors = self.factors.now();
@@ -237,7 +247,16 @@ impl Solver {
         }
         factors.solve::<W>(problem, &mut self.p);
         crack.velocities::<W>(problem, &self.p, &mut self.u);
+        self.keep(problem);
         true
+    }
+
+    /// Keep what the solution is for, where the next one may begin with it.
+    #[inline(always)]
+    fn keep(&mut self, problem: &Problem) {
+        if self.lasting {
+            self.solved.clone_from(&problem.b);
+        }
     }
 
     /// Let the inverse follow the set of states, and find the impulses with it; false where there is none, or it leaves too
@@ -262,9 +281,7 @@ impl Solver {
             }
             if inverse.turn_to::<W>(problem, status) {
                 if goes_on {
-                    for (u, (new, old)) in self.u.iter_mut().zip(problem.b.iter().zip(&self.solved)) {
-                        *u += new - old;
-                    }
+                    begin_with(&mut self.u, &problem.b, &self.solved);
                 } else {
                     self.u.copy_from_slice(&problem.b);
                     self.p.fill(0.0);
@@ -287,9 +304,7 @@ impl Solver {
     /// Change the state of the contacts that break their conditions, all or the worst; false where none does.
     fn amend(&mut self, problem: &Problem, (worst_only, slips): (bool, bool)) -> bool {
         let m = self.status.len();
-        let fastest = problem.b.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let largest = self.p.iter().fold(0.0_f64, |a, p| a.max(p.abs()));
-        let (slack_u, slack_p) = (SLACK * fastest, SLACK * largest);
+        let (slack_u, slack_p) = (SLACK * largest(&problem.b), SLACK * largest(&self.p));
         let mut worst = (0.0, usize::MAX, Status::Open);
         let mut changed = false;
         for contact in 0..m {
@@ -338,11 +353,11 @@ impl Solver {
     /// Take rounding off the solution; false where there was none.
     fn clip(&mut self) -> bool {
         let m = self.status.len();
-        let least = self.p[m..].iter().fold(0.0_f64, |a, p| a.min(*p));
-        if least < 0.0 {
+        let pulls = self.p[m..].iter().any(|p| *p < 0.0);
+        if pulls {
             self.p[m..].iter_mut().for_each(|p| *p = p.max(0.0));
         }
-        least < 0.0
+        pulls
     }
 
     /// By what impulse a contact breaks its conditions.
@@ -376,7 +391,7 @@ impl Solver {
         let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
         for (k, p_n) in self.p[m..].iter().enumerate() {
             let stops = (b_t[k].abs() * scale_t[k]).max(b_n[k].abs() * scale_n[k]);
-            largest = largest.max(*p_n).max(stops);
+            largest = largest.max(p_n.max(stops));
             worst = worst.max(self.violation(problem, k));
         }
         if largest > 0.0 {
@@ -384,5 +399,13 @@ impl Solver {
         } else {
             0.0
         }
+    }
+}
+
+/// Make velocities of a solution what its impulses make of another `b`.
+#[inline(always)]
+fn begin_with(u: &mut [f64], b: &[f64], solved: &[f64]) {
+    for (u, (new, old)) in u.iter_mut().zip(b.iter().zip(solved)) {
+        *u += new - old;
     }
 }

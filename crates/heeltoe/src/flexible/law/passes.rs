@@ -15,6 +15,7 @@
 
 use super::super::coulomb::{Problem, Report, Solver};
 use super::super::scheme::TimeStep;
+use super::super::simd::largest;
 use super::super::status::Status;
 use super::worked::Worked;
 use super::Laws;
@@ -83,7 +84,7 @@ impl Laws {
     /// largest impulse.
     fn missed(&mut self, problem: &Problem, solver: &Solver, before: &[f64], step: TimeStep) -> f64 {
         let m = solver.status.len();
-        let largest = solver.p.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
+        let largest = largest(&solver.p);
         let mut missed = 0.0_f64;
         for worked in &mut self.contacts {
             let k = worked.contact;

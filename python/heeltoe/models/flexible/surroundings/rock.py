@@ -199,15 +199,26 @@ class ReducedRock:
         # What of the motion of the base is none of these edges: all motions but those of it remain.
         off = scipy.linalg.null_space(tie.T).T @ self.shapes
         squares, shapes, own, leaving = [], [], [], []
-        for part in (slice(end - count, end) for count, end in zip(self.halves, np.cumsum(self.halves), strict=True)):
+        ends = np.cumsum(self.halves)
+        for half, part in enumerate(slice(end - count, end) for count, end in zip(self.halves, ends, strict=True)):
             free = scipy.linalg.null_space(off[:, part], rcond=_NOTHING)
             square, mixed = scipy.linalg.eigh(free.T @ (self.omega_squared[part, None] * free))
             kept = free @ mixed
             squares.append(np.maximum(square, 0.0))
-            shapes.append(np.linalg.lstsq(tie, self.shapes[:, part] @ kept, rcond=None)[0])
+            tied = np.linalg.lstsq(tie, self.shapes[:, part] @ kept, rcond=None)[0]
+            shapes.append(tied if len(self.halves) == 1 else _same_sides(tied, opposite=half == 1))
             own.append(congruent(self.damping_material[part, part], kept))
             leaving.append(congruent(self.damping_radiation[part, part], kept))
         return _joined(squares, shapes, own, leaving, self.highest, self.error)
+
+
+def _same_sides(shapes: Floats, *, opposite: bool) -> Floats:
+    """Return shapes (2 n, m) at the base that are the same on both sides of the middle, or opposite, but for rounding,
+    without rounding: the kernel sees by that which nodes move alike."""
+    sides = shapes.reshape(-1, 2, shapes.shape[1])
+    mirrored = sides[::-1] * [[-1.0], [1.0]]
+    exact: Floats = (sides - mirrored if opposite else sides + mirrored) / 2.0
+    return exact.reshape(shapes.shape)
 
 
 def _joined(
