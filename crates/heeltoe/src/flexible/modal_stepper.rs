@@ -239,6 +239,8 @@ impl<'a> ModalStepper<'a> {
     fn go_on_absorbing<W: Lanes>(&mut self, now: Option<(Drive, bool)>, next: Drive, step: TimeStep) {
         let TimeStep { dt, theta } = step;
         let (late, body, room) = (1.0 - theta, self.body, &mut self.room);
+        // Not the modes that fill up the last bundle.
+        let used = body.modes.div_ceil(LANES);
         let Some(boundary) = &self.operator.boundary else {
             return;
         };
@@ -249,7 +251,7 @@ impl<'a> ModalStepper<'a> {
             boundary[now.damping].hold::<W>(&self.v_free, &mut self.mean, room);
             // Copies, as in `finish`.
             let (mut sums, back) = (self.sums, 1.0 / theta);
-            for group in 0..body.groups() {
+            for group in 0..used {
                 let (w, load, c) = (
                     body.omega_squared[group],
                     self.balanced[group],
@@ -278,7 +280,7 @@ impl<'a> ModalStepper<'a> {
             }
             self.sums = sums;
         }
-        for group in 0..body.groups() {
+        for group in 0..used {
             let (w, load) = (body.omega_squared[group], self.left[group]);
             let gamma = [body.participation[0][group], body.participation[1][group]];
             let (q, v) = (self.q[group], self.v[group]);

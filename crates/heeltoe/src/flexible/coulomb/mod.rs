@@ -16,6 +16,7 @@
 mod factors;
 mod inverse;
 mod linear;
+mod past;
 mod problem;
 mod sweep;
 
@@ -24,6 +25,7 @@ pub(super) use self::problem::{ContactOperator, Known, Problem};
 use self::factors::{factor, Kept};
 use self::inverse::Inverse;
 use self::linear::{settle, Linear};
+use self::past::Past;
 use super::simd::{largest, Lanes};
 use super::status::Status;
 
@@ -106,8 +108,8 @@ pub(super) struct Solver {
     pub thorough: bool,
     /// A set met before, to know a circle by.
     mark: Vec<Status>,
-    /// The `b` that `p` and `u` are a solution for, where the next one may begin with them; else empty.
-    solved: Vec<f64>,
+    /// What the next solution may begin with.
+    past: Past,
 }
 
 impl Solver {
@@ -140,7 +142,7 @@ impl Solver {
     pub(super) fn hold(&mut self, impulses: impl Iterator<Item = f64>) {
         self.p.iter_mut().zip(impulses).for_each(|(p, held)| *p = held);
         self.u.fill(0.0);
-        self.solved.clear();
+        self.past.forget();
     }
 
     /// Solve, starting from the states of the last time; `Absent` ones must have been set by the caller.
@@ -160,7 +162,7 @@ impl Solver {
                 Some(change) => *change,
                 None => {
                     if !report.swept {
-                        self.solved.clear();
+                        self.past.forget();
                         let status = &self.status;
                         crack.fill(problem, |contact| status[contact] != Status::Absent);
                         report.swept = true;
@@ -219,17 +221,17 @@ impl Solver {
         if self.follow::<W>(problem, crack) {
             return true;
         }
-        // With the same set the last solution goes on, as in `follow`; what lasts is corrected anyway.
-        let goes_on =
-            self.inverse.is_none() && !self.solved.is_empty() && self.factors.last_for(&self.status);
+        // With the same set the last solutions go on, as in `follow`; what lasts is corrected anyway.
+        let goes_on = self.inverse.is_none() && self.past.known() && self.factors.last_for(&self.status);
         let known = self.inverse.is_none() && self.factors.turn_to(&self.status);
         if known {
             let factors = self.factors.now();
             if factors.old() && goes_on {
-                begin_with(&mut self.u, &problem.b, &self.solved);
+                self.past.go_on(&problem.b, &mut self.p, &mut self.u);
                 factors.amiss(&self.u, &problem.h);
                 factors.add::<W>(problem, &mut self.p);
             } else {
+                self.past.forget();
                 factors.solve::<W>(problem, &mut self.p);
             }
             crack.velocities::<W>(problem, &self.p, &mut self.u);
@@ -238,7 +240,7 @@ impl Solver {
                 return true;
             }
         }
-        self.solved.clear();
+        self.past.forget();
         let status = &self.status;
         crack.fill(problem, |contact| status[contact].closed());
         let factors = self.factors.now();
@@ -255,7 +257,7 @@ impl Solver {
     #[inline(always)]
     fn keep(&mut self, problem: &Problem) {
         if self.lasting {
-            self.solved.clone_from(&problem.b);
+            self.past.keep(&problem.b);
         }
     }
 
@@ -268,7 +270,7 @@ impl Solver {
         };
         let mut anew = inverse.far_from(status);
         // With the same set the last solution goes on: what is left to correct is little.
-        let mut goes_on = !anew && !self.solved.is_empty() && inverse.changed(status).next().is_none();
+        let mut goes_on = !anew && self.past.known() && inverse.changed(status).next().is_none();
         loop {
             if anew {
                 crack.fill(problem, |contact| status[contact].closed());
@@ -281,15 +283,16 @@ impl Solver {
             }
             if inverse.turn_to::<W>(problem, status) {
                 if goes_on {
-                    begin_with(&mut self.u, &problem.b, &self.solved);
+                    self.past.go_on(&problem.b, &mut self.p, &mut self.u);
                 } else {
+                    self.past.forget();
                     self.u.copy_from_slice(&problem.b);
                     self.p.fill(0.0);
                 }
                 inverse.amiss(&self.u, &problem.h);
                 inverse.add::<W>(problem, &mut self.p);
                 crack.velocities::<W>(problem, &self.p, &mut self.u);
-                self.solved.clone_from(&problem.b);
+                self.past.keep(&problem.b);
                 if settle::<W>(inverse, problem, crack, &mut self.p, &mut self.u, ROUNDED) {
                     return true;
                 }
@@ -399,13 +402,5 @@ impl Solver {
         } else {
             0.0
         }
-    }
-}
-
-/// Make velocities of a solution what its impulses make of another `b`.
-#[inline(always)]
-fn begin_with(u: &mut [f64], b: &[f64], solved: &[f64]) {
-    for (u, (new, old)) in u.iter_mut().zip(b.iter().zip(solved)) {
-        *u += new - old;
     }
 }
