@@ -275,6 +275,15 @@ apart! {
     pub(super) fn combine_first(rows: &[Group], stride: usize, x: &[f64], sum: &mut [Group]) -> () = inlined::combine;
 }
 
+/// Add `x` times some groups to others.
+#[inline(always)]
+pub(super) fn add_times<W: Lanes>(x: f64, groups: &[Group], to: &mut [Group]) {
+    let x = W::all(x);
+    for (to, groups) in to.iter_mut().zip(groups) {
+        x.fma(W::load(groups), W::load(to)).store(to);
+    }
+}
+
 /// What is to be inlined where it is used.
 pub(super) mod inlined {
     use super::{columns, Group, Lanes};

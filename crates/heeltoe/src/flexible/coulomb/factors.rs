@@ -9,13 +9,14 @@
 //!
 //! The matrix is factored, `P G = L U`, column by column, with row pivoting.
 
-use super::super::simd::{apart, combine, fma, Group, Lanes, LANES};
+use super::super::simd::{add_times, apart, combine, fma, Group, Lanes, LANES};
 use super::super::status::Status;
 use super::linear::{missing, Linear};
 use super::problem::Problem;
 
-/// Solutions with the same factors after which their inverse pays: one solution by it takes a quarter of the time.
-const INVERT_AFTER: u32 = 20;
+/// Solutions with the same factors after which their inverse pays: one solution by it takes a quarter of the time, and all
+/// of it as long as five.
+const INVERT_AFTER: u32 = 5;
 /// An inverse of what is closer to singular than this share of its largest pivot would not solve to rounding.
 const INVERTIBLE: f64 = 1e-6;
 
@@ -164,16 +165,41 @@ impl Factors {
             return;
         }
         let stride = n.div_ceil(LANES);
-        let rhs = self.x.clone();
         self.sum = vec![[0.0; LANES]; stride];
-        self.inverse = vec![[0.0; LANES]; n * stride];
+        self.inverse.clear();
+        self.inverse.resize(n * stride, [0.0; LANES]);
         for k in 0..n {
-            self.x.fill(0.0);
-            self.x[k] = 1.0;
-            substitute::<W>(self);
-            self.inverse[k * stride..][..stride].as_flattened_mut()[..n].copy_from_slice(&self.x);
+            self.inverse[k * stride..][..stride].as_flattened_mut()[k] = 1.0;
         }
-        self.x = rhs;
+        // Its columns as rows, all at once: U^T, then L^T, then the pivots.
+        for k in 0..n {
+            let (own, below) = self.inverse[k * stride..].split_at_mut(stride);
+            let pivot = W::all(self.lu[k * n + k]);
+            own.iter_mut()
+                .for_each(|x| pivot.fma(W::load(x), W::all(0.0)).store(x));
+            for (row, u) in below
+                .chunks_exact_mut(stride)
+                .zip(self.lu[(k + 1) * n..].chunks_exact(n))
+            {
+                add_times::<W>(-u[k], own, row);
+            }
+        }
+        for k in (0..n).rev() {
+            let (above, own) = self.inverse.split_at_mut(k * stride);
+            for (row, l) in above.chunks_exact_mut(stride).zip(self.lu.chunks_exact(n)) {
+                add_times::<W>(-l[k], &own[..stride], row);
+            }
+        }
+        for (k, &pivot) in self
+            .pivots
+            .iter()
+            .enumerate()
+            .rev()
+            .filter(|(k, pivot)| *k != **pivot)
+        {
+            let (above, below) = self.inverse.split_at_mut(pivot * stride);
+            above[k * stride..][..stride].swap_with_slice(&mut below[..stride]);
+        }
     }
 
     /// What [`substitute`] does.

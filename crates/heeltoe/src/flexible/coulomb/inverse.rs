@@ -18,7 +18,7 @@
 //! since, another part of `G` and another coefficient of friction, is left for the corrections of the solution. No law
 //! adds to the friction here.
 
-use super::super::simd::{apart, combine_first, fma, inlined, Group, Lanes, LANES};
+use super::super::simd::{add_times, apart, combine_first, fma, inlined, Group, Lanes, LANES};
 use super::super::status::Status;
 use super::linear::{missing, Linear};
 use super::problem::Problem;
@@ -310,13 +310,4 @@ fn dot<W: Lanes>(a: &[Group], b: &[f64]) -> f64 {
     let mut lanes = [0.0; LANES];
     sums[0].add(sums[1]).add(sums[2].add(sums[3])).store(&mut lanes);
     lanes.iter().sum()
-}
-
-/// Add `x` times one column to another.
-#[inline(always)]
-fn add_times<W: Lanes>(x: f64, column: &[Group], to: &mut [Group]) {
-    let x = W::all(x);
-    for (to, column) in to.iter_mut().zip(column) {
-        x.fma(W::load(column), W::load(to)).store(to);
-    }
 }
