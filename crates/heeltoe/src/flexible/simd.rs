@@ -390,7 +390,17 @@ pub(super) fn largest(numbers: &[f64]) -> f64 {
             lanes[l] = more(lanes[l], numbers[l]);
         }
     }
-    lanes.iter().chain(rest).fold(0.0, |most, x| more(most, *x))
+    for (most, x) in lanes.iter_mut().zip(rest) {
+        *most = more(*most, *x);
+    }
+    let mut width = LANES / 2;
+    while width > 0 {
+        for l in 0..width {
+            lanes[l] = more(lanes[l], lanes[l + width]);
+        }
+        width /= 2;
+    }
+    lanes[0]
 }
 
 /// `a b + c`, in one rounding where the machine has it.
