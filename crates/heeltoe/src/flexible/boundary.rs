@@ -342,9 +342,9 @@ mod tests {
             (0..columns).for_each(|c| close(moved.as_flattened()[c], motion(c)));
             let mut pushed = start.clone();
             boundary.push::<Plain>(&impulses, 0.5, &mut pushed, &mut room);
-            for k in 0..count {
+            for (k, g) in g.iter().enumerate() {
                 let push = (0..columns).map(|c| shape(c, k) * impulses[c]).sum::<f64>();
-                close(pushed.as_flattened()[k], g[k] + 0.5 * push);
+                close(pushed.as_flattened()[k], g + 0.5 * push);
             }
             for r in 0..columns {
                 for c in 0..columns {

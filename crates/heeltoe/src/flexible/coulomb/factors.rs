@@ -15,8 +15,10 @@ use super::linear::{missing, Linear};
 use super::problem::Problem;
 
 /// Solutions with the same factors after which their inverse pays: one solution by it takes a quarter of the time, and all
-/// of it as long as five.
-const INVERT_AFTER: u32 = 5;
+/// of it as long as five. By factors the velocities are right to rounding whatever the matrix is, so what is not
+/// corrected goes on by them for longer.
+const INVERT_AFTER: u32 = 20;
+const CORRECTED_INVERT_AFTER: u32 = 5;
 /// An inverse of what is closer to singular than this share of its largest pivot would not solve to rounding.
 const INVERTIBLE: f64 = 1e-6;
 
@@ -166,39 +168,39 @@ impl Factors {
         }
         let stride = n.div_ceil(LANES);
         self.sum = vec![[0.0; LANES]; stride];
-        self.inverse.clear();
-        self.inverse.resize(n * stride, [0.0; LANES]);
+        // All columns at once: of each of them the product with the matrix is right to rounding, that of rows would not be.
+        let mut rows = vec![[0.0; LANES]; n * stride];
         for k in 0..n {
-            self.inverse[k * stride..][..stride].as_flattened_mut()[k] = 1.0;
+            rows[k * stride..][..stride].as_flattened_mut()[k] = 1.0;
         }
-        // Its columns as rows, all at once: U^T, then L^T, then the pivots.
+        for (k, &pivot) in self.pivots.iter().enumerate().filter(|(k, pivot)| k != *pivot) {
+            let (above, below) = rows.split_at_mut(pivot * stride);
+            above[k * stride..][..stride].swap_with_slice(&mut below[..stride]);
+        }
         for k in 0..n {
-            let (own, below) = self.inverse[k * stride..].split_at_mut(stride);
-            let pivot = W::all(self.lu[k * n + k]);
-            own.iter_mut()
-                .for_each(|x| pivot.fma(W::load(x), W::all(0.0)).store(x));
-            for (row, u) in below
-                .chunks_exact_mut(stride)
-                .zip(self.lu[(k + 1) * n..].chunks_exact(n))
-            {
-                add_times::<W>(-u[k], own, row);
+            let (own, below) = rows[k * stride..].split_at_mut(stride);
+            let multipliers = &self.lu[k * n + k + 1..(k + 1) * n];
+            for (row, l) in below.chunks_exact_mut(stride).zip(multipliers) {
+                add_times::<W>(-l, own, row);
             }
         }
         for k in (0..n).rev() {
-            let (above, own) = self.inverse.split_at_mut(k * stride);
-            for (row, l) in above.chunks_exact_mut(stride).zip(self.lu.chunks_exact(n)) {
-                add_times::<W>(-l[k], &own[..stride], row);
+            let (above, own) = rows.split_at_mut(k * stride);
+            let own = &mut own[..stride];
+            let pivot = W::all(self.lu[k * n + k]);
+            for x in own.iter_mut() {
+                pivot.fma(W::load(x), W::all(0.0)).store(x);
+            }
+            for (row, u) in above.chunks_exact_mut(stride).zip(&self.lu[k * n..]) {
+                add_times::<W>(-u, own, row);
             }
         }
-        for (k, &pivot) in self
-            .pivots
-            .iter()
-            .enumerate()
-            .rev()
-            .filter(|(k, pivot)| *k != **pivot)
-        {
-            let (above, below) = self.inverse.split_at_mut(pivot * stride);
-            above[k * stride..][..stride].swap_with_slice(&mut below[..stride]);
+        self.inverse = vec![[0.0; LANES]; n * stride];
+        let (rows, columns) = (rows.as_flattened(), self.inverse.as_flattened_mut());
+        for k in 0..n {
+            for r in 0..n {
+                columns[k * stride * LANES + r] = rows[r * stride * LANES + k];
+            }
         }
     }
 
@@ -342,7 +344,7 @@ impl Linear for Factors {
 
     fn add<W: Lanes>(&mut self, problem: &Problem, p: &mut [f64]) {
         self.used += 1;
-        if self.used == INVERT_AFTER {
+        if self.used == INVERT_AFTER || self.old && self.used == CORRECTED_INVERT_AFTER {
             invert::<W>(self);
         }
         if self.inverse.is_empty() {
