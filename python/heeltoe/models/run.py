@@ -124,7 +124,7 @@ def _elastic_by_sign(
 
     began = perf_counter()
     recorded, *others = rest_both_ways(case, shaking, output_step)
-    if recorded.outcome == "unstable":
+    if not others:
         return run(shaking, recorded)
     ways = {"recorded": (shaking, recorded), "reversed": (shaking.reversed(), others[0])}
     worst = max(ways, key=lambda sign: ways[sign][1].badness(case))
