@@ -1,19 +1,27 @@
-//! Where the solution of a step goes on from: those of the last two with the same set of states, by a straight line,
+//! Where the solution of a step goes on from: those of the last steps with the same set of states, by their differences
 //!
 //! ```text
-//! p = 2 p_1 - p_0,      G p = 2 (G p)_1 - (G p)_0
+//! p = p_1 + D p_1 + D^2 p_1 + D^3 p_1,      D p_1 = p_1 - p_2
 //! ```
 //!
-//! What that misses is corrected, see [`super::linear`].
+//! as far as these are known, and `G p` by the same. What that misses is corrected, see [`super::linear`].
 
-/// The last two solutions with the same set.
+/// How many differences are kept.
+const ORDER: usize = 3;
+
+/// A number at the last step, and its differences there but for the last.
+type Course = [f64; ORDER];
+
+/// The last solutions with the same set.
 #[derive(Default)]
 pub(super) struct Past {
     /// What the last one is for; empty where there is none to go on from.
     b: Vec<f64>,
-    /// The impulses of the one before, and what they change in the velocities; empty where there is none.
-    p: Vec<f64>,
-    change: Vec<f64>,
+    /// The impulses until the one before, and what they change in the velocities.
+    p: Vec<Course>,
+    change: Vec<Course>,
+    /// How many differences are known.
+    known: usize,
 }
 
 impl Past {
@@ -24,9 +32,8 @@ impl Past {
 
     /// Begin anew with the next solution.
     pub(super) fn forget(&mut self) {
-        for numbers in [&mut self.b, &mut self.p, &mut self.change] {
-            numbers.clear();
-        }
+        self.b.clear();
+        self.known = 0;
     }
 
     /// Keep what the last solution is for.
@@ -38,42 +45,58 @@ impl Past {
     /// From the impulses and velocities of the last solution to those that the next one, for `b`, begins with.
     pub(super) fn go_on(&mut self, b: &[f64], p: &mut [f64], u: &mut [f64]) {
         u.iter_mut().zip(&self.b).for_each(|(u, b)| *u -= b);
-        if self.p.is_empty() {
-            self.p.extend_from_slice(p);
-            self.change.extend_from_slice(u);
-        } else {
-            advance(p, &mut self.p);
-            advance(u, &mut self.change);
+        for (now, past) in [(p, &mut self.p), (&mut *u, &mut self.change)] {
+            past.resize(now.len(), [0.0; ORDER]);
+            for (now, past) in now.iter_mut().zip(past) {
+                *now = next(*now, past, self.known);
+            }
         }
+        self.known = (self.known + 1).min(ORDER);
         u.iter_mut().zip(b).for_each(|(u, b)| *u += b);
     }
 }
 
-/// Go on along a straight line; what was now is before.
-fn advance(now: &mut [f64], before: &mut [f64]) {
-    for (now, before) in now.iter_mut().zip(before) {
-        let next = 2.0 * *now - *before;
-        *before = std::mem::replace(now, next);
+/// What comes after a number, of which so many differences are known.
+#[inline(always)]
+fn next(now: f64, past: &mut Course, known: usize) -> f64 {
+    let (mut sum, mut difference) = (now, now);
+    for (k, past) in past.iter_mut().enumerate() {
+        let before = std::mem::replace(past, difference);
+        if k == known {
+            break;
+        }
+        difference -= before;
+        sum += difference;
     }
+    sum
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Past;
+    use super::{Past, ORDER};
 
     #[test]
-    fn a_solution_goes_on_along_a_straight_line() {
+    fn solutions_go_on_as_they_went() {
+        let (b, p) = (|t: f64| 1.0 + 2.0 * t, |t: f64| t * t * t - 2.0 * t * t + 5.0);
+        let solution = |t: f64| (vec![p(t)], vec![3.0 * p(t) + b(t)]);
         let mut past = Past::default();
-        // u = 3 p + b, p = 5 + 2 t.
-        let (mut p, mut u) = (vec![5.0], vec![16.0]);
-        past.keep(&[1.0]);
-        past.go_on(&[2.0], &mut p, &mut u);
-        assert_eq!((p[0], u[0]), (5.0, 17.0));
-        (p[0], u[0]) = (7.0, 23.0);
-        past.keep(&[2.0]);
-        past.go_on(&[4.0], &mut p, &mut u);
-        assert_eq!((p[0], u[0]), (9.0, 31.0));
-        past.forget();
-        assert!(!past.known());
+        for start in [0, 20] {
+            past.forget();
+            assert!(!past.known());
+            for step in start..start + 8 {
+                let t = f64::from(step);
+                let (mut impulses, mut velocities) = solution(t);
+                past.keep(&[b(t)]);
+                assert!(past.known());
+                past.go_on(&[b(t + 1.0)], &mut impulses, &mut velocities);
+                let [was, is] = [p(t), p(t + 1.0)];
+                let known = (step - start) as usize;
+                assert_eq!(impulses[0] == was, known == 0);
+                assert_eq!(
+                    (impulses[0], velocities[0]) == (is, 3.0 * is + b(t + 1.0)),
+                    known >= ORDER
+                );
+            }
+        }
     }
 }
