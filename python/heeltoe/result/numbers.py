@@ -391,6 +391,10 @@ class EvidenceNumbers(Block):
 
     asked: Annotated[str, Number("Which evidence was asked for.")]
     converged: Annotated[bool, Number("Whether the residual slip is certain enough.")]
+    no_limit: Annotated[
+        bool,
+        Number("Whether slips may grow with each finer mesh, as on rock without damping: no mesh is enough."),
+    ] = False
     value_is: Annotated[
         str, Number("Whether the numbers to trust are those of the run, or means over runs that scatter.")
     ]

@@ -279,11 +279,12 @@ def _elastic_slip(response: Response, units: str) -> str:
 def _worth(response: Response, units: str) -> str:
     """Return how far an elastic dam slides, and how certain that is."""
     slip, evidence = length(abs(response.residual_slip_m), units), getattr(response, "evidence", None)
-    return (
-        slip
-        if evidence is None
-        else f"{slip} (numerically ± {length(evidence.residual_slip_m.uncertainty, units)}{_damping(response, units)})"
-    )
+    if evidence is None:
+        return slip
+    known = f"numerically ± {length(evidence.residual_slip_m.uncertainty, units)}"
+    if evidence.no_limit:
+        known = "it may grow with each finer mesh"
+    return f"{slip} ({known}{_damping(response, units)})"
 
 
 def _damping(response: Response, units: str) -> str:

@@ -240,7 +240,7 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "grave",
         "rock.damping",
         "the crack is on rock without damping (rock.damping = 0): sliding feeds the shortest waves along it, so that "
-        "the slip may grow with each finer mesh, and its uncertainty does not count that; set rock.damping = {usual:g}",
+        "the slip may grow with each finer mesh, and counts as not converged; set rock.damping = {usual:g}",
     ),
     "rock-coarse": (
         "caution",

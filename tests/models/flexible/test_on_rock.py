@@ -13,7 +13,7 @@ import pytest
 import scipy.sparse as sparse
 from scipy.sparse.linalg import spsolve
 
-from heeltoe import InputError, flexible, read_case, run
+from heeltoe import InputError, flexible, read_case, run, verdict
 from heeltoe.models.flexible.body import rock as rock_module
 from heeltoe.models.flexible.body.bonded import bonded_dam
 from heeltoe.models.flexible.body.cost import surroundings_of
@@ -345,8 +345,15 @@ def test_the_example_runs():
 
 def test_rock_without_damping_below_a_crack_is_warned_of():
     def warned(**changes):
-        codes = {notice.code for notice in flexible(read_case(dam(**changes))).warnings}
-        return "rock-undamped" in codes
+        response = flexible(read_case(dam(**changes)), evidence="full")
+        codes = {notice.code for notice in response.warnings}
+        no_limit = "rock-undamped" in codes
+        assert response.evidence.no_limit == no_limit
+        assert ("it may grow with each finer mesh" in verdict(response)) == no_limit
+        # Another warning says why it is not converged.
+        assert response.evidence.converged == (not no_limit)
+        assert "not-converged" not in codes
+        return no_limit
 
     undamped = ROCK | {"damping": 0.0}
     assert warned(rock=undamped)

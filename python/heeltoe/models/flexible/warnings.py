@@ -14,7 +14,7 @@ from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.flexible.body.bond import zone_mesh
 from heeltoe.models.flexible.body.modes import ENOUGH
 from heeltoe.models.flexible.body.reduced import FlexibleDam, along_crack
-from heeltoe.models.flexible.evidence.evidence import MOVED_BY
+from heeltoe.models.flexible.evidence.evidence import MOVED_BY, may_have_no_limit
 from heeltoe.models.flexible.result.history import CrackHistory
 from heeltoe.models.flexible.result.tables import anchors_of
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
@@ -116,8 +116,7 @@ def _most_loaded(case: Case, run: DamRun) -> list[AnchorForce]:
 def _about_the_rock(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
     if dam.rock_error > ENOUGH_OF_ROCK:
         yield Notice("rock-coarse", error=dam.rock_error, highest_hz=HIGHEST)
-    # A part bonded to the rock slides on damped concrete.
-    if case.rock is not None and dam.rock is not None and case.rock.damping == 0.0:
+    if may_have_no_limit(case, dam):
         yield Notice("rock-undamped", usual=Rock.model_fields["damping"].default)
     if case.rock is not None and case.rock.massless:
         yield Notice("rock-keeps-waves", path="rock.massless", value="true", other="false")
@@ -182,7 +181,8 @@ def _about_the_evidence(evidence: EvidenceNumbers) -> Iterator[Notice]:
     slip, runs = evidence.residual_slip_m, len(evidence.residual_slips_m)
     if evidence.failed:
         yield Notice("evidence-failures", failed=evidence.failed, runs=runs)
-    if not evidence.converged:
+    # Of slips without a limit another warning says why they are not converged.
+    if not evidence.converged and not evidence.no_limit:
         spent = "the budget ended the refinement"
         yield Notice(
             "not-converged",

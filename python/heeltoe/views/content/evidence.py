@@ -50,6 +50,7 @@ _STANDS = {
     True: "The residual slip has converged: {} by less than is allowed.",
     False: "The residual slip has NOT converged: {} by more than is allowed.",
 }
+_NO_LIMIT = "The residual slip has NOT converged: on rock without damping it may grow with each finer mesh."
 # By what was tried.
 _MOVERS = {
     "full": "step, mesh and 1 % of the shaking move it",
@@ -148,8 +149,9 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
     elif result is None:
         said = paragraph("Whether time step and mesh are fine enough was not asked (", Code("flexible.evidence"), ").")
     else:
+        stands = _NO_LIMIT if result["no_limit"] else _STANDS[result["converged"]]
         movers = _MOVERS["step" if result["asked"] == "step" else "full"]
-        said = paragraph(_STANDS[result["converged"]].format(movers) + _MEAN[result["value_is"] == "mean"])
+        said = paragraph(stands.format(movers) + _MEAN[result["value_is"] == "mean"])
     return [
         said,
         known(_FLEXIBLE, run.prefix, "Evidence, time step and contact of the flexible model."),

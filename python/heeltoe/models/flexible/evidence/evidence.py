@@ -6,6 +6,8 @@ about step or mesh; their mean does."""
 
 from __future__ import annotations
 
+from heeltoe.case.model import Case
+from heeltoe.models.flexible.body.reduced import FlexibleDam
 from heeltoe.result.contract import HEADLINES, JOINT_METER_M
 from heeltoe.result.numbers import EvidenceNumbers, HeadlineWorth
 
@@ -24,6 +26,13 @@ MOVED_BY = {
     "shaking": "the last per cent of the shaking",
     "surroundings": "how far rock and water reach",
 }
+
+
+def may_have_no_limit(case: Case, dam: FlexibleDam) -> bool:
+    """Return whether slips may grow with each finer mesh: those of a dam cracked on rock without damping may, as
+    sliding feeds the shortest waves along the crack (Adams, Journal of Applied Mechanics 62, 1995)."""
+    # A part bonded to the rock slides on damped concrete.
+    return case.rock is not None and dam.rock is not None and case.rock.damping == 0.0
 
 
 def allowed(slip: float) -> float:

@@ -13,7 +13,14 @@ from heeltoe.case.options import Flexible
 from heeltoe.kernel.dam import DamRun
 from heeltoe.models.flexible.body.cost import wave_bodies
 from heeltoe.models.flexible.body.reduced import FlexibleDam
-from heeltoe.models.flexible.evidence.evidence import BUDGET, FLOOR_M, allowed, most_moved_by, worth_of
+from heeltoe.models.flexible.evidence.evidence import (
+    BUDGET,
+    FLOOR_M,
+    allowed,
+    may_have_no_limit,
+    most_moved_by,
+    worth_of,
+)
 from heeltoe.models.flexible.evidence.trials import SCALES, SOFTENING, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import FEWEST_ACROSS
@@ -125,7 +132,7 @@ def _worst(evidences: Sequence[EvidenceNumbers]) -> EvidenceNumbers:
 def _finer(evidence: EvidenceNumbers, level: Level, options: Flexible) -> Level | None:
     """Return the level at which the slip may be certain enough; None where it is, or nothing can make it so."""
     slip = evidence.residual_slip_m
-    if evidence.converged or (slip.shaking or 0.0) > evidence.allowed_m:
+    if evidence.converged or evidence.no_limit or (slip.shaking or 0.0) > evidence.allowed_m:
         return None
     # What the case gives is kept.
     step = 0.0 if options.time_step is not None else slip.step
@@ -278,11 +285,13 @@ class _Stand:
             moved = (length.step, length.mesh, length.shaking, length.surroundings)
             cracked = worth_of(length.run, length.run, *moved, least=least)
         slip = worth("residual_slip_m")
+        no_limit = may_have_no_limit(trials.dam_of(0).case, dam)
         failed = 0 if varied is None else trials.failed(self._own if mean else self._cheap, SCALES)
         slips = [] if ensembles is None else ensembles[0]["residual_slip_m"].tolist()
         return EvidenceNumbers(
             asked="full" if self._full else "step",
-            converged=slip.uncertainty <= allowed(slip.value) and not failed,
+            converged=slip.uncertainty <= allowed(slip.value) and not (failed or no_limit),
+            no_limit=no_limit,
             value_is="mean" if mean else "run",
             moved_most_by=most_moved_by(slip),
             allowed_m=allowed(slip.value),
