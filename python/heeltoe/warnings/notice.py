@@ -239,8 +239,8 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "rock-undamped": (
         "grave",
         "rock.damping",
-        "the crack is on rock without damping (rock.damping = 0): sliding feeds the shortest waves along it, so that "
-        "the slip may grow with each finer mesh, and counts as not converged; set rock.damping = {usual:g}",
+        "the crack is on rock almost without damping (rock.damping = {damping:g}): sliding feeds the shortest waves "
+        "along it, so that the slip may grow with each finer mesh and is not converged; set rock.damping = {usual:g}",
     ),
     "rock-coarse": (
         "caution",

@@ -357,6 +357,7 @@ def test_rock_without_damping_below_a_crack_is_warned_of():
 
     undamped = ROCK | {"damping": 0.0}
     assert warned(rock=undamped)
+    assert warned(rock=ROCK | {"damping": 0.0005})
     assert not warned()
     assert not warned(rock=undamped, crack=HIGH)
 

@@ -116,8 +116,8 @@ def _most_loaded(case: Case, run: DamRun) -> list[AnchorForce]:
 def _about_the_rock(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
     if dam.rock_error > ENOUGH_OF_ROCK:
         yield Notice("rock-coarse", error=dam.rock_error, highest_hz=HIGHEST)
-    if may_have_no_limit(case, dam):
-        yield Notice("rock-undamped", usual=Rock.model_fields["damping"].default)
+    if case.rock is not None and may_have_no_limit(case, dam):
+        yield Notice("rock-undamped", damping=case.rock.damping, usual=Rock.model_fields["damping"].default)
     if case.rock is not None and case.rock.massless:
         yield Notice("rock-keeps-waves", path="rock.massless", value="true", other="false")
     elif case.rock is not None and not case.rock.radiation:

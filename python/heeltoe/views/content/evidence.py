@@ -50,7 +50,7 @@ _STANDS = {
     True: "The residual slip has converged: {} by less than is allowed.",
     False: "The residual slip has NOT converged: {} by more than is allowed.",
 }
-_NO_LIMIT = "The residual slip has NOT converged: on rock without damping it may grow with each finer mesh."
+_NO_LIMIT = "The residual slip has NOT converged: on rock almost without damping it may grow with each finer mesh."
 # By what was tried.
 _MOVERS = {
     "full": "step, mesh and 1 % of the shaking move it",
