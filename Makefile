@@ -1,5 +1,5 @@
 # make demo   build everything in .venv and run the main job on a real record
-# make test   build everything in .venv and run all tests
+# make test   build everything in .venv and run the tests
 # make help   the rest
 
 PYTHON ?= python3
@@ -10,15 +10,18 @@ RECORDS := $(abspath ../shared/records)
 export HEELTOE_RECORDS ?= $(if $(wildcard $(RECORDS)),$(RECORDS))
 export PYO3_PYTHON := $(abspath $(BIN)/python)
 WASM := wasm32-unknown-unknown
-ELAPSED = echo "$@: done in $$(( $$(date +%s) - $$(cat $(VENV)/.started) )) s"
+SECONDS_SINCE = $$(( $$(date +%s) - $$(cat $(VENV)/.started) )) s
+ELAPSED = echo "$@: done in $(SECONDS_SINCE)"
+PASSED = echo "$@: passed in $(SECONDS_SINCE)"
 
-.PHONY: demo test test-slow attack test-pythons audit browser lint sizes format validate book peers bench docs wheel try-wheel clean help check
+.PHONY: demo test test-slow test-all attack test-pythons audit browser lint sizes format validate book peers bench docs wheel try-wheel clean help check
 .DEFAULT_GOAL := help
 
 help:
 	@echo "make demo       run the typical dam through El Centro 1940; report, figures and results in out/demo"
-	@echo "make test       all tests but the long ones"
-	@echo "make test-slow  the long ones"
+	@echo "make test       the tests: kernels, every number of the physics, each figure, page and command once; 5 minutes"
+	@echo "make test-slow  longer validation, which a change must pass too; 15 minutes"
+	@echo "make test-all   both, and products: every figure of every example, every field under every model; an hour"
 	@echo "make attack     tries to break it, for hours; writes docs/attack.md (CASES=2000 SEED=7 ADD=1 for fewer, others, added)"
 	@echo "make test-pythons  the tests under every Python of 3.11 to 3.13 that is installed"
 	@echo "make audit      known weaknesses of all that is installed or built from; needs a network"
@@ -64,12 +67,17 @@ SIDE_BY_SIDE := -n 3 --dist loadfile --no-loadscope-reorder
 
 test: check $(VENV)/.built
 	cargo test --locked --quiet -p heeltoe
-	$(BIN)/pytest -q -m "not slow" $(SIDE_BY_SIDE)
-	@$(ELAPSED)
+	$(BIN)/pytest -q -m "not slow and not product" $(SIDE_BY_SIDE)
+	@$(PASSED)
 
+# TESTS="tests/study tests/views" for some folders of it.
 test-slow: check $(VENV)/.built
-	$(BIN)/pytest -q -m slow -n 2 --dist worksteal
-	@$(ELAPSED)
+	$(BIN)/pytest -q -m "slow and not product" -n 2 --dist worksteal $(TESTS)
+	@$(PASSED)
+
+test-all: test
+	$(BIN)/pytest -q -m "slow or product" -n 2 --dist worksteal
+	@$(PASSED)
 
 # Random cases of an attack, where they begin, and which attacks; the defects that it finds name their seeds. With ADD=1
 # their figures are added to those of the page.

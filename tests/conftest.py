@@ -92,7 +92,9 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
         config.workeroutput["raised"] = sorted(_RAISED)
         return
     complete = (
-        config.option.markexpr in ("", "not slow") and not config.option.keyword and not config.option.collectonly
+        config.option.markexpr in ("", "not slow and not product")
+        and not config.option.keyword
+        and not config.option.collectonly
     )
     if complete and config.args == config.getini("testpaths") and session.exitstatus == 0:
         declared = {(kind, code) for kind, codes in _CATALOGUES.items() for code in codes}

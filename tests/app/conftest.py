@@ -27,6 +27,14 @@ if _REQUIRED:
     import playwright  # noqa: F401
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Leave eight paths through the app to the default part; what else needs a browser belongs to the slow part."""
+    for item in items:
+        if "launch" in getattr(item, "fixturenames", ()) and not item.get_closest_marker("path"):
+            item.add_marker(pytest.mark.slow)
+
+
 @pytest.fixture(scope="session")
 def address():
     """Serve the app, and return where."""

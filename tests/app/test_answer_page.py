@@ -26,6 +26,7 @@ def settled(page) -> None:
     page.wait_for_function("() => !document.querySelector('.card.stale:not([hidden])')")
 
 
+@pytest.mark.path
 def test_opens_with_the_typical_dam(page, picture):
     page.wait_for_selector(f"{RIGID} .verdict")
     settled(page)
@@ -34,6 +35,7 @@ def test_opens_with_the_typical_dam(page, picture):
     picture(page, "answer")
 
 
+@pytest.mark.path
 def test_sliders_change_the_answer(page):
     page.wait_for_selector(SLIP)
     before = page.inner_text(SLIP)

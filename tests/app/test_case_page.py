@@ -35,6 +35,7 @@ def value_is(page, selector, value):
     page.wait_for_function("([at, is]) => document.querySelector(at).value === is", arg=[selector, value])
 
 
+@pytest.mark.path
 def test_what_is_typed_is_checked_at_its_field(case, picture):
     picture(case, "case")
     verdict = case.inner_text(VERDICT)

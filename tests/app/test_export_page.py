@@ -24,6 +24,7 @@ def saved(page, button: str):
     return waiting.value
 
 
+@pytest.mark.path
 def test_files_are_made_and_fetched(export, picture):
     export.select_option("#export-model", "rigid")
     export.check("text=animation")

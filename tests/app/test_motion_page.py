@@ -55,6 +55,7 @@ def test_shows_the_motion_of_the_case(motion, picture):
     picture(motion, "motion")
 
 
+@pytest.mark.path
 def test_a_pair_is_dropped_and_shakes_the_dam(motion, picture):
     before = motion.text_content(SLIP)
     pair = [sent("MINE090.AT2", at2()), sent("MINEUP.AT2", at2("UP", 0.2))]

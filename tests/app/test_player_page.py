@@ -44,6 +44,7 @@ def picture(page, canvas):
     return page.evaluate("(canvas) => document.querySelector(canvas).toDataURL()", canvas)
 
 
+@pytest.mark.path
 def test_keys_go_to_moments(shown, animation):
     end = animation[1]
     assert moment(shown) == 0.0

@@ -48,6 +48,7 @@ def saved(page, label: str) -> bytes:
     return waiting.value.path().read_bytes()
 
 
+@pytest.mark.path
 def test_a_study_is_counted_run_exported_and_looked_at(studies, places, picture, heard_well):
     picture(studies, "studies-form")
     small(studies)

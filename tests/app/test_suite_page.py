@@ -7,6 +7,7 @@ import pytest
 pytest.importorskip("playwright")
 
 
+@pytest.mark.path
 def test_a_suite_is_chosen_run_and_answered(page, picture, heard_well):
     page.click("#tab-studies")
     page.wait_for_function("() => /runs? \\(/.test(document.querySelector('.outlook').textContent)")

@@ -88,24 +88,24 @@ def test_a_line_can_be_typed(line, place, request):
     assert process.returncode in ((0, 3) if name == "solve" else (0,)), process.stderr
 
 
-@pytest.mark.parametrize("page", PAGES)
-def test_commands_and_options_in_passing_are_there(page):
+def test_commands_and_options_in_passing_are_there():
     options = {option for item in COMMANDS.values() for parameter in item.params for option in parameter.opts}
-    for span in spans(page):
-        if span.startswith("heeltoe "):
-            _, name, *arguments = shlex.split(span)
-            if name == "--version":
+    for page in PAGES:
+        for span in spans(page):
+            if span.startswith("heeltoe "):
+                _, name, *arguments = shlex.split(span)
+                if name == "--version":
+                    continue
+                assert name in COMMANDS, (page, span)
+                known = {option for parameter in COMMANDS[name].params for option in parameter.opts}
+                assert name != "validate" or set(arguments) <= set(CASES), (page, span)
+            elif span.startswith("--") and page != "CONTRIBUTING.md":
+                arguments, known = shlex.split(span), options
+            else:
                 continue
-            assert name in COMMANDS, span
-            known = {option for parameter in COMMANDS[name].params for option in parameter.opts}
-            assert name != "validate" or set(arguments) <= set(CASES), span
-        elif span.startswith("--") and page != "CONTRIBUTING.md":
-            arguments, known = shlex.split(span), options
-        else:
-            continue
-        assert {argument for argument in arguments if argument.startswith("--")} <= known, span
-        for option, value in pairwise(arguments):
-            if option == "--set" and "..." not in value:
-                read_case(KOYNA, [value])
-            if option == "--model":
-                assert set(value.split(",")) <= {"auto", "rigid", "flexible", "decoupled", "both"}, span
+            assert {argument for argument in arguments if argument.startswith("--")} <= known, (page, span)
+            for option, value in pairwise(arguments):
+                if option == "--set" and "..." not in value:
+                    read_case(KOYNA, [value])
+                if option == "--model":
+                    assert set(value.split(",")) <= {"auto", "rigid", "flexible", "decoupled", "both"}, (page, span)

@@ -36,4 +36,4 @@ def test_scripts_that_workflows_run_are_there():
 def test_nothing_is_published_but_by_a_tag():
     publish = yaml.safe_load(WORKFLOWS["release.yml"])["jobs"]["publish"]
     assert publish["if"] == "github.ref_type == 'tag'"
-    assert publish["needs"] == "build"
+    assert publish["needs"] == ["build", "test-all"]
