@@ -175,12 +175,13 @@ def attack(law: str, seeds: range, place: Path, record_property: Any) -> None:
     strikes.report(record_property)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 def test_some_answers_stay_the_same(law, tmp_path, record_property):
     attack(law, range(35_000, 35_007), tmp_path, record_property)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("law", LAWS)
 def test_answers_stay_the_same(law, tmp_path, record_property):
     first = SEED * 1_000_000 + 900_000

@@ -32,6 +32,7 @@ def strike(strikes: Attack, what: str, model: str, fields: dict[str, Any], place
     return strikes.strike(what, *command, "case.json", "--json", "-", cwd=place, data=True, judge=contradictions)
 
 
+@pytest.mark.slow
 def attack(seeds: range, place: Path, record_property: Any) -> None:
     strikes = Attack("random cases of all features", seconds=HANGS)
     for seed in seeds:
@@ -44,7 +45,7 @@ def test_some_random_cases(tmp_path, record_property):
     attack(range(34_000, 34_040), tmp_path, record_property)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("part", range(10))
 def test_many_random_cases(part, tmp_path, record_property):
     first = SEED * 1_000_000 + part * 100_000
@@ -59,6 +60,7 @@ PAIRS = [
 ]
 
 
+@pytest.mark.slow
 def attack_pairs(pairs: list[tuple[str, str, str]], place: Path, record_property: Any) -> None:
     """What the table of features says of each pair is so: it runs, or is refused by the table."""
     strikes = Attack("pairs of features", seconds=HANGS)
@@ -84,7 +86,7 @@ def test_some_pairs_of_features(tmp_path, record_property):
     attack_pairs(random.Random(34).sample(PAIRS, 25), tmp_path, record_property)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 def test_all_pairs_of_features(tmp_path, record_property):
     pairs = PAIRS if len(PAIRS) <= CASES else random.Random(SEED).sample(PAIRS, CASES)
     attack_pairs(pairs, tmp_path, record_property)

@@ -29,6 +29,7 @@ from shared.dams import BLOCK, example
 from shared.studies import DRAWN, study_file
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timers that signal here")
 def test_runs_with_evidence_end_at_once_and_say_how_far_they_have_come(monkeypatch):
     """Here they are threads; all would take half a minute."""
@@ -52,6 +53,7 @@ def test_runs_with_evidence_end_at_once_and_say_how_far_they_have_come(monkeypat
     ends_at_once(case, handler)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timers that signal here")
 def test_both_signs_end_at_once_and_say_how_far_they_have_come():
     def handler(*_):

@@ -147,12 +147,13 @@ def judge(name: str, around: Place, cwd: Path) -> None:
         }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("around", "name"), QUICK)
 def test_where_a_command_runs(around, name, tmp_path):
     judge(name, PLACES[around], tmp_path)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("around", PLACES)
 def test_where_every_command_runs(around, tmp_path):
     further = FURTHER if around in LOCALES else {}
@@ -177,7 +178,7 @@ def small(tmp_path) -> Iterator[Path]:
     subprocess.run(["umount", str(place)], check=True)
 
 
-@pytest.mark.parametrize("name", ["report", pytest.param("video", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", ["report", pytest.param("video", marks=pytest.mark.product)])
 def test_a_full_disk_for_temporary_files(name, small, tmp_path):
     (small / "full").write_bytes(bytes(60_000))
     (tmp_path / "here").mkdir()
@@ -187,7 +188,7 @@ def test_a_full_disk_for_temporary_files(name, small, tmp_path):
     assert name != "report" or b"set TMPDIR" in run.stderr
 
 
-@pytest.mark.parametrize("name", ["report", *(pytest.param(name, marks=pytest.mark.slow) for name in COMMANDS)])
+@pytest.mark.parametrize("name", ["report", *(pytest.param(name, marks=pytest.mark.product) for name in COMMANDS)])
 def test_a_full_disk(name, small):
     (small / "full").write_bytes(bytes(30_000))
     judge(name, PLACES["read-only home"], small)

@@ -100,7 +100,7 @@ def test_a_disk_that_is_full_at_some_moments(tmp_path, record_property, monkeypa
     attack(errno.ENOSPC, 12, tmp_path, record_property, monkeypatch)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.usefixtures("empty_figures")
 @pytest.mark.parametrize("code", [errno.ENOSPC, errno.EACCES])
 def test_a_disk_that_fails_at_any_moment(code, tmp_path, record_property, monkeypatch):
@@ -129,7 +129,7 @@ def named(name: bytes, ending: str) -> str:
 
 @pytest.mark.usefixtures("empty_figures")
 @pytest.mark.parametrize(
-    "number", [0, 2, *(pytest.param(k, marks=pytest.mark.slow) for k in (1, *range(3, len(NAMES))))]
+    "number", [0, 2, *(pytest.param(k, marks=pytest.mark.product) for k in (1, *range(3, len(NAMES))))]
 )
 def test_names_of_all_kinds(number, tmp_path, record_property):
     strikes = Attack("names of files")
@@ -169,7 +169,7 @@ def jumping(steps: list[float]) -> Callable[[], float]:
 @pytest.mark.usefixtures("empty_figures")
 @pytest.mark.parametrize(
     "steps",
-    [[1e9, 0.0, -1e9, 5.0], *(pytest.param(steps, marks=pytest.mark.slow) for steps in ([0.0], [1e18, -1e18]))],
+    [[1e9, 0.0, -1e9, 5.0], *(pytest.param(steps, marks=pytest.mark.product) for steps in ([0.0], [1e18, -1e18]))],
 )
 def test_clocks_that_jump(steps, tmp_path, record_property, monkeypatch):
     file, strikes = study_file(tmp_path, GRID), Attack("clocks that jump")
@@ -193,7 +193,7 @@ def test_clocks_that_jump(steps, tmp_path, record_property, monkeypatch):
 # Two at one place
 
 
-@pytest.mark.slow
+@pytest.mark.product
 def test_two_processes_at_one_place(tmp_path, record_property):
     strikes, out = Attack("two processes at one place"), tmp_path / "out"
     words = [sys.executable, "-m", "heeltoe", "run", str(BLOCK), "--out", str(out), "--csv", "--set"]

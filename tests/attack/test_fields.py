@@ -110,12 +110,13 @@ def attack(place: Path, model: str, chosen: Callable[[int, str, str], bool], rec
     strikes.report(record_property)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", MODELS)
 def test_some_values_of_every_field(model, place, record_property):
     attack(place, model, some, record_property)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("model", MODELS)
 def test_every_value_of_every_field(model, place, record_property):
     attack(place, model, in_turn, record_property)

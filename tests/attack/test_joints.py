@@ -74,7 +74,7 @@ def off_on_half_the_mesh(fields: dict[str, Any]) -> tuple[float, float]:
     return abs(length - worth.value), worth.uncertainty
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("part", range(4))
 def test_the_cracked_length_on_half_the_mesh_is_within_what_is_said(part):
     rng = np.random.default_rng([32, part])
@@ -84,7 +84,7 @@ def test_the_cracked_length_on_half_the_mesh_is_within_what_is_said(part):
         assert off <= said + 1e-9, (off, said, fields)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("batch", range(6))
 def test_of_random_joints_none_heals_and_every_ledger_closes(batch):
     rng = np.random.default_rng([3232, batch])

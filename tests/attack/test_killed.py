@@ -34,7 +34,7 @@ def title(directory: Path) -> str:
     return str(json.loads((directory / "result.json").read_text())["title"])
 
 
-@pytest.mark.slow
+@pytest.mark.product
 def test_killed_at_thirty_moments_a_directory_holds_the_old_result_or_the_new(tmp_path):
     place, moments = tmp_path / "out", random.Random("heeltoe")
     assert start(place, "run 0").wait() == 0

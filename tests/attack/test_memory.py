@@ -102,11 +102,12 @@ pytestmark = pytest.mark.skipif(
 )
 
 
+@pytest.mark.slow
 def test_some_random_inputs_take_what_is_said(record_property):
     attack(range(39_000, 39_003), record_property)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("part", range(10))
 def test_random_inputs_take_what_is_said(part, record_property):
     """200 of them in an attack of 20,000 cases."""

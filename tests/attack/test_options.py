@@ -95,13 +95,14 @@ def test_all_commands_are_attacked():
     assert set(USUAL) == set(COMMANDS)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("empty_figures")
 @pytest.mark.parametrize("name", USUAL)
 def test_some_words_for_every_option(name, tmp_path, record_property):
     attack(name, tmp_path, 41, record_property)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.usefixtures("empty_figures")
 @pytest.mark.parametrize("name", USUAL)
 def test_most_words_for_every_option(name, tmp_path, record_property):

@@ -127,12 +127,13 @@ def faults(seed: int) -> list[str]:
     return result
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_random_dams_on_rock_before_water_with_sound(seed):
     assert not faults(seed)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("part", range(4))
 def test_many_random_dams_on_rock_before_water_with_sound(part):
     count = min(CASES, 300)

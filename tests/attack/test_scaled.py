@@ -141,12 +141,13 @@ def attack(law: str, seeds: range, place: Path, record_property: Any) -> None:
     strikes.report(record_property)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 def test_some_dams_obey_the_laws(law, tmp_path, record_property):
     attack(law, range(37_000, 37_006), tmp_path, record_property)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("law", LAWS)
 def test_dams_obey_the_laws(law, tmp_path, record_property):
     first = SEED * 1_000_000 + 970_000
@@ -180,7 +181,7 @@ def test_the_app_answers_some_dams_as_the_shell(tmp_path, record_property):
     attack_the_app(range(37_000, 37_006), tmp_path, record_property)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 def test_the_app_answers_as_the_shell(tmp_path, record_property):
     first = SEED * 1_000_000 + 970_000
     attack_the_app(range(first, first + CASES // 10), tmp_path, record_property)
@@ -206,6 +207,7 @@ def ran(out: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in sorted((out / "runs").glob("*.parquet"))}
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("empty_figures")
 def test_studies_in_another_order_and_resumed(tmp_path, record_property):
     strikes = Attack("laws: studies")
@@ -225,7 +227,7 @@ def test_studies_in_another_order_and_resumed(tmp_path, record_property):
     strikes.report(record_property)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 def test_studies_on_one_thread_and_on_many(tmp_path, record_property):
     file, strikes = study_file(tmp_path, GRID), Attack("laws: threads")
     for threads in ("1", "4"):

@@ -239,6 +239,7 @@ def compare(dam: dict[str, Any]) -> list[str]:
 OUTCOMES = ("stands", "cracks through", "floats")
 
 
+@pytest.mark.slow
 def attack(seeds: range, record_property: Any) -> None:
     """Compare random dams, and first one of each outcome."""
     twins, first = Attack("static twins, load cases"), seeds[0]
@@ -260,13 +261,13 @@ def test_some_static_twins(record_property):
     attack(range(36_000, 36_012), record_property)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 def test_static_twins(record_property):
     first = SEED * 1_000_000 + 950_000
     attack(range(first, first + max(50, CASES // 10)), record_property)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("outcome", OUTCOMES)
 def test_dams_of_each_outcome(outcome):
     for seed in range(20):

@@ -73,7 +73,7 @@ def test_reports_as_html(text):
     assert max(map(len, shown.splitlines())) < 10_000
 
 
-@pytest.mark.parametrize("name", ["markup", "controls", "long word", pytest.param("long", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", ["markup", "controls", "long word", pytest.param("long", marks=pytest.mark.product)])
 def test_reports_as_pdf(name, usual):
     # What is long takes some lines more where the case is said again in full, and no page full of itself.
     assert pages(*strange_run(TEXTS[name])) <= usual + 2

@@ -110,6 +110,6 @@ def test_some_values_of_every_field(tmp_path, record_property):
     attack(tmp_path, 83, record_property)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 def test_many_values_of_every_field(tmp_path, record_property):
     attack(tmp_path, 3, record_property)

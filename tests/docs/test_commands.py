@@ -59,20 +59,43 @@ def test_there_are_some():
     assert {line.split()[1] for _, line in LINES} == set(COMMANDS)
 
 
+def words(line: str) -> tuple[str, list[str]]:
+    """Return command and arguments of a line as a shell takes it: to the comment, or to the pipe."""
+    _, name, *arguments = shlex.split(line.partition(" | ")[0], comments=True)
+    return name, arguments
+
+
+def test_every_line_is_understood(place, monkeypatch):
+    """Commands, options and their values: all that typer sees before a command begins."""
+    monkeypatch.chdir(place)
+    for page, line in LINES:
+        name, arguments = words(line)
+        try:
+            COMMANDS[name].make_context(name, [argument.replace("FILE", "my-record.AT2") for argument in arguments])
+        except typer.Exit:
+            pass
+        except Exception as error:
+            raise AssertionError(f"{page}: {line}") from error
+
+
+#: The first line of each command; all others are run by the slow part.
+FIRST = {words(line)[0]: line for _, line in reversed(LINES)}.values()
+
+
 @pytest.mark.usefixtures("no_figures")
-@pytest.mark.parametrize("line", [line for _, line in LINES], ids=[place for place, _ in LINES])
+@pytest.mark.parametrize(
+    "line",
+    [pytest.param(line, id=page, marks=[] if line in FIRST else pytest.mark.slow) for page, line in LINES],
+)
 def test_a_line_can_be_typed(line, place, request):
     if "taft" in line:
         request.getfixturevalue("records")
-    # As a shell takes it: to the comment, or to the pipe.
-    _, name, *arguments = shlex.split(line.partition(" | ")[0], comments=True)
+    name, arguments = words(line)
     if name == "validate":
         assert set(arguments) <= set(CASES)
         return
     if name == "app":
-        # It serves until it is ended, which tests/app sees.
-        COMMANDS[name].make_context(name, arguments)
-        return
+        return  # it serves until it is ended, which tests/app sees
     if name in ("new", "examples"):
         arguments = [f"another-{len(list(place.iterdir()))}"]
     if "decoupled" in arguments:

@@ -10,6 +10,9 @@ from heeltoe.case.read import case_schema
 from shared.dams import ROOT
 from shared.pages import PAGES, files, headings, links, spans
 
+SCHEMA = case_schema()
+BLOCKS = "|".join(set(SCHEMA["properties"]) - {"title"})
+
 
 def lead_somewhere(page: str, target: str) -> bool:
     """Whether a link leads to a file, and to a heading of it; pages that the site generates are looked up there."""
@@ -51,18 +54,14 @@ def test_paths_are_there():
 
 def field(path: str) -> Any:
     """Return the schema of a field of a case by its path, None where there is no such field."""
-    schema = case_schema()
-    result: Any = schema
+    result: Any = SCHEMA
     for name in path.split("."):
         reference = re.search(r"#/\$defs/(\w+)", str(result.get("$ref", result.get("anyOf", ""))))
-        result = schema["$defs"][reference[1]] if reference else result
+        result = SCHEMA["$defs"][reference[1]] if reference else result
         result = result.get("properties", {}).get(name)
         if result is None:
             return None
     return result
-
-
-BLOCKS = "|".join(set(case_schema()["properties"]) - {"title"})
 
 
 def test_fields_of_a_case_are_there():
