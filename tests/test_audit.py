@@ -35,6 +35,7 @@ def audit(place: Path, old: str | None, lock: str | None, deny: str = "exit 0") 
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("old", "lock", "deny", "code", "words"),
     [

@@ -28,6 +28,7 @@ def pytest_run(place: Path, *options: str) -> tuple[int, list[str]]:
     return run.returncode, run.stdout.splitlines()
 
 
+@pytest.mark.slow
 def test_the_last_lines_name_what_no_test_raises(tmp_path):
     (tmp_path / "test_nothing.py").write_text(
         "from heeltoe import InputError\ndef test_one(): InputError('case-file-missing', 'dam.toml')\n"
@@ -42,6 +43,7 @@ def test_the_last_lines_name_what_no_test_raises(tmp_path):
     assert pytest_run(tmp_path, "-k", "one")[0] == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [(), ("-n1",)])
 def test_a_test_that_fails_is_named_at_once(tmp_path, workers):
     (tmp_path / "test_two.py").write_text("def test_fails(): assert 0\ndef test_holds(): pass\n")
@@ -62,6 +64,7 @@ def test_figures_of_other_seeds_are_added(tmp_path, monkeypatch):
     assert "seeds 81, 82." in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [(), ("-n2",)])
 def test_what_an_attack_has_tried_is_added_once(tmp_path, monkeypatch, workers):
     page = tmp_path / "attack.md"

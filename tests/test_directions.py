@@ -51,6 +51,7 @@ def test_all_contracts_hold(copy):
         assert f"{contract} KEPT" in message
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("file", "form", "forbidden", "contract"),
     [

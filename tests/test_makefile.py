@@ -35,6 +35,7 @@ def builds(tree: Path, *changed: Path) -> bool:
     return "maturin" in process.stdout
 
 
+@pytest.mark.slow
 def test_every_source_of_the_kernel_is_seen(tree: Path) -> None:
     sources = [path.relative_to(tree) for path in tree.rglob("*.rs")]
     assert max(len(source.parts) for source in sources) > 5, "the deepest sources are not in the tree"

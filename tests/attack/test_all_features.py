@@ -32,7 +32,6 @@ def strike(strikes: Attack, what: str, model: str, fields: dict[str, Any], place
     return strikes.strike(what, *command, "case.json", "--json", "-", cwd=place, data=True, judge=contradictions)
 
 
-@pytest.mark.slow
 def attack(seeds: range, place: Path, record_property: Any) -> None:
     strikes = Attack("random cases of all features", seconds=HANGS)
     for seed in seeds:
@@ -41,6 +40,7 @@ def attack(seeds: range, place: Path, record_property: Any) -> None:
     strikes.report(record_property)
 
 
+@pytest.mark.slow
 def test_some_random_cases(tmp_path, record_property):
     attack(range(34_000, 34_040), tmp_path, record_property)
 
@@ -60,7 +60,6 @@ PAIRS = [
 ]
 
 
-@pytest.mark.slow
 def attack_pairs(pairs: list[tuple[str, str, str]], place: Path, record_property: Any) -> None:
     """What the table of features says of each pair is so: it runs, or is refused by the table."""
     strikes = Attack("pairs of features", seconds=HANGS)
@@ -82,6 +81,7 @@ def attack_pairs(pairs: list[tuple[str, str, str]], place: Path, record_property
     strikes.report(record_property)
 
 
+@pytest.mark.slow
 def test_some_pairs_of_features(tmp_path, record_property):
     attack_pairs(random.Random(34).sample(PAIRS, 25), tmp_path, record_property)
 

@@ -172,6 +172,7 @@ def test_a_case_may_come_through_a_pipe(tmp_path):
     assert fields == read_fields(Path(BLOCK))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="no such signals here")
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
 def test_a_command_that_is_asked_to_end_leaves_nothing_aside(name, tmp_path):

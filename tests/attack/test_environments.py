@@ -178,6 +178,7 @@ def small(tmp_path) -> Iterator[Path]:
     subprocess.run(["umount", str(place)], check=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["report", pytest.param("video", marks=pytest.mark.product)])
 def test_a_full_disk_for_temporary_files(name, small, tmp_path):
     (small / "full").write_bytes(bytes(60_000))
@@ -188,6 +189,7 @@ def test_a_full_disk_for_temporary_files(name, small, tmp_path):
     assert name != "report" or b"set TMPDIR" in run.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["report", *(pytest.param(name, marks=pytest.mark.product) for name in COMMANDS)])
 def test_a_full_disk(name, small):
     (small / "full").write_bytes(bytes(30_000))

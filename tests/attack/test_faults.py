@@ -95,6 +95,7 @@ def _strike(strikes: Attack, what: str, *words: str | Path, cwd: Path) -> str:
     return end
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("empty_figures")
 def test_a_disk_that_is_full_at_some_moments(tmp_path, record_property, monkeypatch):
     attack(errno.ENOSPC, 12, tmp_path, record_property, monkeypatch)

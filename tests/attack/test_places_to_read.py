@@ -94,6 +94,7 @@ READERS: dict[str, tuple[str, list[str | Path]]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reader", READERS)
 def test_what_is_there_is_read_or_refused(reader, tmp_path, record_property, monkeypatch):
     if reader in ("mesh", "gmsh"):

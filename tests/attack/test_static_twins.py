@@ -239,7 +239,6 @@ def compare(dam: dict[str, Any]) -> list[str]:
 OUTCOMES = ("stands", "cracks through", "floats")
 
 
-@pytest.mark.slow
 def attack(seeds: range, record_property: Any) -> None:
     """Compare random dams, and first one of each outcome."""
     twins, first = Attack("static twins, load cases"), seeds[0]

@@ -110,6 +110,7 @@ source = "{0}"
 """
 
 
+@pytest.mark.slow
 def test_no_text_of_an_input_file_controls_the_terminal_or_a_spreadsheet(tmp_path):
     """Every text field of a case, of a file of criteria and of a record, in words, tables and JSON."""
     written = EVIL.replace("\x1b", "\\u001b").replace("\n", "\\n")

@@ -384,6 +384,7 @@ anything = st.recursive(
 )
 
 
+@pytest.mark.slow
 @given(st.dictionaries(st.sampled_from(list(Case.model_fields)), anything, max_size=3))
 def test_any_fields_are_read_or_refused_in_words(changes):
     assert "\n" not in str(refusal(DAM | changes))

@@ -153,7 +153,7 @@ def faults(model: str, records: dict[str, tuple[Fields, Any]], skip: Skip, *, br
     return result
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("model", ["decoupled", "flexible", "statics"])
 def test_every_field_changes_something_or_is_told(model, records):
     assert faults(model, records, lambda path, said: False) == []
@@ -163,6 +163,7 @@ def test_every_field_changes_something_or_is_told_under_the_rigid_model(records)
     assert faults("rigid", records, lambda path, said: False) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", ["decoupled", "flexible", "statics"])
 def test_what_is_not_told_to_be_idle_changes_something(model, records):
     """The quick form: without motions, which are the same for all models, and without runs to prove what is told."""

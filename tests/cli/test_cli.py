@@ -35,6 +35,7 @@ def test_run_says_what_the_dam_does():
     assert "sliding safety factor" in process("run", *RIGID, "--details").stdout.lower()
 
 
+@pytest.mark.slow
 def test_figures_in_us_units(tmp_path):
     run = ("run", BLOCK, "--out", tmp_path)
     assert command(*run, "--units", "us").returncode == 0
@@ -91,6 +92,7 @@ def test_the_contract_of_the_json():
     assert sum(data["slip_by_mode_m"].values()) == pytest.approx(data["residual_slip_m"], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_out_writes_everything(tmp_path):
     out = tmp_path / "deep" / "result"
     result = command("run", *RIGID, "--out", out)
@@ -193,6 +195,7 @@ def test_evidence_is_chosen_on_the_command_line():
     assert "flexible.evidence" in result.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("empty_figures")
 def test_both_models_side_by_side(tmp_path):
     arguments = ("--model", "both", *FAST, "--spread", "3", "--details", "--out", tmp_path, "--json", "-")
@@ -271,6 +274,7 @@ def test_periods():
     assert f"{periods['intact'][0]:.4f} s" in result.stderr
 
 
+@pytest.mark.slow
 def test_periods_with_the_response_of_the_crest(tmp_path):
     result = command("periods", HEIGHT, *COARSE, "--response", "--out", tmp_path, "--json", "-")
     assert result.returncode == 0, result.stderr
@@ -318,6 +322,7 @@ def test_where_json_cannot_go_nothing_runs(tmp_path, monkeypatch):
         assert "does not name a file; give the path of a file" in refused.stderr
 
 
+@pytest.mark.slow
 def test_a_terminal_sees_what_goes_on_and_a_pipe_does_not():
     command = [sys.executable, "-m", "heeltoe", "run", str(BASE), "--model", "rigid", "--spread", "--json", "-"]
     ours, theirs = pty.openpty()
@@ -339,6 +344,7 @@ def test_a_terminal_sees_what_goes_on_and_a_pipe_does_not():
     assert b"0:00:0" not in piped.stderr
 
 
+@pytest.mark.slow
 def test_new_writes_a_case_that_runs(tmp_path):
     assert command("new", "mydam", cwd=tmp_path).returncode == 0
     result = command("run", "mydam.toml", cwd=tmp_path)

@@ -26,6 +26,7 @@ def records(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.slow
 def test_three_components_in_one_go(records):
     run = command("motion", "a.asc", "b.asc", "c.asc", "--json", "-", "--units", "us", "--out", "drawn", cwd=records)
     assert run.returncode == 0, run.stderr
@@ -46,6 +47,7 @@ def test_nothing_is_drawn_that_is_not_asked_for(records):
     assert sorted(records.iterdir()) == before
 
 
+@pytest.mark.slow
 def test_a_match_is_drawn_with_its_target_and_the_record_before():
     time = 0.01 * np.arange(1500)
     motion = GroundMotion("noise", time, np.random.default_rng(1).standard_normal(time.size) * np.exp(-time / 5.0))

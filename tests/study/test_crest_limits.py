@@ -88,6 +88,7 @@ def test_nothing_is_said_of_the_crest_where_nobody_asks(tmp_path):
     assert not set(CREST_PEAKS) & set(run_part(plan, 0, plan.count).column_names)
 
 
+@pytest.mark.slow
 def test_curves_limits_and_ranks_hold_the_crest_against_what_is_allowed(tmp_path):
     (tmp_path / "dams.csv").write_text("name, section.height [m], crack.friction\nHigh, 44, 0.8\nLow, 38, 1.2\n")
     asked = '[fragility]\nlimits = { crest_displacement = ["15 mm"], crest_acceleration = ["0.6 g"] }\n'

@@ -180,6 +180,7 @@ def test_a_study_with_a_hazard_says_how_often_a_year(tmp_path):
     assert again.hazard[0]["annual_rate"] == pytest.approx(2.0 * weak["annual_rate"], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_command_says_it_and_draws_it(tmp_path):
     study_file(tmp_path, STUDY.format(hazard=INLINE), case=BLOCK)
     process = command("study", "study.toml", "--out", "out", "--report", cwd=tmp_path)

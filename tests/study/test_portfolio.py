@@ -119,6 +119,7 @@ def test_a_dam_that_fails_comes_first_and_warnings_name_their_dam(tmp_path):
     assert error.value.code == "study-no-grid"
 
 
+@pytest.mark.slow
 def test_the_command_prints_the_ranks_and_writes_them(tmp_path):
     study(tmp_path)
     process = command("study", "study.toml", "--out", "out", "--report", cwd=tmp_path)
@@ -180,6 +181,7 @@ def test_a_table_must_be_there_and_readable(tmp_path):
     assert error.value.code == "fields-conflict"
 
 
+@pytest.mark.slow
 def test_one_motion_has_no_median(tmp_path):
     study(tmp_path)
     text = (tmp_path / "study.toml").read_text()

@@ -165,6 +165,7 @@ def test_some_rows_without_a_result_leave_the_study_with_its_answer(tmp_path):
         assert "unstable" in {row["outcome"] for row in rows(open_study(out))}
 
 
+@pytest.mark.slow
 def test_the_rows_of_one_dam_whose_runs_scatter_are_the_means_of_the_run(tmp_path):
     case = example("typical-height", "flexible.elements_across=2", "motion.pga=1 g", "motion.duration=5 s")
     text = case_text(case.model_dump(mode="json", exclude_unset=True))

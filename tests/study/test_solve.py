@@ -58,6 +58,7 @@ def test_the_peak_comes_from_both_signs_and_in_g():
         assert len(ways) == 2
 
 
+@pytest.mark.slow
 def test_the_evidence_of_an_elastic_dam_is_carried_over():
     case = example("typical-base", "flexible.elements_across=4", "motion.duration=4 s", "flexible.evidence=step")
     solution = solve(case, "crack.friction", "residual_slip = 200 mm", between=(0.9, 1.3))
@@ -76,6 +77,7 @@ def test_the_evidence_of_an_elastic_dam_is_carried_over():
     assert crossing.give_or_take < 0.02 + crossing.last.uncertainty_m / min(slope for slope in slopes if slope)
 
 
+@pytest.mark.slow
 def test_a_curve_that_turns_is_said_to_and_crosses_more_than_once():
     def points(*results):
         return [Point(value=k, result_m=result, met=True, sign="", outcome="ok") for k, result in enumerate(results)]

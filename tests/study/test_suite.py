@@ -197,6 +197,7 @@ def test_options_that_do_not_go_together_are_refused(dam, records, tmp_path, arg
     assert text in " ".join(process.stderr.split())
 
 
+@pytest.mark.slow
 def test_the_evidence_of_one_record_says_how_certain_a_limit_is(records):
     changes = ["flexible.elements_across=4", "flexible.evidence=step"]
     dam = example("typical-base", *changes, "limits.residual_slip=1 m", "limits.rotation=1 mrad")

@@ -35,6 +35,7 @@ BOTH = pytest.mark.parametrize("pair", ["rigid", "flexible"], indirect=True)
 # Files
 
 
+@pytest.mark.slow
 @BOTH
 def test_a_video_has_its_frames(pair, tmp_path):
     imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")

@@ -115,6 +115,7 @@ def _record(place):
     return place
 
 
+@pytest.mark.slow
 def test_every_key_of_the_json_is_explained(results):
     unknown = set()
     for data in results.values():

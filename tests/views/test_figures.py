@@ -45,11 +45,16 @@ def rocking():
 
 # One example with parts of every kind and forces of a large dam, and one of a small block, in both systems of units.
 US = [(path, "us") for path in (BASE, BLOCK)]
+# Between them and these there is every figure that an example has.
+FEW = ("block", "rough-crack", "stepped-crack", "slender")
 
 
 @pytest.mark.parametrize(
     ("path", "units"),
-    [*(pytest.param(path, "si", marks=[pytest.mark.slow] * ("thesis" in path.parts)) for path in ALL_EXAMPLES), *US],
+    [
+        *(pytest.param(path, "si", marks=() if path.stem in FEW else pytest.mark.product) for path in ALL_EXAMPLES),
+        *US,
+    ],
     ids=lambda value: getattr(value, "stem", value),
 )
 def test_every_figure_of_every_example(path, units):
@@ -136,6 +141,7 @@ def test_numbers_beyond_all_bounds_are_not_drawn(both):
     assert all(name.startswith("rigid/") for name in all_figures(None, replace(blown, beside=both.beside)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("model", "name", "changes"),
     [
@@ -155,12 +161,14 @@ def test_runs_that_end_early_or_hardly_move(model, name, changes):
         check(figure, label)
 
 
+@pytest.mark.slow
 def test_figures_of_the_flexible_model(typical_written):
     paths = [path for path in typical_written[0].iterdir() if path.suffix in (".png", ".svg")]
     assert {"response", "forces", "energy", "crack", "pressure", "deformed", "mesh", "modes"} <= {p.stem for p in paths}
     inked(paths)
 
 
+@pytest.mark.slow
 def test_a_crack_at_a_height_has_figures(tmp_path):
     case = example("typical-height", *FAST, "flexible.elements_across_below=3")
     for kind in (2, 3, 4):
@@ -271,6 +279,7 @@ def test_the_spectrum_marks_the_periods(both):
     assert any(list(line.get_xdata()) == [0.5, 0.5] for line in own.lines)
 
 
+@pytest.mark.slow
 def test_a_decoupled_response_shows_the_motion_at_its_crack(koyna):
     response = koyna
     h = response.histories
@@ -294,6 +303,7 @@ def overturned(response):
     return replace(fallen, outcome="overturned").with_crack(histories=h)
 
 
+@pytest.mark.slow
 def test_a_block_that_overturns_stays_readable(rocking, both):
     response = overturned(rocking)
     figures = all_figures(None, response)
@@ -312,6 +322,7 @@ def test_a_block_that_overturns_stays_readable(rocking, both):
     check(all_figures(None, replace(both, beside=response))["comparison"], "comparison")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "title",
     [

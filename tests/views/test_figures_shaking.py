@@ -103,6 +103,7 @@ def test_terminal_says_what_the_vertical_motion_does_to_the_limits(lifted):
     assert float(result.varied.split()[0]) == pytest.approx(result.value - 0.3 * result.per_vertical, abs=1e-4)
 
 
+@pytest.mark.slow
 def test_the_report_says_it_too(lifted, tmp_path):
     for response, there in ((lifted, True), (rigid(read_case(BASE, [PUSHED])), False)):
         write_report(read_case(BASE, [PUSHED]), response, tmp_path, kinds=("html",))

@@ -139,6 +139,7 @@ def test_static_checks_take_the_slips_of_the_run(terminal, checks):
     assert f"Residual slip {length(slips[worst])}: flexible model" in text
 
 
+@pytest.mark.slow
 def test_the_app_says_the_same_of_run_and_static_checks(file, terminal, checks):
     reply, case = terminal[0], read_case(file)
     answer = flexible(lambda text: None, case, {}, "si")
@@ -151,6 +152,7 @@ def test_the_app_says_the_same_of_run_and_static_checks(file, terminal, checks):
     assert dict(judged["basis"])["residual slip"].startswith(length(reply["residual_slip_m"]))
 
 
+@pytest.mark.slow
 def test_a_study_of_the_dam_has_the_run_as_its_row(file, terminal):
     answer = terminal[0]
     (leads,) = [way["sign"] for way in answer["signs"] if way["governs"]]

@@ -94,6 +94,7 @@ def test_tables_of_a_study_on_the_screen(study, units, summary, tornado, speed):
         assert text.count("lb/ft³") == 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("units", ["si", "us"])
 def test_a_study_s_figures_and_report_have_its_units(study, units):
     result, folder = study

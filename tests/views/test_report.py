@@ -48,6 +48,7 @@ def document(typical_both):
     return build_report(read_case(BASE, FAST), typical_both)
 
 
+@pytest.mark.slow
 def test_numbers_of_one_run_equal_those_of_the_json(block):
     reader, printed = check_numbers(build_report(*block), block[1])
     for key in ("residual_slip_m", "spread.residual_slip_m.mean", "energy.input_j", "motion.pga_g", "limits.0.value"):
@@ -179,6 +180,7 @@ def test_a_comparison_of_which_one_failed_says_so(both):
     assert pdf(build_report(case, replace(comparison, beside=unstable)))
 
 
+@pytest.mark.slow
 def test_parts_that_are_missing_are_left_out(tmp_path):
     case = read_case(BLOCK, ['title=""'])
     paths = {path.name: path for path in write_report(case, rigid(case), str(tmp_path / "new" / "place"))}
@@ -198,6 +200,7 @@ TITLES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("title", [*TITLES, "Long" * 60, "many words " * 40])
 @pytest.mark.usefixtures("no_figures")
 def test_titles_of_any_kind(block, title):
@@ -219,6 +222,7 @@ def replaced(text):
     return Document(text, text, text, (paragraph(text, Value("a", 1, text)), Section(text, (paragraph(text),))))
 
 
+@pytest.mark.slow
 @settings(max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(st.text(min_size=1, max_size=60))
 @tried('"]#panic()[')
@@ -247,6 +251,7 @@ def test_long_words_stay_on_the_page(block):
         assert margin.getextrema()[0] > 200
 
 
+@pytest.mark.slow
 def test_the_same_input_makes_the_same_report(block):
     one, other = build_report(*block), build_report(*block)
     assert html(one) == html(other)
@@ -325,6 +330,7 @@ def test_letters_without_a_font_are_owned_up_to(monkeypatch):
     assert pdf(document)
 
 
+@pytest.mark.slow
 def test_nothing_is_left_half_written(tmp_path, block):
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError) as result:

@@ -24,6 +24,7 @@ def test_the_command_line_writes_a_report(tmp_path):
     assert "--model rigid --duration 3s --report" in reader.text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", ["rigid", "both"])
 def test_each_figure_is_drawn_once_for_files_and_report(model, tmp_path, monkeypatch):
     plain, drawn = Figure.__init__, []
@@ -44,6 +45,7 @@ def test_each_figure_is_drawn_once_for_files_and_report(model, tmp_path, monkeyp
     assert Reader((tmp_path / "report.html").read_text()).text.count("Figure") > 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "spreads"),
     [

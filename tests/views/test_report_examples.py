@@ -24,7 +24,7 @@ EXAMPLES = [("typical-base", rigid), ("typical-base", flexible), ("typical-heigh
 EXAMPLES += [("koyna", decoupled), ("anchored", rigid), ("slender", rigid), ("typical-base", heeltoe.run)]
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize(("name", "run"), EXAMPLES)
 def test_reports_of_the_examples_at_full_length(name, run, tmp_path):
     case = example(name)
@@ -36,6 +36,7 @@ def test_reports_of_the_examples_at_full_length(name, run, tmp_path):
 
 
 # Those of the typical dam are written by other tests.
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "run"), [("typical-height", flexible), ("koyna", decoupled), ("anchored", rigid)])
 def test_reports_of_the_examples(name, run, tmp_path):
     case = example(name, *FAST)

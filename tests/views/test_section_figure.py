@@ -59,8 +59,8 @@ def check(figure):
             assert not a.padded(-0.5).overlaps(b.padded(-0.5)), (one, other)
 
 
-@pytest.mark.parametrize("units", ["si", "us"])
-@pytest.mark.parametrize("more", [[], EVERYTHING], ids=["plain", "everything"])
+@pytest.mark.parametrize("units", ["si", pytest.param("us", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("more", [pytest.param([], marks=pytest.mark.slow), EVERYTHING], ids=["plain", "everything"])
 @pytest.mark.parametrize("changes", SHAPES, ids=lambda changes: " ".join(changes) or "base")
 def test_labels_stay_inside_and_apart(changes, more, units):
     check(section_figure(case(*changes, *more), units))

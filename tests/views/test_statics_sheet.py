@@ -215,6 +215,7 @@ def test_figures_of_every_section_need_a_place(tmp_path):
     assert done.stderr.startswith("heeltoe: --every-section: has no meaning without --out or --report")
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("empty_figures")
 def test_the_command_writes_all_of_it(tmp_path):
     place = tmp_path / "dam.json"

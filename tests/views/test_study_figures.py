@@ -68,6 +68,7 @@ def test_a_study_in_which_nothing_slides_has_no_figures(tmp_path):
     assert figures == {}
 
 
+@pytest.mark.slow
 def test_the_command_writes_figures_and_renews_them(tmp_path):
     text = DRAWN.replace('"latin hypercube"\nsamples = 60', '"sensitivity"\nsamples = 32')
     file, out = study_file(tmp_path, text), tmp_path / "out"

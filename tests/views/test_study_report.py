@@ -28,6 +28,7 @@ def figures(document):
     return [b.name for s in document.blocks if isinstance(s, Section) for b in s.blocks if isinstance(b, FigureBlock)]
 
 
+@pytest.mark.slow
 def test_a_drawn_study(tmp_path):
     study = run_study(study_file(tmp_path, DRAWN), tmp_path / "out")
     document, text = report(study, tmp_path)
@@ -76,6 +77,7 @@ def test_an_incomplete_study_says_so(tmp_path, monkeypatch):
     assert "Fragility" not in titles(document)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("method", "figure"), [("sensitivity", "sobol"), ("one at a time", "tornado")])
 def test_what_the_slip_hangs_on_has_a_section(tmp_path, method, figure):
     drawn = DRAWN.replace('"latin hypercube"\nsamples = 60', '"sensitivity"\nsamples = 16')

@@ -58,6 +58,7 @@ def test_the_verdict_names_it_where_the_concrete_does_not_bear_it(judged):
     )
 
 
+@pytest.mark.slow
 def test_page_one_of_the_report_has_it(judged):
     case = read_case(HEIGHT, [*SHORT, "concrete.tensile_strength=0.5 MPa"])
     text = Reader(html(build_report(case, judged))).text

@@ -44,6 +44,7 @@ def test_static_checks_have_their_loads(tmp_path):
     assert any("reservoir" in row for row in result["loads"])
 
 
+@pytest.mark.slow
 def test_the_command_line_writes_it_beside_the_rest(tmp_path):
     done = command("statics", BASE, "--out", tmp_path / "here", "--xlsx")
     assert done.returncode == 0, done.stderr

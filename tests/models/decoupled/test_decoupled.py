@@ -166,6 +166,7 @@ def test_spread_is_that_of_the_scaled_ground():
     assert response.spread["residual_slips_m"] == pytest.approx(by_hand, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_motion_made_by_hand_is_used_as_it_is():
     time = np.arange(0.0, 3.0, 0.02)
     motion = GroundMotion.from_points(time, 6.0 * np.sin(2.0 * np.pi * time / 0.355), name="resonant")

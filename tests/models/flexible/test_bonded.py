@@ -48,6 +48,7 @@ def test_what_bends_a_dam_otherwise_is_built_anew(change):
     assert build_flexible_dam(typical(change)).modes is not build_flexible_dam(typical()).modes
 
 
+@pytest.mark.slow
 def test_no_field_that_is_left_out_changes_the_modes(tmp_path):
     # What is built is held by what is told of it: each dam is built once, and every change against it.
     seen, built = [], {}

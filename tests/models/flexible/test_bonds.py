@@ -199,6 +199,7 @@ def test_a_brittle_joint_asks_for_a_short_step():
     assert brittle[1] == "crack.bond"
 
 
+@pytest.mark.slow
 def test_a_mesh_that_is_fine_at_the_joint_alone_cracks_as_one_that_is_fine_everywhere():
     fields = dam()
     fields["flexible"]["elements_across"] = 16
@@ -239,6 +240,7 @@ def test_water_enters_what_opens(pattern):
 BASE = {"tensile_strength": "0.8 MPa", "cohesion": "1.2 MPa", "fracture_energy": "100 N/m"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("across", [13, 26, 40])
 def test_what_a_joint_is_before_the_earthquake_does_not_depend_on_the_mesh(across):
     """A corner that softens by a hair is no crack, and keeps the shear that its limit allows."""
@@ -389,6 +391,7 @@ def test_of_many_joints_the_verdict_and_a_picture_say_which_cracks_first():
     )
 
 
+@pytest.mark.slow
 def test_many_joints_that_hold_stand_as_the_intact_dam_does():
     fields = dam()
     del fields["crack"]
@@ -416,6 +419,7 @@ def test_joints_that_all_hold_are_one_sentence():
     assert verdict(run(read_case(fields), "flexible")).startswith("None of the 3 joints cracks.")
 
 
+@pytest.mark.slow
 def test_of_many_joints_those_that_crack_most_are_named():
     fields = dam()
     del fields["crack"]

@@ -30,6 +30,7 @@ def factor(measured, estimated):
     return max(measured / estimated, estimated / measured)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["typical-base", "typical-height"])
 @pytest.mark.parametrize("across", [4, 8, 16])
 def test_the_parts_are_as_expected(name, across):
@@ -64,6 +65,7 @@ def test_time(name, across):
         assert factor(measured, estimated) < 6.0
 
 
+@pytest.mark.slow
 def test_time_of_all_modes():
     """A dense problem; seven times as much was said before."""
     case = example("typical-base", "flexible.elements_across=12", "flexible.modes=100000")
@@ -75,6 +77,7 @@ def test_time_of_all_modes():
     assert factor(measured, estimated) < 4.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("modulus", "crack"), [("2 GPa", "0 m"), ("2 GPa", "25 m")])
 def test_soft_rock_has_more_elements_for_its_shorter_waves(modulus, crack):
     """They are counted: rock of 2 GPa takes five times as long as rock of 40 GPa."""
@@ -115,9 +118,10 @@ LONG = {"motion.duration": "20s", "flexible.time_step": "2e-5s"}
 
 
 def slow(*values):
-    return pytest.param(*values, marks=pytest.mark.slow)
+    return pytest.param(*values, marks=pytest.mark.product)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="the system does not say what was in use")
 @pytest.mark.parametrize(
     ("name", "across", "changes"),
@@ -157,6 +161,7 @@ def test_a_mesh_that_cannot_be_halved_is_estimated_as_it_is(across, away):
         assert factor(part.freedoms, 2.0 * len(mesh.nodes)) < 2.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("depth", [10, 100])
 def test_memory_of_water_with_sound(depth):
     """It grows with the depth, and is no other with a full reservoir than a metre below the crest."""
@@ -201,8 +206,9 @@ WATER, ROCK = {"reservoir.compressible": True}, {"rock.modulus": "20 GPa"}
 BOND = {"tensile_strength": "0.5 MPa", "cohesion": "1 MPa", "fracture_energy": "100 N/m", "shear_energy": "500 N/m"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("changes", [WATER, ROCK, {"crack.bond": BOND}, WATER | {"crack.bond": BOND}])
-@pytest.mark.parametrize("across", [4, pytest.param(16, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("across", [4, pytest.param(16, marks=pytest.mark.product)])
 def test_water_with_sound_rock_and_bonds_are_counted(changes, across):
     """A step takes up to five times as long with them; other work on the machine is in the factor."""
     bare = example("typical-base", f"flexible.elements_across={across}", "motion.duration=3s", "flexible.evidence=none")

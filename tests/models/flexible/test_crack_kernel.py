@@ -227,11 +227,12 @@ def test_parts_that_do_not_fit_are_refused():
 # Random dams
 
 
-@pytest.fixture(params=[30, pytest.param(1000, marks=pytest.mark.slow)])
+@pytest.fixture(params=[30, pytest.param(1000, marks=pytest.mark.product)])
 def examples(request) -> int:
     return request.param
 
 
+@pytest.mark.slow
 def test_energy_of_random_dams(examples):
     @settings(max_examples=examples)
     @given(st.integers(0, 2**32 - 1))

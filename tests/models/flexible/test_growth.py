@@ -97,6 +97,7 @@ def test_cracks_that_slide_together_are_those_of_the_crack_that_slides_alone_abo
     assert growth_of(two, [1.2, 1.2])[0] > 0.0
 
 
+@pytest.mark.slow
 def test_several_cracks_say_where_their_slip_depends_on_damping():
     response = flexible(two_cracks(upper=1.4), pushed(0.3, 2.0))
     excited = response.self_excitation

@@ -64,6 +64,7 @@ def codes(response):
     return {notice.code for notice in response.warnings}
 
 
+@pytest.mark.slow
 def test_two_motions_do_what_the_joined_one_does():
     both = flexible(dam({"aftershocks": [{"points": OTHER, "pause": "2 s"}]}))
     later = [[f"{2.8 + float(time.split()[0])!r} s", size] for time, size in OTHER]
@@ -107,6 +108,7 @@ def test_a_dam_that_its_steps_hold_stands_before_the_earthquake():
     assert flexible(lower).outcome == "unstable"
 
 
+@pytest.mark.slow
 def test_each_run_of_a_study_is_the_one_by_hand(tmp_path):
     """Swinging on through its silence too, where its crack has closed on two steps when the motion ends."""
     plan = plan_of(read_study(study_file(tmp_path, STUDY.format(model='"flexible"'), case=FILE)))

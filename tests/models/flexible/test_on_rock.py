@@ -114,6 +114,7 @@ def test_stiff_rock_is_a_rigid_plane(crack):
     assert plane.energy.rock_j == 0.0
 
 
+@pytest.mark.slow
 def test_rock_that_neither_damps_nor_lets_waves_go_takes_nothing_and_is_warned_of():
     held = run(read_case(dam(rock=ROCK | {"radiation": False, "damping": 0.0})), "flexible")
     assert abs(held.energy.rock_j) < 1e-10 * held.energy.input_j
@@ -157,6 +158,7 @@ def test_the_energy_of_dam_water_and_rock_is_constant_without_losses(crack, monk
     assert np.ptp(stored - input_) < 1e-11 * np.ptp(stored)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("crack", [DAM["crack"], HIGH], ids=["cracked at the base", "bonded to the rock"])
 def test_rock_too_soft_for_its_shapes_is_warned_of(crack, monkeypatch):
     monkeypatch.setattr(full_rock_module, "_MOST", 20)
@@ -180,6 +182,7 @@ def test_a_larger_box_answers_the_same(monkeypatch):
     assert larger == pytest.approx(usual, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["plain", "sound, bonded to the rock"])
 def test_evidence_tells_what_the_extent_of_rock_and_water_is_worth(name):
     case = read_case(CASES[name] | {"flexible": {"elements_across": 4}})
@@ -195,6 +198,7 @@ def test_evidence_tells_what_the_extent_of_rock_and_water_is_worth(name):
     assert run(read_case(rigid), "flexible").summary["evidence"]["residual_slip_m"]["surroundings"] is None
 
 
+@pytest.mark.slow
 def test_evidence_makes_rock_and_water_once_and_once_larger(monkeypatch):
     """Other meshes of the dam stand on the same rock before the same water."""
     made = []
@@ -330,6 +334,7 @@ def test_slips_of_an_independent_program(record, friction, modulus, sound, slip_
     assert 1e3 * flexible(case).residual_slip_m == pytest.approx(slip_mm, rel=0.08)
 
 
+@pytest.mark.slow
 def test_the_example_runs():
     path = Path(__file__).parents[3] / "examples/on-rock.toml"
     case = read_case(path, ["motion.duration=3 s", "flexible.evidence=none", "flexible.elements_across=4"])
@@ -343,6 +348,7 @@ def test_the_example_runs():
     assert lower.x_m.max() > upper.x_m.max()
 
 
+@pytest.mark.slow
 def test_rock_without_damping_below_a_crack_is_warned_of():
     def warned(**changes):
         response = flexible(read_case(dam(**changes)), evidence="full")

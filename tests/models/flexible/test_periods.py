@@ -106,6 +106,7 @@ def test_pine_flat_amplifies_where_others_find_it():
     assert all(abs(response.amplification[0] - 1.0) < 1e-12 for response in curves.values())
 
 
+@pytest.mark.slow
 def test_response_says_what_it_assumes(capsys):
     case = example("typical-height", "flexible.elements_across=3")
     periods = dam_periods(case, 1, response=True)
@@ -120,6 +121,7 @@ def test_response_says_what_it_assumes(capsys):
     assert [curve.water for curve in empty.curves] == ["empty", "empty"]
 
 
+@pytest.mark.slow
 def test_rock_counts_as_rigid_and_the_screen_says_so(capsys):
     case = example("typical-base", "flexible.elements_across=3")
     on_rock = dam_periods(case.with_("rock.modulus=20 GPa"))

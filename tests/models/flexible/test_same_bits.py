@@ -15,7 +15,7 @@ from shared.dams import ROOT
 # Of dams that bounce and slide so much that the last bit of a mode would show in the slip.
 _RUN = """
 import heeltoe
-case = heeltoe.read_case({file!r}, ["motion.pga=0.6g", "motion.duration=5s", "motion.sign=recorded"])
+case = heeltoe.read_case({file!r}, ["motion.pga=0.6g", "motion.duration=2s", "motion.sign=recorded"])
 changes = {{"flexible.evidence": "none"}}
 print(heeltoe.{model}(case.with_(changes)).residual_slip_m.hex())
 """
@@ -40,7 +40,7 @@ def test_the_threads_of_the_linear_algebra_change_no_bit(name, model):
 # Both signs of the motion and all of the evidence, with rock and water, of which much is built and run side by side.
 _ALL = """
 import heeltoe, json
-case = heeltoe.read_case({file!r}, ["motion.duration=1s", "flexible.elements_across=4"])
+case = heeltoe.read_case({file!r}, ["motion.duration=0.5s", "flexible.elements_across=3"])
 print(json.dumps(heeltoe.run(case).to_json()))
 """
 

@@ -225,6 +225,7 @@ def test_evidence_is_that_of_every_crack(free):
     assert weak.at_crack(0).summary["evidence"] == evidences[0]
 
 
+@pytest.mark.slow
 def test_each_motion_of_a_sequence_is_told_of_every_crack(free):
     again = {"points": [[time, f"{0.8 * float(a.split()[0]):g} g"] for time, a in PULSES], "pause": "1 s"}
     free = free.with_({"flexible.time_step": "0.1 ms", "motion.duration": "2 s"})

@@ -71,6 +71,7 @@ def test_a_stiff_block_rocks_as_the_rigid_one():
     assert abs(elastic.slip_by_mode_m["sliding"] + elastic.slip_by_mode_m["slide_rocking"]) < 1e-4
 
 
+@pytest.mark.slow
 def test_a_crack_near_the_crest_rocks_with_any_mesh():
     times = []
     for across in (4, 8):

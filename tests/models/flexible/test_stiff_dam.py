@@ -94,6 +94,7 @@ def test_a_stiff_dam_turns_as_a_block_does_whose_water_turns_with_it(sign, eleva
     assert point > 1.03 * turned
 
 
+@pytest.mark.slow
 def test_the_own_step_is_short_enough_to_solve_the_contact():
     case = stiff(1e6, 1.2, 100.0, across=8, corners=TYPICAL)
     response = flexible(case, three_sines(0.8))

@@ -233,7 +233,7 @@ def test_friction_that_jams_a_slowing_slip_ends_it(seed):
     assert check_random(seed) == "ok"
 
 
-@pytest.mark.slow
+@pytest.mark.product
 def test_five_thousand_random_blocks_with_random_laws_end():
     ends = [check_random(seed) for seed in range(5_000)]
     assert ends.count("ok") > 3750

@@ -227,12 +227,12 @@ def test_windows_agree_with_the_twin():
 
 
 def test_whole_runs_agree_with_the_twin():
-    verdict = whole_runs(draw(seed=2, n=500), FEWER_RUN_STEPS)
+    verdict = whole_runs(draw(seed=2, n=250), FEWER_RUN_STEPS)
     assert verdict.unresolved < 0.10, verdict
     assert verdict.differ < 0.02, verdict
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("seed", range(100, 110))
 def test_ten_thousand_blocks_agree_with_the_twin(seed):
     sample = draw(seed, n=1000)

@@ -124,6 +124,7 @@ def test_a_motion_that_jumps_has_no_mean_period():
     assert "its motion jumps" in str(said(rigid(case, step), "rigid-unlike"))
 
 
+@pytest.mark.slow
 def test_terminal_and_report_say_it_as_the_json_does():
     case = example("lift-joint")
     response = rigid(case)

@@ -69,7 +69,7 @@ def test_a_block_that_all_but_floats_comes_to_its_end_exactly(seed):
     assert run.summary.energy_residual < 1e-11
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("part", range(8))
 def test_none_of_forty_thousand_cycles(part):
     seeds = range(5_000 * part, 5_000 * (part + 1))

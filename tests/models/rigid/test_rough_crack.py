@@ -278,7 +278,7 @@ def test_random_blocks_on_random_asperities_end():
     assert not {"cycling", "paradox"} & set(ends)
 
 
-@pytest.mark.slow
+@pytest.mark.product
 def test_five_thousand_random_blocks_on_random_asperities_end():
     ends = [check_random(seed) for seed in range(5_000)]
     assert ends.count("ok") > 3500

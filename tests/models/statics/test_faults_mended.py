@@ -45,6 +45,7 @@ def test_a_margin_of_a_lower_degree_has_its_turning_points():
     assert [case.name for case in result.cases] == ["usual", "post-seismic"]
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(
     height=st.floats(10.0, 120.0),
@@ -83,6 +84,7 @@ def test_an_earthquake_takes_no_water_out_of_a_crack_that_is_open_through(law):
     assert upstream.normal_force_n == pytest.approx(usual.normal_force_n, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_full_uplift_never_leaves_more_normal_force_than_unchanged_uplift():
     for base in np.linspace(50.0, 80.0, 16).tolist():
         changes = {"section__base_width": f"{base} m", "statics__seismic_coefficient": 0.1}

@@ -37,6 +37,7 @@ def test_run_and_static_checks_say_one_slip_for_each_crack(dam):
         assert all("flexible model" in joint.statics.slip_source for joint in result.joints)
 
 
+@pytest.mark.slow
 def test_a_joint_that_is_no_crack_says_that_it_was_run_alone(dam):
     case, response = dam
     more = case.with_({"statics.sections": [{"elevation": "0 m"}, {"elevation": "40 m"}]})
@@ -55,6 +56,7 @@ def test_the_friction_of_a_joint_that_is_a_further_crack_is_its_own(dam):
     assert joints[0.0].case.crack.friction == 1.2
 
 
+@pytest.mark.slow
 def test_the_report_checks_every_section(dam):
     case, response = dam
     text = " ".join(Reader(html(build_report(case, response))).text.split())

@@ -165,6 +165,7 @@ def test_a_dam_without_a_modulus_or_a_motion_is_refused():
     assert refused.value.code == "not-checks"
 
 
+@pytest.mark.slow
 def test_from_the_command_line(tmp_path):
     options = ("--slip", "0.1m", "--set", COARSE, "--spectrum", DESIGN)
     process = command("statics", HEIGHT, *options, "--json", "-", "--out", tmp_path)

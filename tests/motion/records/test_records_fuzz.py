@@ -163,11 +163,13 @@ def test_samples_are_read_as_they_are(name):
     assert motion.warnings == ()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SAMPLES)
 def test_mutations(name):
     _check_both_kinds(*_assault(name, 1_000))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", _OTHERS)
 def test_mutations_of_formats_of_the_world(name):
     _check_both_kinds(*_assault(name, 300))
@@ -178,7 +180,7 @@ def test_mutations_of_a_format_that_is_not_read():
     assert refused > 950
 
 
-@pytest.mark.slow
+@pytest.mark.product
 @pytest.mark.parametrize("name", [*SAMPLES, *_OTHERS])
 def test_many_mutations(name):
     _check_both_kinds(*_assault(name, 40_000))

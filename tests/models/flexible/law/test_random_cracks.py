@@ -84,7 +84,7 @@ def check(seed: int) -> float | None:
     return float(run.summary.contact_residual)
 
 
-@pytest.mark.parametrize("count", [20, pytest.param(300, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [20, pytest.param(300, marks=pytest.mark.product)])
 def test_random_cracks_with_random_laws_end(count):
     result = [check(seed) for seed in range(count)]
     ran = [item for item in result if item is not None]

@@ -33,6 +33,6 @@ def check(seed):
     return float(summary.contact_residual) if drawn.ordinary and drawn.case.flexible.contactors != 5 else 0.0
 
 
-@pytest.mark.parametrize("count", [10, pytest.param(200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [10, pytest.param(200, marks=pytest.mark.product)])
 def test_random_dams_with_random_laws_end(count):
     assert max(check(seed) for seed in range(count)) < 1e-6
