@@ -9,6 +9,8 @@ BIN    := $(VENV)/bin
 RECORDS := $(abspath ../shared/records)
 export HEELTOE_RECORDS ?= $(if $(wildcard $(RECORDS)),$(RECORDS))
 export PYO3_PYTHON := $(abspath $(BIN)/python)
+# Tests start hundreds of processes: compiled modules are kept, whatever the shell says.
+unexport PYTHONDONTWRITEBYTECODE
 WASM := wasm32-unknown-unknown
 SECONDS_SINCE = $$(( $$(date +%s) - $$(cat $(VENV)/.started) )) s
 ELAPSED = echo "$@: done in $(SECONDS_SINCE)"

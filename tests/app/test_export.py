@@ -101,6 +101,7 @@ def same_elsewhere(ask, tab, folder, wanted, ways=("typed", "python")):
         assert json.loads((here / "result" / "result.json").read_text()) == ours
 
 
+@pytest.mark.slow
 def test_a_record_that_was_sent_goes_with_the_words(ask, tab, tmp_path):
     record = "".join(f"{0.02 * k:.2f} {0.3 * math.sin(0.3 * k):.5f}\n" for k in range(150))
     headers = {"origin": HOME, "x-session": tab.session}

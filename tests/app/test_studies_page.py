@@ -48,7 +48,6 @@ def saved(page, label: str) -> bytes:
     return waiting.value.path().read_bytes()
 
 
-@pytest.mark.path
 def test_a_study_is_counted_run_exported_and_looked_at(studies, places, picture, heard_well):
     picture(studies, "studies-form")
     small(studies)
@@ -148,6 +147,7 @@ def test_a_study_is_found_again_cancelled_and_gone_on_with(context, address):
     page.close()
 
 
+@pytest.mark.path
 def test_keys_alone_make_a_study(studies):
     studies.focus("#study-title")
     studies.keyboard.type("by keys")

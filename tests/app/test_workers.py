@@ -122,6 +122,7 @@ def test_work_stops_though_a_library_loses_the_exception():
         workers.close()
 
 
+@pytest.mark.slow
 def test_what_nobody_waits_for_stops_and_its_process_stays():
     case = example("typical-base", "flexible.elements_across=24", "flexible.time_step=0.01ms").without_evidence()
     workers = Workers()

@@ -21,7 +21,10 @@ print(heeltoe.{model}(case.with_(changes)).residual_slip_m.hex())
 """
 
 
-@pytest.mark.parametrize(("name", "model"), [("two-cracks", "flexible"), ("koyna-top", "decoupled")])
+@pytest.mark.parametrize(
+    ("name", "model"),
+    [("two-cracks", "flexible"), pytest.param("koyna-top", "decoupled", marks=pytest.mark.slow)],
+)
 def test_the_threads_of_the_linear_algebra_change_no_bit(name, model):
     code = _RUN.format(file=str(ROOT / "examples" / f"{name}.toml"), model=model)
     slips = {
@@ -45,6 +48,7 @@ print(json.dumps(heeltoe.run(case).to_json()))
 """
 
 
+@pytest.mark.slow
 def test_what_runs_side_by_side_changes_no_bit():
     code = _ALL.format(file=str(ROOT / "examples" / "on-rock.toml"))
     results = []
