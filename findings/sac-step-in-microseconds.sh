@@ -23,7 +23,7 @@ file.seek(0)
 stats = obspy.read(file, format="SAC")[0].stats
 print("obspy", version("obspy"))
 print(f"step sent {sent.stats.delta} s, in the bytes of the file {in_file} s, read back {stats.delta} s")
-print(f"samples a second {stats.sampling_rate:.4f}; end of a minute is late by {60.0 - (stats.npts - 1) * stats.delta:.5f} s")
+print(f"samples a second {stats.sampling_rate:.4f}; the end of a minute comes {60.0 - (stats.npts - 1) * stats.delta:.5f} s early")
 if in_file != 0.0078125 or stats.delta != 0.007812:
     sys.exit("differs: the step is no longer rounded to microseconds")
 PYTHON
