@@ -17,9 +17,12 @@ from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.case.model import Case
+from heeltoe.case.options import Limits
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import JOINT_METER_M, LARGEST_ROTATION, TOO_FAR
+from heeltoe.result.contract import JOINT_METER_M
+from heeltoe.result.limits import judge_response
 from heeltoe.result.numbers import AnchorForce, SignNumbers
+from heeltoe.result.outcome import Outcome, decide
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest, last_of, rests_from
 from heeltoe.units.sentences import Sentence
@@ -27,8 +30,6 @@ from heeltoe.warnings.notice import Notice
 
 #: The silence is a multiple of this where the dam comes to rest before all of it is over [s].
 STEP = 2.5
-#: Outcomes whose numbers are those of a dam.
-TRUSTED = ("ok", "overturned")
 #: From which restitution on bounces may amplify the last digit, and by how much the motion of a twin is stronger.
 BOUNCY, HAIR = 0.7, 1e-9
 # A slip is determined where that of the twin differs by less than this part of it, or than a joint meter reads.
@@ -42,31 +43,42 @@ Table = dict[str, Floats]
 Words = NDArray[Any]
 
 
-def outcome_of(outcome: str, rotation: float, *, finite: bool = False) -> str:
-    """Return how a run ended: a rotation that is taken for small and is not leaves no result.
-
-    Parameters
-    ----------
-    outcome
-        What the kernel says.
-    rotation
-        Largest rotation, either way [rad].
-    finite
-        Whether the model follows rotations of any size.
-    """
-    return TOO_FAR if outcome == "ok" and rotation > LARGEST_ROTATION and not finite else outcome
-
-
 def outcomes_of(outcomes: Sequence[str] | Words, tables: Sequence[Mapping[str, Floats]], *, finite: bool) -> Words:
-    """Return the same of many runs, (n,): `tables` have what the kernel says of each of their cracks."""
+    """Return the outcomes of many runs, (n,): `outcomes` are those of the kernel, `tables` have what it says of each of
+    their cracks."""
     turned = np.max([largest_rotation(table) for table in tables], axis=0)
-    words = [outcome_of(word, turn, finite=finite) for word, turn in zip(outcomes, turned.tolist(), strict=True)]
+    words = [decide(word, rotation=turn, finite=finite) for word, turn in zip(outcomes, turned.tolist(), strict=True)]
     return np.array(words, dtype=object)
 
 
 def largest_rotation(table: Mapping[str, Floats] | Mapping[str, float]) -> Floats:
     """Return the largest rotation of runs either way [rad]."""
     return np.maximum(table["rotation_max"], np.negative(table["rotation_min"]))
+
+
+def advice_of(outcome: Outcome, *, rotation: float, why: Sentence | None, stopped: Sentence) -> Sentence | None:
+    """Say why a run has no result, and what to do; None where it has one.
+
+    Parameters
+    ----------
+    outcome
+        How it ended.
+    rotation
+        The largest, either way [rad].
+    why
+        Why the static loads move the dam, where they do.
+    stopped
+        Where the run stopped.
+    """
+    if outcome.has_result:
+        return None
+    if outcome is Outcome.UNSTABLE and why is not None:
+        return Sentence.of("{why}: {remedy}", why=why, remedy=outcome.remedy)
+    if outcome is Outcome.LARGE_ROTATION:
+        stopped = Sentence.of("it rotates by {rotation_rad:.3g rad}", rotation_rad=rotation)
+    return Sentence.of(
+        "{stopped}: {sentence}; {remedy}", stopped=stopped, sentence=outcome.sentence, remedy=outcome.remedy
+    )
 
 
 def determined(slip: Floats | float, twin: Floats | float) -> NDArray[np.bool_]:
@@ -87,14 +99,6 @@ def twin_of(
     if twin.outcome != "ok":
         return bounce, None
     return None if determined(response.residual_slip_m, twin.residual_slip_m) else (bounce, twin.residual_slip_m)
-
-
-def slid_off(outcome: str, peak_slip: float, width: float) -> bool:
-    """Whether nothing is left below the part above a crack of this width [m]; `peak_slip` is without sign [m].
-
-    Where it tips over the edge it turns too far for small rotations.
-    """
-    return outcome in ("ok", TOO_FAR) and peak_slip > width
 
 
 def until_rest(
@@ -141,24 +145,9 @@ def until_rest(
     return last if reach(last) < math.inf else whole
 
 
-#: How bad an outcome is, the worst first; what is not among them has a result, or none that says how bad it is.
-_FAILURES = ("overturned", "lost", TOO_FAR)
-
-
-def severity(outcome: str) -> int:
-    """Return how bad it is that a run ended so: 2 of a dam that has failed, 1 where nobody knows, 0 of a result."""
-    return 2 if outcome in _FAILURES else 0 if outcome == "ok" else 1
-
-
-def badness(response: Response) -> tuple[int, int, float]:
-    """Return by what the worse of two runs is told: how it ended, how many limits it breaks, how far the dam slips."""
-    slips = [abs(crack.residual_slip_m) for crack in response.cracks] if response.started else [0.0]
-    return severity(response.outcome), sum(not check.met for check in response.limits), max(slips)
-
-
-def worse_way(ways: Mapping[str, R]) -> R:
+def worse_way(ways: Mapping[str, R], limits: Limits) -> R:
     """Return the response of the worse sign of the motion, the first where they are equal, with what each sign does."""
-    worst = max(ways, key=lambda sign: badness(ways[sign]))
+    worst = max(ways, key=lambda sign: judge_response(limits, ways[sign]).badness())
     return replace(ways[worst], signs=tuple(numbers_of_sign(sign, ways[sign], sign == worst) for sign in ways))
 
 

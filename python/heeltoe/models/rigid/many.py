@@ -25,7 +25,7 @@ from heeltoe.models.rigid.walk import limits_of, walk
 from heeltoe.models.runner import largest_rotation, rows_until_rest
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.result.contract import LARGEST_ROTATION
+from heeltoe.result.outcome import LARGEST_ROTATION
 
 # What ends blocks that run together, whether they are walked exactly, and whether rotations may be of any size.
 _Kind = tuple[Limits, bool, bool]

@@ -31,24 +31,22 @@ from heeltoe.models.rigid.walk import limits_of
 from heeltoe.models.runner import (
     BOUNCY,
     HAIR,
-    TRUSTED,
     determined,
     outcomes_of,
     reach_of_block,
-    slid_off,
     twin_of,
     until_rest,
 )
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import CRACKED, HEADLINES, headlines, leading_crack
+from heeltoe.result.contract import CRACKED, HEADLINES, headlines
 from heeltoe.result.crest import CREST_PEAKS, crest_peaks
+from heeltoe.result.judge import Judgement, judge
 from heeltoe.result.numbers import SlipByMode, TimeByMode
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.study.plan.crack_columns import OfCrack, column_of, numbers_of_cracks
 from heeltoe.study.plan.plan import Plan, Runs
 
-#: What the case of a run refuses, as water above the crest: such a run has no result and is counted as this.
-REFUSED = "refused"
 #: What the seconds of a part stand under in the metadata of its table, on their way to who counts them.
 SECONDS = "seconds"
 _RESTITUTION = BLOCK.index("restitution")
@@ -78,7 +76,7 @@ class PartResults:
         self.impacts = np.zeros(count, dtype=np.int64)
         self.slid_off = np.zeros(count, dtype=bool)
         self.undetermined = np.zeros(count, dtype=bool)
-        self.outcome = np.full(count, REFUSED, dtype=object)
+        self.outcome = np.full(count, Outcome.REFUSED, dtype=object)
         self.seconds: dict[str, float] = {}
 
     @contextmanager
@@ -96,18 +94,19 @@ class PartResults:
             for k, crack in enumerate(cracks)
             for key in (*(headline.key for headline in HEADLINES), CRACKED)
         }
-        trusted = np.isin(outcome, TRUSTED)
+        judgement = _judged(outcome, cracks or [request])
         for name, values in columns.items():
-            self.numbers[name][rows] = np.where(trusted, values, np.nan)
-        for crack in (request, *cracks):
-            peaks = zip(outcome, _largest_slip(crack.named).tolist(), crack.width.tolist(), strict=True)
-            self.slid_off[rows] |= np.array([slid_off(word, slip, width) for word, slip, width in peaks], dtype=bool)
-        self.impacts[rows] = np.where(trusted, request.named["impacts"], 0.0).astype(np.int64)
+            self.numbers[name][rows] = np.where(judgement.has_result, values, np.nan)
+        self.slid_off[rows] = judgement.slid_off
+        self.impacts[rows] = np.where(judgement.has_result, request.named["impacts"], 0.0).astype(np.int64)
         self.outcome[rows] = outcome
 
 
-def _largest_slip(named: Mapping[str, Floats]) -> Floats:
-    return np.maximum(named["peak_slip_downstream_m"], -named["peak_slip_upstream_m"])
+def _judged(outcome: Words, cracks: Sequence[OfCrack]) -> Judgement:
+    """Return the judgement of some runs by the numbers at their cracks, without limits."""
+    columns = {headline.key: np.column_stack([crack.named[headline.key] for crack in cracks]) for headline in HEADLINES}
+    columns["crack_width_m"] = np.column_stack([crack.width for crack in cracks])
+    return judge({"outcome": outcome, **columns}, {})
 
 
 def _of_table(
@@ -278,8 +277,7 @@ def _led(outcome: Words, cracks: Sequence[OfCrack]) -> Ran:
     all."""
     if len(cracks) == 1:
         return outcome, cracks[0], ()
-    slips = np.column_stack([crack.named["residual_slip_m"] for crack in cracks]).tolist()
-    leads = np.array([leading_crack(row) for row in slips])
+    leads = _judged(outcome, cracks).governing_crack
     places = np.arange(leads.size)
 
     def chosen(columns: Sequence[Floats]) -> Floats:
