@@ -19,11 +19,11 @@ from heeltoe.models.drain_closure import drained, follows_drains, with_shares
 from heeltoe.models.rigid.omitted import omitted
 from heeltoe.models.runner import (
     about_the_end,
+    block_until_rest,
     numbers_of_sign,
-    reach_of_block,
     twin_of,
-    until_rest,
     where_of,
+    with_outcome,
     worse_way,
 )
 from heeltoe.models.statics.standing import standing_warnings
@@ -462,7 +462,7 @@ def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Res
             return run_two_blocks(case, through, output_step)
         return run_rigid(case, through, output_step)
 
-    response = until_rest(run, reach_of_block, earthquake, case.analysis.silence)
+    response = with_outcome(*block_until_rest(run, lambda ran: ran, earthquake, case.analysis.silence))
     # Of bounces that amplify the last digit no run is the answer: a twin shows it.
     twin = twin_of(case, response, run, earthquake)
     if twin is None:
@@ -495,7 +495,7 @@ def _live(case: Case, earthquake: Earthquake) -> DecoupledResponse:
     def run(through: Earthquake) -> DecoupledResponse:
         return run_live(case, through)
 
-    return until_rest(run, reach_of_block, earthquake, case.analysis.silence, swings=True)
+    return with_outcome(*block_until_rest(run, lambda ran: ran, earthquake, case.analysis.silence, swings=True))
 
 
 def _flexible(case: Case, earthquake: Earthquake, output_step: float | None) -> FlexibleResponse:

@@ -34,8 +34,11 @@ STEP = 2.5
 BOUNCY, HAIR = 0.7, 1e-9
 # A slip is determined where that of the twin differs by less than this part of it, or than a joint meter reads.
 _CHAOTIC = 0.01
-# A dam that slides in its last second by this part of the second before, or more, does not slow down.
-_AS_FAST = 0.9
+# A dam that slides in the last quarter of its free motion by this part of the quarter before, or more, does not slow
+# down; less free motion [s] does not show that.
+_AS_FAST, _LEAST_SILENCE = 0.9, 2.0
+#: Where in the free motion after the record the slip is looked at to see that.
+_QUARTERS = (0.5, 0.75)
 
 T = TypeVar("T")
 R = TypeVar("R", bound=Response)
@@ -47,7 +50,9 @@ def outcomes_of(outcomes: Sequence[str] | Words, tables: Sequence[Mapping[str, F
     """Return the outcomes of many runs, (n,): `outcomes` are those of the kernel, `tables` have what it says of each of
     their cracks."""
     turned = np.max([largest_rotation(table) for table in tables], axis=0)
-    words = [decide(word, rotation=turn, finite=finite) for word, turn in zip(outcomes, turned.tolist(), strict=True)]
+    slides = tables[0].get("keeps_sliding", np.zeros_like(turned)) != 0.0
+    rows = zip(outcomes, turned.tolist(), slides.tolist(), strict=True)
+    words = [decide(word, rotation=turn, finite=finite, slows=not on) for word, turn, on in rows]
     return np.array(words, dtype=object)
 
 
@@ -56,7 +61,14 @@ def largest_rotation(table: Mapping[str, Floats] | Mapping[str, float]) -> Float
     return np.maximum(table["rotation_max"], np.negative(table["rotation_min"]))
 
 
-def advice_of(outcome: Outcome, *, rotation: float, why: Sentence | None, stopped: Sentence) -> Sentence | None:
+def advice_of(
+    outcome: Outcome,
+    *,
+    rotation: float = 0.0,
+    why: Sentence | None = None,
+    stopped: Sentence | None = None,
+    silence: float = 0.0,
+) -> Sentence | None:
     """Say why a run has no result, and what to do; None where it has one.
 
     Parameters
@@ -69,10 +81,14 @@ def advice_of(outcome: Outcome, *, rotation: float, why: Sentence | None, stoppe
         Why the static loads move the dam, where they do.
     stopped
         Where the run stopped.
+    silence
+        How long it went on after the ground motion [s].
     """
     if outcome.has_result:
         return None
-    if outcome is Outcome.UNSTABLE and why is not None:
+    if outcome is Outcome.KEEPS_SLIDING:
+        why = Sentence.of("it does not slow down in {silence_s:g s} after the ground motion", silence_s=silence)
+    if outcome in (Outcome.UNSTABLE, Outcome.KEEPS_SLIDING) and why is not None:
         return Sentence.of("{why}: {remedy}", why=why, remedy=outcome.remedy)
     if outcome is Outcome.LARGE_ROTATION:
         stopped = Sentence.of("it rotates by {rotation_rad:.3g rad}", rotation_rad=rotation)
@@ -145,6 +161,54 @@ def until_rest(
     return last if reach(last) < math.inf else whole
 
 
+def keeps_sliding(slips: Floats, silence: float) -> NDArray[np.bool_]:
+    """Return which runs do not slow down in the free motion after the record, (...,).
+
+    Parameters
+    ----------
+    slips
+        (..., 3) slips in the middle of the free motion, after three quarters of it, and at its end [m].
+    silence
+        How long it is [s].
+    """
+    before, now = np.moveaxis(np.abs(np.diff(slips)), -1, 0)
+    return np.asarray((silence >= _LEAST_SILENCE) & (now > JOINT_METER_M) & (now >= _AS_FAST * before))
+
+
+def slides_on(time: Floats, slip: Floats, silence: float) -> bool:
+    """Whether a history of slip [m] that ends with a free motion so long [s] shows a dam that does not slow down."""
+    parts = np.array([*_QUARTERS, 1.0])
+    moments = time[-1] - silence * (1.0 - parts)
+    return bool(keeps_sliding(np.interp(moments, time, slip), silence))
+
+
+def block_until_rest(
+    run: Callable[[Earthquake], T],
+    response_of: Callable[[T], Response],
+    earthquake: Earthquake,
+    longest: float,
+    *,
+    swings: bool = False,
+) -> tuple[T, Outcome]:
+    """Run a block as :func:`until_rest` does; return the run, and its outcome: where the block still moves in the end,
+    shorter runs say whether it slows down. `response_of` returns the response of a run."""
+    whole = until_rest(run, lambda ran: reach_of_block(response_of(ran)), earthquake, longest, swings=swings)
+    response = response_of(whole)
+    silence = response.silence_s
+    if reach_of_block(response) < math.inf or silence < _LEAST_SILENCE:
+        return whole, response.outcome
+    shorter = [response_of(run(earthquake.silent(part * silence))) for part in _QUARTERS]
+    slips = np.array([[crack.residual_slip_m for crack in ran.cracks] for ran in (*shorter, response)])
+    return whole, Outcome.KEEPS_SLIDING if keeps_sliding(slips.T, silence).any() else response.outcome
+
+
+def with_outcome(response: R, outcome: Outcome) -> R:
+    """Return a response of a block that ends so."""
+    if outcome is response.outcome:
+        return response
+    return replace(response, outcome=outcome, advice=advice_of(outcome, silence=response.silence_s))
+
+
 def worse_way(ways: Mapping[str, R], limits: Limits) -> R:
     """Return the response of the worse sign of the motion, the first where they are equal, with what each sign does."""
     worst = max(ways, key=lambda sign: judge_response(limits, ways[sign]).badness())
@@ -193,6 +257,14 @@ def rows_until_rest(
     if not left.size or not longest:
         return
     table = run(left, longest)
+    moving = left[reach(table) == math.inf]
+    if moving.size and longest >= _LEAST_SILENCE:
+        shorter = [run(moving, part * longest)["slip"] for part in _QUARTERS]
+        on = np.zeros(left.size)
+        on[reach(table) == math.inf] = keeps_sliding(
+            np.column_stack([*shorter, table["slip"][reach(table) == math.inf]]), longest
+        )
+        table = {**table, "keeps_sliding": on}
     yield left, table
     # What ends in another way, or never, has nothing to wait for.
     left = left[np.isfinite(reach(table))]
@@ -243,7 +315,6 @@ def about_the_end(response: Response, *, asked: bool) -> Iterator[Notice]:
             when=when,
             mode=response.final_mode,
             slip_velocity_m_s=response.final_slip_velocity_m_s,
-            remedy=_what_then(response),
         )
         return
     last = last_of(response)
@@ -255,16 +326,4 @@ def about_the_end(response: Response, *, asked: bool) -> Iterator[Notice]:
         span=span,
         what=last.what,
         change_m=last.change_m,
-        remedy=_what_then(response),
     )
-
-
-def _what_then(response: Response) -> str:
-    """Say whether waiting longer helps a dam that still moves: not where it slides as fast as a second before."""
-    histories = response.at_crack(response.asked).histories if response.several else response.histories
-    time, slip = histories["time_s"], histories["slip_m"]
-    end, span = time[-1], min(1.0, (time[-1] - time[0]) / 4.0)
-    now, before = np.abs(np.diff(np.interp([end, end - span, end - 2.0 * span], time, slip)))
-    if response.silence_s >= 2.0 * span and now > JOINT_METER_M and now >= _AS_FAST * before:
-        return "it does not slow down, and there is no residual slip to trust"
-    return "a longer analysis.silence may let it come to rest"

@@ -89,7 +89,7 @@ class Outcome(StrEnum):
     )
     KEEPS_SLIDING = (
         *("keeps sliding", False, True, "the dam does not slow down on still ground"),
-        "give the dam more friction, less uplift or less water; no residual slip exists",
+        f"no residual slip exists; {_STAND.replace('stands before the earthquake', 'slows down')}",
     )
     OK = "ok", True, False, "the run has a result", ""
 

@@ -84,7 +84,7 @@ def run_flexible(
     shaken, run = result.shaken, result.run
     # Its mesh may be finer by now.
     case, dam = shaken.case, shaken.dam
-    outcome, advice = judge_outcome(dam, block, run)
+    outcome, advice = judge_outcome(dam, block, run, earthquake.silence)
     histories, envelope = histories_of_cracks(case, dam, run), envelope_of(dam, run)
     worn = [worn_of(alone, place, dam, run) for place, alone in enumerate(case.single_crack_cases)]
     tension = None if outcome is Outcome.UNSTABLE else tension_of(result, envelope)
@@ -234,7 +234,7 @@ def run_until_rest(
         # Water and anchors may have made it shorter than could be expected.
         check_cost(case, analysing(case, through.run_end, frame_step, step))
         response = shaken.run(step, frame_step, ending, stresses=stresses)
-        return Rested(through, shaken, response, *judge_outcome(dam, block, response))
+        return Rested(through, shaken, response, *judge_outcome(dam, block, response, through.silence))
 
     longest = case.analysis.silence
     shaken = ShakenDam(case, dam, earthquake.shaking)
@@ -247,7 +247,7 @@ def run_until_rest(
     response = shaken.run(step, frame_step, ending, stresses=stresses, pauses=pauses)
     seconds = STEP * math.ceil((response.summary.end_time - earthquake.end) / STEP - 0.5)
     through = earthquake.silent(min(max(seconds, 0.0), longest))
-    outcome = judge_outcome(dam, block, response)
+    outcome = judge_outcome(dam, block, response, through.silence)
     return Rested(through, ShakenDam(case, dam, through.shaking), response, *outcome)
 
 
@@ -315,10 +315,11 @@ def answer_at_rest(
     `first` is the run without evidence, where it has been made before."""
     dam = build_flexible_dam(case) if first is None else first.shaken.dam
     first = first or run_until_rest(case, dam, block, earthquake, frame_step)
-    # A dam that does not stand has no slip to be certain of; one run shows how it goes.
-    asked = case.flexible.evidence if stands(dam, block) else "none"
+    # A dam that does not stand, or keeps sliding, has no slip to be certain of; one run shows how it goes.
+    certain = stands(dam, block) and first.outcome is not Outcome.KEEPS_SLIDING
+    asked = case.flexible.evidence if certain else "none"
     reply = answer(first.shaken, frame_step, asked, first.run)
-    rested = first._replace(run=reply.run, outcome=judge_outcome(dam, block, reply.run)[0])
+    rested = first._replace(run=reply.run, outcome=judge_outcome(dam, block, reply.run, first.earthquake.silence)[0])
     if rested.reach < math.inf or first.earthquake.silence >= case.analysis.silence:
         return reply, first.earthquake
     # Its mesh or step is finer now, and it takes longer.

@@ -21,7 +21,7 @@ from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.surroundings.left_out import left_out
 from heeltoe.models.flexible.surroundings.rock import ENOUGH as ENOUGH_OF_ROCK
 from heeltoe.models.flexible.surroundings.rock import HIGHEST
-from heeltoe.models.runner import about_the_anchors, advice_of, largest_rotation
+from heeltoe.models.runner import about_the_anchors, advice_of, largest_rotation, slides_on
 from heeltoe.result.numbers import AnchorForce, EvidenceNumbers, SelfExcitation
 from heeltoe.result.outcome import Outcome, decide
 from heeltoe.units.sentences import Sentence
@@ -36,20 +36,25 @@ def stands(dam: FlexibleDam, block: Block) -> bool:
     return bool(dam.anchors) or (instability(block) is None and dam.start.stands)
 
 
-def judge_outcome(dam: FlexibleDam, block: Block, run: DamRun) -> tuple[Outcome, Sentence | None]:
+def judge_outcome(dam: FlexibleDam, block: Block, run: DamRun, silence: float = 0.0) -> tuple[Outcome, Sentence | None]:
     """Return how a run ended, and what to do about it; none where there is a result to trust.
 
     A dam that slides, overturns or floats under its static loads is none that an earthquake moves; anchors with
-    stiffness hold what friction and weight do not. Rotations that are not small are none of this model.
+    stiffness hold what friction and weight do not. Rotations that are not small are none of this model. `silence` is
+    how long the run goes on after the ground motion [s].
     """
     rotation = max(float(largest_rotation(summary.by_name())) for summary in run.summaries)
-    outcome = decide(run.outcome, rotation=rotation, stands=stands(dam, block))
+    slides = silence > 0.0 and any(slides_on(frames.time, frames.slip, silence) for frames in run.all_frames)
+    outcome = decide(run.outcome, rotation=rotation, stands=stands(dam, block), slows=not slides)
+    if outcome.has_result:
+        return outcome, None
     raw = run.summary
     return outcome, advice_of(
         outcome,
         rotation=rotation,
         why=instability(block),
         stopped=Sentence.of("stopped at {time_s:.3f s} with slip {slip_m:.4g m}", time_s=raw.end_time, slip_m=raw.slip),
+        silence=silence,
     )
 
 

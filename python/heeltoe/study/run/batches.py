@@ -8,6 +8,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
@@ -31,11 +32,11 @@ from heeltoe.models.rigid.walk import limits_of
 from heeltoe.models.runner import (
     BOUNCY,
     HAIR,
+    block_until_rest,
     determined,
     outcomes_of,
-    reach_of_block,
     twin_of,
-    until_rest,
+    with_outcome,
 )
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import CRACKED, HEADLINES, headlines
@@ -250,7 +251,8 @@ def _two_blocks(plan: Plan, runs: Runs, rows: Integers, results: PartResults, th
             return run_two_blocks(case, earthquake, None if plan.crest else ground.end)
 
         try:
-            result = until_rest(through, reach_of_block, ground, case.analysis.silence)
+            ran = block_until_rest(through, lambda ran: ran, ground, case.analysis.silence)
+            result = with_outcome(*ran)
             return result, twin_of(case, result, through, ground) is not None
         except InputError:
             return None
@@ -406,9 +408,9 @@ def _decoupled(plan: Plan, runs: Runs, rows: Integers, results: PartResults, thr
                 if earthquake.silence not in at_crack:
                     at_crack[earthquake.silence] = crack_earthquake(case, earthquake)
                 felt = at_crack[earthquake.silence].scaled(factor)
-                return run_rigid(case, felt, ground.end, block)
+                return replace(run_rigid(case, felt, ground.end, block), silence_s=earthquake.silence)
 
-            return until_rest(run, reach_of_block, ground, case.analysis.silence, swings=True)
+            return with_outcome(*block_until_rest(run, lambda ran: ran, ground, case.analysis.silence, swings=True))
 
         with results.timed("kernel"):
             return _ran([through(factor) for factor in scales.tolist()])
