@@ -35,8 +35,8 @@ BOUNCY, HAIR = 0.7, 1e-9
 # A slip is determined where that of the twin differs by less than this part of it, or than a joint meter reads.
 _CHAOTIC = 0.01
 # A dam that slides in the last quarter of its free motion by this part of the quarter before, or more, does not slow
-# down; less free motion [s] does not show that.
-_AS_FAST, _LEAST_SILENCE = 0.9, 2.0
+# down: one that keeps sliding as it vibrates does so within 0.4 %. Less free motion [s] does not show that.
+_AS_FAST, _LEAST_SILENCE = 0.99, 2.0
 #: Where in the free motion after the record the slip is looked at to see that.
 _QUARTERS = (0.5, 0.75)
 
