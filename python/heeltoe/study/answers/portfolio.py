@@ -53,7 +53,7 @@ def portfolio_of(walk: Walk) -> list[dict[str, Any]] | None:
 def _by_motion(walk: Walk, cube: Floats) -> Floats:
     """Return numbers of runs by dam, by motion at each strength and by model, each motion by its worse sign; infinite
     where a run has none."""
-    size = np.nan_to_num(np.abs(cube), nan=np.inf)
+    size = np.nan_to_num(cube, nan=np.inf, posinf=np.inf)
     if size.shape[1] > 1:
         motions = [motion["name"] for motion in walk.manifest["motions"]]
         places = [[k for k, name in enumerate(motions) if name == motion] for motion in dict.fromkeys(motions)]
