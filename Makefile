@@ -124,6 +124,7 @@ lint: check $(VENV)/.built
 
 sizes: check $(VENV)/.packages
 	@$(BIN)/python .ci/sizes.py
+	@$(BIN)/python .ci/spine.py
 
 validate: check $(VENV)/.built
 	$(BIN)/heeltoe validate

@@ -3,7 +3,7 @@
 import pytest
 
 from heeltoe import flexible, verdict
-from heeltoe.result.contract import leading_crack
+from heeltoe.result.judge import leading_crack
 from shared.dams import example
 
 

@@ -9,7 +9,7 @@ from scipy import stats
 from heeltoe import InputError, run_study
 from heeltoe.study.answers import fragility
 from heeltoe.study.answers.answers import bands
-from heeltoe.study.answers.fragility import exceeding, observed
+from heeltoe.study.answers.fragility import observed
 from heeltoe.study.answers.likelihood import Tally, fit, within, witnesses
 from shared.command import command
 from shared.studies import DRAWN, GRID, study_file
@@ -127,14 +127,6 @@ def test_a_median_beyond_the_motions_is_said():
     weak = strength < 0.35
     fragility_curve = curve("residual_slip", 0.01, "pga", strength[weak], exceeds[weak], event[weak], **OPTIONS)
     assert not fragility_curve.reached
-
-
-def test_failures_exceed_every_limit_and_what_is_not_known_is_counted():
-    table = {"residual_slip_m": np.array([0.02, -0.02, 0.0, np.nan, np.nan, np.nan])}
-    outcome = np.array(["ok", "ok", "ok", "overturned", "unstable", "cycling"])
-    result = exceeding(table, outcome, "residual_slip", 0.01)
-    assert result.tolist()[:5] == [1.0, 1.0, 0.0, 1.0, 1.0]
-    assert np.isnan(result[5])
 
 
 def test_a_band_counts_what_is_not_known_as_the_worst():

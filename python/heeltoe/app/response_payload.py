@@ -57,15 +57,18 @@ def drawn(response: Response, units: str) -> dict[str, Any]:
     }
 
 
-_ENDS = {"overturned": "Overturns", "lost": "Falls off", "unstable": "Does not stand"}
-
-
 def _headline(response: Response, units: str) -> dict[str, Any]:
     """Return the number that a reader looks for first: of the limits that which is nearest, or farthest beyond; without
     limits the residual slip. Its state is ``"met"``, ``"doubted"``, ``"failed"``, or ``"free"`` without a limit."""
-    if not response.ok or response.outcome != "ok":
-        value = _ENDS.get(response.outcome, "No result")
-        return {"value": value, "label": "", "limit": "", "state": "failed", "limits": []}
+    outcome = response.outcome
+    if not outcome.has_result or outcome.failed:
+        return {
+            "value": outcome.capitalize() if outcome.failed else "No result",
+            "label": outcome.sentence,
+            "limit": "",
+            "state": "failed",
+            "limits": [{"text": _limit_text(check, units), "state": "failed"} for check in response.limits],
+        }
     slip = response.residual_slip_m
     way = "" if abs(slip) < LEAST_M else " downstream" if slip > 0.0 else " upstream"
     return judged(response.limits, abs(slip), f"residual slip{way}", units)
@@ -80,17 +83,11 @@ def judged(limits: Sequence[LimitCheck], slip: float, label: str, units: str, by
         return {"value": value, "label": label + by, "limit": "no limit set", "state": "free", "limits": []}
     first, *others = checks
     return {
-        "value": measured(first.value, first.unit, units),
+        "value": "" if first.value is None else measured(first.value, first.unit, units),
         "label": limited(first, units) + by,
         "limit": _within(first, units),
         "state": _state(first),
-        "limits": [
-            {
-                "text": f"{limited(check, units)} {measured(check.value, check.unit, units)}: {_within(check, units)}",
-                "state": _state(check),
-            }
-            for check in others
-        ],
+        "limits": [{"text": _limit_text(check, units), "state": _state(check)} for check in others],
     }
 
 
@@ -104,7 +101,14 @@ def _state(check: LimitCheck) -> str:
     return "doubted" if not check.certain else "met" if check.met else "failed"
 
 
+def _limit_text(check: LimitCheck, units: str) -> str:
+    value = "" if check.value is None else f" {measured(check.value, check.unit, units)}"
+    return f"{limited(check, units)}{value}: {_within(check, units)}"
+
+
 def _within(check: LimitCheck, units: str) -> str:
+    if check.failed:
+        return f"the {measured(check.allowed, check.unit, units)} allowed are not met"
     says = {"met": "within", "doubted": "not for certain within", "failed": "more than"}[_state(check)]
     return f"{says} the {measured(check.allowed, check.unit, units)} allowed"
 

@@ -11,12 +11,12 @@ from pydantic import BeforeValidator, Field, model_validator
 from heeltoe.case.fields import Count, Fields, Fraction, FrictionCoefficient, Head, TimeSpan, Truth
 from heeltoe.case.quantities import (
     AccelerationField,
-    Angle,
     DimensionlessNumber,
     Duration,
     Length,
     MemorySize,
     Pressure,
+    Rotation,
 )
 from heeltoe.case.sentences import gathered
 from heeltoe.errors.error import InputError, shown
@@ -143,8 +143,8 @@ class Limits(Fields):
     """Opening of the crack at the downstream face."""
     cracked_length: Annotated[Length, Field(ge=0.0)] | None = None
     """Length that is cracked in the end: of a bonded joint what the earthquake cracks, of a crack all of it."""
-    rotation: Annotated[Angle, Field(ge=0.0)] | None = None
-    """Rotation of the part above the crack, either way."""
+    rotation: Annotated[Rotation, Field(ge=0.0)] | None = None
+    """Rotation of the part above the crack, either way: a plain number in rad, or with its unit."""
     crest_displacement: Annotated[Length, Field(ge=0.0)] | None = None
     """Horizontal displacement of the crest from where it stands before the earthquake, relative to the ground, either
     way. Single runs of the rigid block and of the elastic dam are judged by it, and of suites and studies none."""

@@ -3,6 +3,7 @@ schema says which quantity a field holds."""
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, PlainSerializer, PlainValidator, WithJsonSchema
@@ -28,6 +29,15 @@ def _schema(dimension: str, type_: object = "string", example: str = "") -> With
     )
 
 
+def _rotation(value: object) -> float:
+    """Return a rotation [rad]; a plain number, also as a text, is one in rad."""
+    try:
+        with_unit = isinstance(value, str) and not math.isfinite(float(value))
+    except ValueError:
+        with_unit = True
+    return parse(value, "angle" if with_unit else "number", "")
+
+
 Length = Annotated[float, *_quantity("length")]
 """A length [m]."""
 Density = Annotated[float, *_quantity("density")]
@@ -42,6 +52,13 @@ Frequency = Annotated[float, *_quantity("frequency")]
 """A frequency [Hz]."""
 Angle = Annotated[float, *_quantity("angle")]
 """An angle [rad]."""
+Rotation = Annotated[
+    float,
+    BeforeValidator(collected(lambda value: _rotation(value))),
+    PlainSerializer(lambda value: f"{value!r} rad", return_type=str, when_used="json-unless-none"),
+    _schema("angle", ["number", "string"], "0.01 rad"),
+]
+"""A rotation [rad]: a plain number, or an angle with its unit."""
 WearCoefficient = Annotated[float, *_quantity("wear coefficient")]
 """A wear coefficient [m^2/J]."""
 MemorySize = Annotated[float, *_quantity("memory")]

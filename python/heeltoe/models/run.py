@@ -19,20 +19,18 @@ from heeltoe.models.drain_closure import drained, follows_drains, with_shares
 from heeltoe.models.rigid.omitted import omitted
 from heeltoe.models.runner import (
     about_the_end,
-    badness,
+    block_until_rest,
     numbers_of_sign,
-    reach_of_block,
-    slid_off,
     twin_of,
-    until_rest,
     where_of,
+    with_outcome,
     worse_way,
 )
 from heeltoe.models.statics.standing import standing_warnings
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.contract import SHEARS_M
-from heeltoe.result.limits import check_limits
+from heeltoe.result.limits import check_limits, judge_response
 from heeltoe.result.response import Chosen, Response
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice, by_gravity
@@ -127,14 +125,15 @@ def _elastic_by_sign(
     if not others:
         return run(shaking, recorded)
     ways = {"recorded": (shaking, recorded), "reversed": (shaking.reversed(), others[0])}
-    worst = max(ways, key=lambda sign: ways[sign][1].badness(case))
+    worst = max(ways, key=lambda sign: ways[sign][1].judged(case).badness())
     took = perf_counter() - began
     response = run(*ways[worst])
     other = "recorded" if worst == "reversed" else "reversed"
-    if ways[other][1].badness(case) > badness(response):
+    if ways[other][1].judged(case).badness() > judge_response(case.limits, response).badness():
         # Its evidence has made the worse way the better one: both are judged with theirs.
         judged = {worst: response, other: run(*ways[other])}
-        return replace(worse_way({sign: judged[sign] for sign in ways}), seconds=perf_counter() - began)
+        worse = worse_way({sign: judged[sign] for sign in ways}, case.limits)
+        return replace(worse, seconds=perf_counter() - began)
     signs = [
         numbers_of_sign(sign, response, governs=True) if sign == worst else rested.sign_numbers(case, sign)
         for sign, (_, rested) in ways.items()
@@ -148,7 +147,9 @@ def _by_sign(case: Case, shaking: Earthquake, run: Callable[[Earthquake], R]) ->
         return run(shaking)
     recorded = run(shaking)
     # One that does not stand has no use for an earthquake.
-    return worse_way({"recorded": recorded, "reversed": run(shaking.reversed())}) if recorded.started else recorded
+    if not recorded.started:
+        return recorded
+    return worse_way({"recorded": recorded, "reversed": run(shaking.reversed())}, case.limits)
 
 
 def runs_both_signs(case: Case, shaking: Earthquake | None = None) -> bool:
@@ -381,12 +382,13 @@ def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *
     side by side reads is not said to change nothing. A run that never started says why by itself."""
     off: tuple[Notice, ...] = ()
     if response.started:
-        off = (*_slides_on(case, response), *_anchors_crossed(case, response), *_slid_off(response))
+        off = (*_slides_on(case, response), *_anchors_crossed(case, response), *_slid_off(case, response))
     response, between = _sequence(case, response)
     unused = unused_fields(case, models)
     vertical = () if response.vertical is None else response.vertical.warnings
     end = about_the_end(response, asked="silence" in case.analysis.model_fields_set)
     warnings = (*case_warnings(case), *response.motion.warnings, *vertical, *response.warnings, *end, *unused)
+    response = replace(response, limits=check_limits(case.limits, response))
     if not response.started:
         return replace(response, chosen=chosen, warnings=by_gravity(warnings))
     warnings = (
@@ -398,12 +400,7 @@ def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *
     if alone and not response.elastic and case.crack.bond is None:
         left_out = omitted(case, response) if response.model == "rigid" else (Notice("rigid-top"),)
         warnings = (*warnings, *left_out)
-    return replace(
-        response,
-        chosen=chosen,
-        warnings=by_gravity(warnings),
-        limits=check_limits(case.limits, response),
-    )
+    return replace(response, chosen=chosen, warnings=by_gravity(warnings))
 
 
 def _sequence(case: Case, response: R) -> tuple[R, tuple[Notice, ...]]:
@@ -443,12 +440,12 @@ def _anchors_crossed(case: Case, response: Response) -> Iterator[Notice]:
             yield Notice("anchors-cross-slip", slip_m=slip, where=where_of(case, alone))
 
 
-def _slid_off(response: Response) -> tuple[Notice, ...]:
+def _slid_off(case: Case, response: Response) -> tuple[Notice, ...]:
     """Say where little or nothing is left below the part above a crack."""
-    notices = []
+    notices, off = [], judge_response(case.limits, response).slid_off[0]
     for crack in response.cracks:
         slip = max(abs(crack.peak_slip_downstream_m), abs(crack.peak_slip_upstream_m))
-        if slid_off(response.outcome, slip, crack.crack_width_m):
+        if off and slip > crack.crack_width_m:
             notices.append(Notice("slid-off", slip_m=slip, width_m=crack.crack_width_m))
         elif response.outcome == "ok" and slip > _FAR * crack.crack_width_m:
             notices.append(Notice("slid-far", share=slip / crack.crack_width_m))
@@ -465,7 +462,7 @@ def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Res
             return run_two_blocks(case, through, output_step)
         return run_rigid(case, through, output_step)
 
-    response = until_rest(run, reach_of_block, earthquake, case.analysis.silence)
+    response = with_outcome(*block_until_rest(run, lambda ran: ran, earthquake, case.analysis.silence))
     # Of bounces that amplify the last digit no run is the answer: a twin shows it.
     twin = twin_of(case, response, run, earthquake)
     if twin is None:
@@ -498,7 +495,7 @@ def _live(case: Case, earthquake: Earthquake) -> DecoupledResponse:
     def run(through: Earthquake) -> DecoupledResponse:
         return run_live(case, through)
 
-    return until_rest(run, reach_of_block, earthquake, case.analysis.silence, swings=True)
+    return with_outcome(*block_until_rest(run, lambda ran: ran, earthquake, case.analysis.silence, swings=True))
 
 
 def _flexible(case: Case, earthquake: Earthquake, output_step: float | None) -> FlexibleResponse:

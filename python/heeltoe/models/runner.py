@@ -17,9 +17,12 @@ from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.case.model import Case
+from heeltoe.case.options import Limits
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import JOINT_METER_M, LARGEST_ROTATION, TOO_FAR
+from heeltoe.result.contract import JOINT_METER_M
+from heeltoe.result.limits import judge_response
 from heeltoe.result.numbers import AnchorForce, SignNumbers
+from heeltoe.result.outcome import Outcome, decide
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest, last_of, rests_from
 from heeltoe.units.sentences import Sentence
@@ -27,14 +30,15 @@ from heeltoe.warnings.notice import Notice
 
 #: The silence is a multiple of this where the dam comes to rest before all of it is over [s].
 STEP = 2.5
-#: Outcomes whose numbers are those of a dam.
-TRUSTED = ("ok", "overturned")
 #: From which restitution on bounces may amplify the last digit, and by how much the motion of a twin is stronger.
 BOUNCY, HAIR = 0.7, 1e-9
 # A slip is determined where that of the twin differs by less than this part of it, or than a joint meter reads.
 _CHAOTIC = 0.01
-# A dam that slides in its last second by this part of the second before, or more, does not slow down.
-_AS_FAST = 0.9
+# A dam that slides in the last quarter of its free motion by this part of the quarter before, or more, does not slow
+# down: one that keeps sliding as it vibrates does so within 0.4 %. Less free motion [s] does not show that.
+_AS_FAST, _LEAST_SILENCE = 0.99, 2.0
+#: Where in the free motion after the record the slip is looked at to see that.
+_QUARTERS = (0.5, 0.75)
 
 T = TypeVar("T")
 R = TypeVar("R", bound=Response)
@@ -42,31 +46,55 @@ Table = dict[str, Floats]
 Words = NDArray[Any]
 
 
-def outcome_of(outcome: str, rotation: float, *, finite: bool = False) -> str:
-    """Return how a run ended: a rotation that is taken for small and is not leaves no result.
-
-    Parameters
-    ----------
-    outcome
-        What the kernel says.
-    rotation
-        Largest rotation, either way [rad].
-    finite
-        Whether the model follows rotations of any size.
-    """
-    return TOO_FAR if outcome == "ok" and rotation > LARGEST_ROTATION and not finite else outcome
-
-
 def outcomes_of(outcomes: Sequence[str] | Words, tables: Sequence[Mapping[str, Floats]], *, finite: bool) -> Words:
-    """Return the same of many runs, (n,): `tables` have what the kernel says of each of their cracks."""
+    """Return the outcomes of many runs, (n,): `outcomes` are those of the kernel, `tables` have what it says of each of
+    their cracks."""
     turned = np.max([largest_rotation(table) for table in tables], axis=0)
-    words = [outcome_of(word, turn, finite=finite) for word, turn in zip(outcomes, turned.tolist(), strict=True)]
+    slides = tables[0].get("keeps_sliding", np.zeros_like(turned)) != 0.0
+    rows = zip(outcomes, turned.tolist(), slides.tolist(), strict=True)
+    words = [decide(word, rotation=turn, finite=finite, slows=not on) for word, turn, on in rows]
     return np.array(words, dtype=object)
 
 
 def largest_rotation(table: Mapping[str, Floats] | Mapping[str, float]) -> Floats:
     """Return the largest rotation of runs either way [rad]."""
     return np.maximum(table["rotation_max"], np.negative(table["rotation_min"]))
+
+
+def advice_of(
+    outcome: Outcome,
+    *,
+    rotation: float = 0.0,
+    why: Sentence | None = None,
+    stopped: Sentence | None = None,
+    silence: float = 0.0,
+) -> Sentence | None:
+    """Say why a run has no result, and what to do; None where it has one.
+
+    Parameters
+    ----------
+    outcome
+        How it ended.
+    rotation
+        The largest, either way [rad].
+    why
+        Why the static loads move the dam, where they do.
+    stopped
+        Where the run stopped.
+    silence
+        How long it went on after the ground motion [s].
+    """
+    if outcome.has_result:
+        return None
+    if outcome is Outcome.KEEPS_SLIDING:
+        why = Sentence.of("it does not slow down in {silence_s:g s} after the ground motion", silence_s=silence)
+    if outcome in (Outcome.UNSTABLE, Outcome.KEEPS_SLIDING) and why is not None:
+        return Sentence.of("{why}: {remedy}", why=why, remedy=outcome.remedy)
+    if outcome is Outcome.LARGE_ROTATION:
+        stopped = Sentence.of("it rotates by {rotation_rad:.3g rad}", rotation_rad=rotation)
+    return Sentence.of(
+        "{stopped}: {sentence}; {remedy}", stopped=stopped, sentence=outcome.sentence, remedy=outcome.remedy
+    )
 
 
 def determined(slip: Floats | float, twin: Floats | float) -> NDArray[np.bool_]:
@@ -87,14 +115,6 @@ def twin_of(
     if twin.outcome != "ok":
         return bounce, None
     return None if determined(response.residual_slip_m, twin.residual_slip_m) else (bounce, twin.residual_slip_m)
-
-
-def slid_off(outcome: str, peak_slip: float, width: float) -> bool:
-    """Whether nothing is left below the part above a crack of this width [m]; `peak_slip` is without sign [m].
-
-    Where it tips over the edge it turns too far for small rotations.
-    """
-    return outcome in ("ok", TOO_FAR) and peak_slip > width
 
 
 def until_rest(
@@ -141,24 +161,57 @@ def until_rest(
     return last if reach(last) < math.inf else whole
 
 
-#: How bad an outcome is, the worst first; what is not among them has a result, or none that says how bad it is.
-_FAILURES = ("overturned", "lost", TOO_FAR)
+def keeps_sliding(slips: Floats, silence: float) -> NDArray[np.bool_]:
+    """Return which runs do not slow down in the free motion after the record, (...,).
+
+    Parameters
+    ----------
+    slips
+        (..., 3) slips in the middle of the free motion, after three quarters of it, and at its end [m].
+    silence
+        How long it is [s].
+    """
+    before, now = np.moveaxis(np.abs(np.diff(slips)), -1, 0)
+    return np.asarray((silence >= _LEAST_SILENCE) & (now > JOINT_METER_M) & (now >= _AS_FAST * before))
 
 
-def severity(outcome: str) -> int:
-    """Return how bad it is that a run ended so: 2 of a dam that has failed, 1 where nobody knows, 0 of a result."""
-    return 2 if outcome in _FAILURES else 0 if outcome == "ok" else 1
+def slides_on(time: Floats, slip: Floats, silence: float) -> bool:
+    """Whether a history of slip [m] that ends with a free motion so long [s] shows a dam that does not slow down."""
+    parts = np.array([*_QUARTERS, 1.0])
+    moments = time[-1] - silence * (1.0 - parts)
+    return bool(keeps_sliding(np.interp(moments, time, slip), silence))
 
 
-def badness(response: Response) -> tuple[int, int, float]:
-    """Return by what the worse of two runs is told: how it ended, how many limits it breaks, how far the dam slips."""
-    slips = [abs(crack.residual_slip_m) for crack in response.cracks] if response.started else [0.0]
-    return severity(response.outcome), sum(not check.met for check in response.limits), max(slips)
+def block_until_rest(
+    run: Callable[[Earthquake], T],
+    response_of: Callable[[T], Response],
+    earthquake: Earthquake,
+    longest: float,
+    *,
+    swings: bool = False,
+) -> tuple[T, Outcome]:
+    """Run a block as :func:`until_rest` does; return the run, and its outcome: where the block still moves in the end,
+    shorter runs say whether it slows down. `response_of` returns the response of a run."""
+    whole = until_rest(run, lambda ran: reach_of_block(response_of(ran)), earthquake, longest, swings=swings)
+    response = response_of(whole)
+    silence = response.silence_s
+    if reach_of_block(response) < math.inf or silence < _LEAST_SILENCE:
+        return whole, response.outcome
+    shorter = [response_of(run(earthquake.silent(part * silence))) for part in _QUARTERS]
+    slips = np.array([[crack.residual_slip_m for crack in ran.cracks] for ran in (*shorter, response)])
+    return whole, Outcome.KEEPS_SLIDING if keeps_sliding(slips.T, silence).any() else response.outcome
 
 
-def worse_way(ways: Mapping[str, R]) -> R:
+def with_outcome(response: R, outcome: Outcome) -> R:
+    """Return a response of a block that ends so."""
+    if outcome is response.outcome:
+        return response
+    return replace(response, outcome=outcome, advice=advice_of(outcome, silence=response.silence_s))
+
+
+def worse_way(ways: Mapping[str, R], limits: Limits) -> R:
     """Return the response of the worse sign of the motion, the first where they are equal, with what each sign does."""
-    worst = max(ways, key=lambda sign: badness(ways[sign]))
+    worst = max(ways, key=lambda sign: judge_response(limits, ways[sign]).badness())
     return replace(ways[worst], signs=tuple(numbers_of_sign(sign, ways[sign], sign == worst) for sign in ways))
 
 
@@ -204,6 +257,14 @@ def rows_until_rest(
     if not left.size or not longest:
         return
     table = run(left, longest)
+    moving = left[reach(table) == math.inf]
+    if moving.size and longest >= _LEAST_SILENCE:
+        shorter = [run(moving, part * longest)["slip"] for part in _QUARTERS]
+        on = np.zeros(left.size)
+        on[reach(table) == math.inf] = keeps_sliding(
+            np.column_stack([*shorter, table["slip"][reach(table) == math.inf]]), longest
+        )
+        table = {**table, "keeps_sliding": on}
     yield left, table
     # What ends in another way, or never, has nothing to wait for.
     left = left[np.isfinite(reach(table))]
@@ -254,7 +315,6 @@ def about_the_end(response: Response, *, asked: bool) -> Iterator[Notice]:
             when=when,
             mode=response.final_mode,
             slip_velocity_m_s=response.final_slip_velocity_m_s,
-            remedy=_what_then(response),
         )
         return
     last = last_of(response)
@@ -266,16 +326,4 @@ def about_the_end(response: Response, *, asked: bool) -> Iterator[Notice]:
         span=span,
         what=last.what,
         change_m=last.change_m,
-        remedy=_what_then(response),
     )
-
-
-def _what_then(response: Response) -> str:
-    """Say whether waiting longer helps a dam that still moves: not where it slides as fast as a second before."""
-    histories = response.at_crack(response.asked).histories if response.several else response.histories
-    time, slip = histories["time_s"], histories["slip_m"]
-    end, span = time[-1], min(1.0, (time[-1] - time[0]) / 4.0)
-    now, before = np.abs(np.diff(np.interp([end, end - span, end - 2.0 * span], time, slip)))
-    if response.silence_s >= 2.0 * span and now > JOINT_METER_M and now >= _AS_FAST * before:
-        return "it does not slow down, and there is no residual slip to trust"
-    return "a longer analysis.silence may let it come to rest"

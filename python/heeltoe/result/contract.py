@@ -5,7 +5,7 @@ Terminal, report, notebook, models side by side, spread and tables of runs all r
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -74,12 +74,6 @@ JOINT_METER_M = 1e-4
 #: So much slip is more than grout and bore hole leave a tendon that crosses the crack.
 SHEARS_M = 0.01
 
-#: Small rotations are told from large ones here [rad]: the cosine of more is no longer one within half a per cent, and
-#: the models that take rotations for small have no result beyond.
-LARGEST_ROTATION = 0.1
-#: What the outcome of such a run is called.
-TOO_FAR = "large rotation"
-
 HEADLINES = (
     Quantity("residual_slip_m", "residual slip", "residual", "slip", 1, True, LEAST_M, "slip"),
     Quantity("peak_slip_downstream_m", "peak slip downstream", "peak\ndown", "slip", 1, False, LEAST_M, "slip_max"),
@@ -123,14 +117,6 @@ HEADLINES = (
 
 #: What is cracked in the end: of a bonded joint what the earthquake cracks, of a crack its width.
 CRACKED = "cracked_length_m"
-
-
-def leading_crack(slips_m: Sequence[float]) -> int:
-    """Return which of several cracks leads: that which slips most, or the lowest one where none slips by what a joint
-    meter shows. `slips_m` are the residual slips from the crest down [m]."""
-    # The order of the cracks in the file says nothing: one dam may be written in several ways.
-    sizes = [abs(slip) for slip in slips_m]
-    return sizes.index(max(sizes)) if max(sizes) >= JOINT_METER_M else len(sizes) - 1
 
 
 def slip_by_mode(row: Mapping[str, float]) -> SlipByMode:

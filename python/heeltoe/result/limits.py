@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated
+import math
+from typing import TYPE_CHECKING, Annotated, Any
 
 from heeltoe.base.blocks import Block, Number
+from heeltoe.result.contract import CRACKED
+from heeltoe.result.crest import CREST_PEAKS, crest_peaks
+from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judgement, judge
 from heeltoe.units.parse import Acceleration
 
 if TYPE_CHECKING:
@@ -13,38 +16,17 @@ if TYPE_CHECKING:
     from heeltoe.result.response import CrackResponse, Response
 
 
-#: What the fields of ``limits`` limit.
-LABELS = {
-    "residual_slip": "residual slip",
-    "peak_slip": "largest slip",
-    "opening_upstream": "opening at the upstream face",
-    "opening_downstream": "opening at the downstream face",
-    "cracked_length": "cracked length",
-    "rotation": "rotation",
-    "crest_displacement": "crest displacement",
-    "crest_acceleration": "crest acceleration",
-}
-#: In what they are counted that are no lengths.
-UNITS = {"rotation": "rad", "crest_acceleration": "g"}
-#: Those that are lengths.
-LENGTHS = tuple(name for name in LABELS if name not in UNITS)
-#: Those on the crest, and what each limits of its motion.
-CREST = {"crest_displacement": "displacement_m", "crest_acceleration": "acceleration_g"}
-
-
-# How a run ends whose dam has failed.
-_FAILURES = ("overturned", "unstable", "lost")
-
-
 class LimitCheck(Block):
     """A result beside what the user allows."""
 
     name: Annotated[str, Number("Field of limits in the case.")]
-    value: Annotated[float, Number("What the run has, without its sign, in `unit`.")]
+    value: Annotated[
+        float | None,
+        Number("What the run has, without its sign, in `unit`; null of a dam that has failed without a result."),
+    ]
     allowed: Annotated[float, Number("How much the case allows, in `unit`.")]
     failed: Annotated[
-        bool,
-        Number("Whether the dam has overturned, or does not even stand without an earthquake: it keeps no limit then."),
+        bool, Number("Whether the dam has failed, as its outcome says or by sliding off: no limit is met then.")
     ]
     uncertainty: Annotated[
         float, Number("How far the result may be off by its evidence, in `unit`; zero where there is none.")
@@ -57,100 +39,111 @@ class LimitCheck(Block):
     @property
     def unit(self) -> Annotated[str, Number("In what result and limit are counted: m, rad or g.")]:
         """In what it is counted."""
-        return UNITS.get(self.name, "m")
+        return LIMITS[self.name].unit
 
     @property
     def utilisation(
         self,
-    ) -> Annotated[float | None, Number("The result over what is allowed; null where nothing is allowed.")]:
+    ) -> Annotated[
+        float | None, Number("The result over what is allowed; null where nothing is allowed, or without a result.")
+    ]:
         """The result over what is allowed."""
-        return self.value / self.allowed if self.allowed else None
+        return self.value / self.allowed if self.allowed and self.value is not None else None
 
     @property
     def label(self) -> str:
         """What people call the result."""
-        return LABELS[self.name]
+        return LIMITS[self.name].label
 
     @property
     def met(self) -> Annotated[bool, Number("Whether the dam holds, and the result is within the limit.")]:
         """Whether the limit is kept."""
-        return not self.failed and self.value <= self.allowed
+        return not self.failed and self.value is not None and self.value <= self.allowed
 
     @property
     def certain(
         self,
     ) -> Annotated[bool, Number("Whether that is so wherever within its uncertainty the result lies.")]:
         """Whether the uncertainty leaves no doubt."""
-        return self.failed or abs(self.value - self.allowed) > self.uncertainty or not self.uncertainty
+        return (
+            self.failed
+            or self.value is None
+            or abs(self.value - self.allowed) > self.uncertainty
+            or not self.uncertainty
+        )
+
+
+def allowances(limits: Limits, gravity: float) -> dict[str, float]:
+    """Return what limits allow, by name: lengths in m, rotations in rad, accelerations in g of so many m/s2."""
+    allowed = {name: getattr(limits, name, None) for name in LIMITS}
+    return {
+        name: value.si(gravity) / gravity if isinstance(value, Acceleration) else float(value)
+        for name, value in allowed.items()
+        if value is not None
+    }
+
+
+def judge_response(limits: Limits, response: Response) -> Judgement:
+    """Return the judgement of a response, one row."""
+    keys = {key for limit in LIMITS.values() for key in limit.keys} - set(CREST_PEAKS) - {CRACKED}
+    columns: dict[str, Any] = {
+        key: [[math.nan if crack.numbers is None else crack.numbers[key] for crack in response.cracks]]
+        for key in ("crack_width_m", *sorted(keys))
+    }
+    columns[CRACKED] = [[_cracked(crack) for crack in response.cracks]]
+    if response.crest is not None or not response.started:
+        columns |= {key: [[value]] for key, value in crest_peaks(response.crest).items()}
+    return judge({"outcome": [response.outcome], **columns}, allowances(limits, response.gravity))
 
 
 def check_limits(limits: Limits, response: Response) -> tuple[LimitCheck, ...]:
     """Compare the numbers of a response with the limits that the user has set.
 
-    They are the numbers to trust: where the runs of an elastic dam scatter, the means. Without a result to trust
-    nothing is compared.
+    They are the numbers to trust: where the runs of an elastic dam scatter, the means. Nothing is compared where the
+    run does not say; of a dam that has failed no limit is met.
     """
-    if response.outcome not in ("ok", *_FAILURES):
+    judgement = judge_response(limits, response)
+    if not (judgement.has_result[0] or judgement.failed[0]):
         return ()
-    failed = response.outcome in _FAILURES
-    checks: list[LimitCheck] = []
-    for name in LABELS:
-        limit = allowed_of(limits, name, response.gravity)
-        if limit is None:
-            continue
-        if name in CREST:
-            if response.crest is not None:
-                checks.append(
-                    LimitCheck(name=name, value=getattr(response.crest, CREST[name]), allowed=limit, failed=failed)
-                )
-            continue
-        # Of several cracks any may break a limit.
-        cracks = [_check(name, limit, crack, failed=failed) for crack in response.cracks]
-        worst = max(cracks, key=lambda check: check.value)
-        checks.append(worst if response.several else replace(worst, elevation_m=None))
+    checks = []
+    for name in judgement.not_met:
+        sizes = judgement.size(name)[0].tolist()
+        value, place = max(sizes), sizes.index(max(sizes))
+        known = not math.isnan(value)
+        of_crack = known and name not in CREST_LIMITS
+        checks.append(
+            LimitCheck(
+                name=name,
+                value=value if known else None,
+                allowed=judgement.limits[name],
+                failed=bool(judgement.failed[0]),
+                uncertainty=_uncertainty(name, response.cracks[place]) if of_crack else 0.0,
+                elevation_m=response.cracks[place].elevation if response.several and of_crack else None,
+            )
+        )
     return tuple(checks)
 
 
-def allowed_of(limits: Limits, name: str, gravity: float) -> float | None:
-    """Return what a limit allows: lengths in m, rotations in rad, accelerations in g of so many m/s2; None without."""
-    limit: float | Acceleration | None = getattr(limits, name)
-    return limit.si(gravity) / gravity if isinstance(limit, Acceleration) else limit
+def _cracked(crack: CrackResponse) -> float:
+    """Return what is cracked in the end [m]."""
+    numbers = crack.numbers
+    if numbers is None:
+        return math.nan
+    joint, bond = numbers.get("joint"), numbers.get("bond")
+    if joint is not None:
+        return float(joint["cracked_length_m"])
+    # A crack that is no joint was there from the beginning; the bond of a block breaks all at once.
+    return 0.0 if bond is not None and bond["breaks_s"] is None else float(numbers["crack_width_m"])
 
 
-def _check(name: str, limit: float, crack: CrackResponse, *, failed: bool) -> LimitCheck:
-    """Compare a number of one crack with what it may be."""
+def _uncertainty(name: str, crack: CrackResponse) -> float:
+    """Return how far what a limit limits may be off at a crack."""
     numbers = crack.numbers
     assert numbers is not None
-    if name == "cracked_length":
-        joint, bond = numbers.get("joint"), numbers.get("bond")
-        # A crack that is no joint was there from the beginning; the bond of a block breaks all at once.
-        all_or_none = 0.0 if bond is not None and bond["breaks_s"] is None else numbers["crack_width_m"]
-        evidence = numbers.get("evidence")
-        worth = None if evidence is None else evidence["cracked_length_m"]
-        return LimitCheck(
-            name=name,
-            value=all_or_none if joint is None else joint["cracked_length_m"],
-            allowed=limit,
-            failed=failed,
-            uncertainty=0.0 if worth is None else worth.uncertainty,
-            elevation_m=crack.elevation,
-        )
-    turned = max(("rocking_downstream_rad", "rocking_upstream_rad"), key=lambda key: abs(numbers[key]))
-    peak = max(("peak_slip_downstream_m", "peak_slip_upstream_m"), key=lambda key: abs(numbers[key]))
-    keys = {
-        "residual_slip": "residual_slip_m",
-        "peak_slip": peak,
-        "opening_upstream": "opening_upstream_m",
-        "opening_downstream": "opening_downstream_m",
-        "rotation": turned,
-    }
-    key, evidence = keys[name], numbers.get("evidence")
-    uncertainty = 0.0 if evidence is None else evidence[key].uncertainty
-    return LimitCheck(
-        name=name,
-        value=abs(numbers[key]),
-        allowed=limit,
-        failed=failed,
-        uncertainty=uncertainty,
-        elevation_m=crack.elevation,
-    )
+    evidence = numbers.get("evidence")
+    if evidence is None:
+        return 0.0
+    keys = LIMITS[name].keys
+    key = keys[0] if len(keys) == 1 else max(keys, key=lambda key: abs(numbers[key]))
+    worth = evidence[key]
+    return 0.0 if worth is None else float(worth.uncertainty)

@@ -18,8 +18,8 @@ from heeltoe.errors.sanitize import plain
 from heeltoe.mechanics.block import StaticState
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.comparison import meaning, ratio
-from heeltoe.result.contract import TOO_FAR, leading_crack
 from heeltoe.result.crest import CrestMotion, crest_motion
+from heeltoe.result.judge import leading_crack
 from heeltoe.result.limits import LimitCheck
 from heeltoe.result.numbers import (
     OF_SEVERAL,
@@ -33,6 +33,7 @@ from heeltoe.result.numbers import (
     Spread,
     TimeByMode,
 )
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.sequence import Stage
 from heeltoe.result.verdict import verdict
 from heeltoe.result.write import build_info, motion_json, static_json, write_table
@@ -45,9 +46,6 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 R = TypeVar("R", bound="Response")
 _J = "J per metre of dam"
-
-#: Outcomes of a run; only the first two come with a result to trust.
-OUTCOMES = ("ok", "overturned", "unstable", "paradox", "event limit", "cycling", "lost", "blown up", TOO_FAR)
 
 
 class Energy(Block):
@@ -225,7 +223,7 @@ class Response(Numbered, Shown):
     title
         Of the case.
     outcome, advice
-        ``"ok"``, or what stopped the run and what to do about it.
+        How the run ended, and what to do about it where there is no result.
     warnings
         Everything a reader must know before using the numbers.
     energy
@@ -260,7 +258,7 @@ class Response(Numbered, Shown):
 
     model: str
     title: str
-    outcome: str
+    outcome: Outcome
     advice: Sentence | None
     warnings: tuple[Notice, ...]
     energy: Energy | None
@@ -281,6 +279,9 @@ class Response(Numbered, Shown):
 
     #: Whether the parts of the dam are elastic, so that both ends of a crack shift with nothing happening to the dam.
     elastic: ClassVar[bool] = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "outcome", Outcome(self.outcome))
 
     def __repr__(self) -> str:
         beside = "" if self.beside is None else f" with the {self.beside.model} one beside it"
@@ -313,7 +314,7 @@ class Response(Numbered, Shown):
     @property
     def ok(self) -> bool:
         """Whether the run ended with a result to trust."""
-        return self.outcome in ("ok", "overturned")
+        return self.outcome.has_result
 
     @property
     def started(self) -> bool:

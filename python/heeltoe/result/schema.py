@@ -10,7 +10,8 @@ from heeltoe.result.contract import HEADLINES
 from heeltoe.result.crest import CrestMotion
 from heeltoe.result.limits import LimitCheck
 from heeltoe.result.numbers import OF_SEVERAL, BlockNumbers, Chain, ElasticCrack, ElasticDam, SignNumbers, Spread
-from heeltoe.result.response import OUTCOMES, Chosen, Energy
+from heeltoe.result.outcome import Outcome
+from heeltoe.result.response import Chosen, Energy
 from heeltoe.result.sequence import Stage
 from heeltoe.result.write import MotionNumbers
 
@@ -61,7 +62,7 @@ def _of_every_run() -> dict[str, Any]:
         "model": {"enum": list(_MODELS)},
         "chosen": _or_null(json_schema(Chosen)),
         "title": _TEXT,
-        "outcome": {"enum": list(OUTCOMES)},
+        "outcome": {"enum": [str(outcome) for outcome in Outcome if outcome is not Outcome.REFUSED]},
         "advice": {"type": ["string", "null"]},
         "verdict": _TEXT,
         "warnings": {"type": "array", "items": {"type": "object", "required": ["code", "text", "severity"]}},

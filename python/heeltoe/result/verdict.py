@@ -39,7 +39,8 @@ def verdict(response: Response, units: str = "si", *, brief: bool = False) -> st
     if not response.ok:
         # Of two signs of the motion the other may have a result, which must not go unsaid.
         failure = f"No result to trust ({response.outcome}): {advice(response, units)}."
-        return f"{failure} {_signs(response, units)}".rstrip()
+        rest = (_signs(response, units), _limits(response, units))
+        return " ".join(sentence for sentence in (failure, *rest) if sentence)
     if response.outcome == "overturned":
         about = response.overturned_about
         way = "downstream" if about == "toe" else "upstream"
@@ -92,8 +93,9 @@ def _limits(response: Response, units: str) -> str:
     """Say which of the limits that the user has set are met."""
     if not response.limits:
         return ""
-    if response.outcome == "overturned":
-        return "It keeps none of its limits: a dam that has overturned has failed."
+    if all(check.failed for check in response.limits):
+        failed = response.outcome.sentence if response.outcome.failed else "the part above slides off its crack"
+        return f"No limit is met: {failed}."
     broken = [
         f"{limited(check, units)} of {_judged(check, units)} is more than the "
         f"{measured(check.allowed, check.unit, units)} allowed"
@@ -130,6 +132,7 @@ def _level(elevation: float, units: str) -> str:
 
 def _judged(check: LimitCheck, units: str) -> str:
     """Return a result, and how uncertain it is where that decides."""
+    assert check.value is not None
     value = measured(check.value, check.unit, units)
     return value if check.certain else f"{value} ± {measured(check.uncertainty, check.unit, units)}"
 

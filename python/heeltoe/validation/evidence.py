@@ -24,7 +24,7 @@ from heeltoe.models.flexible.evidence.refinement import answer
 from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake
-from heeltoe.result.contract import leading_crack
+from heeltoe.result.judge import leading_crack
 from heeltoe.result.numbers import EvidenceNumbers
 from heeltoe.validation.row import Row
 from heeltoe.validation.sources import ENDS_WITH_MOTION

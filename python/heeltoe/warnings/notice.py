@@ -135,7 +135,7 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "caution",
         "analysis.silence",
         "the block still moves {when} ({mode}, slip velocity {slip_velocity_m_s:.3g m/s}): the residual slip is that "
-        "of this moment; {remedy}",
+        "of this moment; a longer analysis.silence may let it come to rest",
     ),
     "restitution-lowered": (
         "note",
@@ -291,7 +291,7 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "caution",
         "analysis.silence",
         "the dam still moves {when}: in the last {span} its {what} changes by {change_m:.3g mm}; the residual slip is "
-        "that of this moment; {remedy}",
+        "that of this moment; a longer analysis.silence may let it come to rest",
     ),
     "tension-exceeds": (
         "grave",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -21,7 +21,7 @@ from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.body.cost import Cost, check_cost
 from heeltoe.models.rigid.model import run_rigid
 from heeltoe.models.rigid.walk import walk
-from heeltoe.models.runner import reach_of_block, until_rest
+from heeltoe.models.runner import block_until_rest, with_outcome
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.result.contract import JOINT_METER_M, ground_histories
@@ -112,9 +112,11 @@ def _run_until_rest(case: Case, part: Part, block: Block, earthquake: Earthquake
         step = step_of(through) if output_step is None else output_step
         return _Run(through, at_crack, straightness, run_rigid(case, at_crack.felt(case, through), step, block))
 
-    return until_rest(
-        run, lambda chain_run: reach_of_block(chain_run.response), earthquake, case.analysis.silence, swings=True
+    last, outcome = block_until_rest(
+        run, lambda ran: of_the_chain(ran.response, ran.earthquake), earthquake, case.analysis.silence, swings=True
     )
+    response = replace(last.response, silence_s=last.earthquake.silence)
+    return replace(last, response=with_outcome(response, outcome))
 
 
 def step_of(earthquake: Earthquake) -> float:

@@ -8,6 +8,8 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import NamedTuple
 
+import numpy as np
+
 from heeltoe.base.beside import beside, pass_notes
 from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
@@ -28,25 +30,19 @@ from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import analysing, frame_step_of
 from heeltoe.models.flexible.run.slip_history import Worn, law_warnings, worn_of
 from heeltoe.models.flexible.warnings import judge_outcome, stands, warnings_of
-from heeltoe.models.runner import STEP, severity, until_rest, where_of
+from heeltoe.models.runner import STEP, until_rest, where_of
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import CRACKED, leading_crack
-from heeltoe.result.crest import CrestMotion, crest_motion
-from heeltoe.result.limits import allowed_of
+from heeltoe.result.contract import CRACKED, headlines
+from heeltoe.result.crest import CrestMotion, crest_motion, crest_peaks
+from heeltoe.result.judge import Judgement, judge, leading_crack
+from heeltoe.result.limits import allowances
 from heeltoe.result.numbers import SelfExcitation, SignNumbers
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.rest import LAST_S, last_change, still_since
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
 
 _SHORTEST_FRAME_STEP = 1e-3
-# Which columns of the kernel the limits of a case are held against.
-_LIMITED = {
-    "residual_slip": ("slip",),
-    "peak_slip": ("slip_max", "slip_min"),
-    "opening_upstream": ("opening_heel",),
-    "opening_downstream": ("opening_toe",),
-    "rotation": ("rotation_max", "rotation_min"),
-}
 
 
 def run_flexible(
@@ -88,10 +84,10 @@ def run_flexible(
     shaken, run = result.shaken, result.run
     # Its mesh may be finer by now.
     case, dam = shaken.case, shaken.dam
-    outcome, advice = judge_outcome(dam, block, run)
+    outcome, advice = judge_outcome(dam, block, run, earthquake.silence)
     histories, envelope = histories_of_cracks(case, dam, run), envelope_of(dam, run)
     worn = [worn_of(alone, place, dam, run) for place, alone in enumerate(case.single_crack_cases)]
-    tension = None if outcome == "unstable" else tension_of(result, envelope)
+    tension = None if outcome is Outcome.UNSTABLE else tension_of(result, envelope)
     cracks = tuple(crack_responses(result, histories, static_state(block)))
     leads = leading_crack([crack.residual_slip_m for crack in cracks])
     is_first = run is first.run and leads == first.leads
@@ -122,10 +118,10 @@ def run_flexible(
 
 
 def _growth(
-    shaken: ShakenDam, run: DamRun, outcome: str, leads: int, ending: Ending | None = None
+    shaken: ShakenDam, run: DamRun, outcome: Outcome, leads: int, ending: Ending | None = None
 ) -> SelfExcitation | None:
     # One that slides by itself needs no vibration to go on.
-    return None if outcome == "unstable" else self_excitation(shaken, run, leads, ending)
+    return None if outcome is Outcome.UNSTABLE else self_excitation(shaken, run, leads, ending)
 
 
 class Rested(NamedTuple):
@@ -144,7 +140,7 @@ class Rested(NamedTuple):
     earthquake: Earthquake
     shaken: ShakenDam
     run: DamRun
-    outcome: str
+    outcome: Outcome
     advice: Sentence | None
 
     @property
@@ -168,32 +164,24 @@ class Rested(NamedTuple):
         peak = float(abs(self.shaken.shaking.horizontal).max())
         return crest_motion(crest_of(self.shaken, self.run), case.gravity, peak)
 
-    def limits_not_met(self, case: Case) -> int:
-        """Return how many of the limits of the case it does not meet."""
-        worst = {
-            name: max(abs(getattr(row, column)) for row in self.run.summaries for column in columns)
-            for name, columns in _LIMITED.items()
-        }
+    def judged(self, case: Case) -> Judgement:
+        """Return its judgement by the limits of the case, one row."""
+        rows = [summary.by_name() for summary in self.run.summaries]
         dam = self.shaken.dam
-        lengths = zip(self.run.summaries, dam.lines, dam.sections, strict=True)
-        worst[CRACKED.removesuffix("_m")] = max(
-            min(row.cracked_length, section.crack_width) if line.bond is not None else section.crack_width
-            for row, line, section in lengths
-        )
+        width = np.array([[section.crack_width for section in dam.sections]])
+        joint = [line.bond is not None for line in dam.lines]
         crest = self.crest(case)
-        if crest is not None:
-            worst |= {"crest_displacement": crest.displacement_m, "crest_acceleration": crest.acceleration_g}
-        limits = {name: allowed_of(case.limits, name, case.gravity) for name in worst}
-        return sum(limit is not None and worst[name] > limit for name, limit in limits.items())
-
-    def badness(self, case: Case) -> tuple[int, int, float]:
-        """Return by what the worse of two runs is told, see :func:`heeltoe.models.runner.badness`."""
-        slip = max(abs(row.slip) for row in self.run.summaries)
-        return severity(self.outcome), self.limits_not_met(case), slip
+        columns = {
+            **headlines({name: np.array([[row[name] for row in rows]]) for name in rows[0]}),
+            "crack_width_m": width,
+            CRACKED: np.where(joint, np.minimum([row["cracked_length"] for row in rows], width), width),
+            **({} if crest is None else {key: [[value]] for key, value in crest_peaks(crest).items()}),
+        }
+        return judge({"outcome": [self.outcome], **columns}, allowances(case.limits, case.gravity))
 
     def sign_numbers(self, case: Case, sign: str) -> SignNumbers:
         """Return what it says of the sign of its motion that does not govern."""
-        known, rows, section = self.outcome == "ok", self.run.summaries, self.shaken.dam.sections[self.leads]
+        known, rows, section = self.outcome.has_result, self.run.summaries, self.shaken.dam.sections[self.leads]
         return SignNumbers(
             sign=sign,
             governs=False,
@@ -201,7 +189,7 @@ class Rested(NamedTuple):
             elevation_m=section.heel[1] - section.base_elevation if known else None,
             residual_slip_m=rows[self.leads].slip if known else None,
             opening_m=max(max(row.opening_heel, row.opening_toe) for row in rows) if known else None,
-            limits_not_met=self.limits_not_met(case),
+            limits_not_met=self.judged(case).badness()[1],
         )
 
 
@@ -246,7 +234,7 @@ def run_until_rest(
         # Water and anchors may have made it shorter than could be expected.
         check_cost(case, analysing(case, through.run_end, frame_step, step))
         response = shaken.run(step, frame_step, ending, stresses=stresses)
-        return Rested(through, shaken, response, *judge_outcome(dam, block, response))
+        return Rested(through, shaken, response, *judge_outcome(dam, block, response, through.silence))
 
     longest = case.analysis.silence
     shaken = ShakenDam(case, dam, earthquake.shaking)
@@ -259,7 +247,7 @@ def run_until_rest(
     response = shaken.run(step, frame_step, ending, stresses=stresses, pauses=pauses)
     seconds = STEP * math.ceil((response.summary.end_time - earthquake.end) / STEP - 0.5)
     through = earthquake.silent(min(max(seconds, 0.0), longest))
-    outcome = judge_outcome(dam, block, response)
+    outcome = judge_outcome(dam, block, response, through.silence)
     return Rested(through, ShakenDam(case, dam, through.shaking), response, *outcome)
 
 
@@ -327,10 +315,11 @@ def answer_at_rest(
     `first` is the run without evidence, where it has been made before."""
     dam = build_flexible_dam(case) if first is None else first.shaken.dam
     first = first or run_until_rest(case, dam, block, earthquake, frame_step)
-    # A dam that does not stand has no slip to be certain of; one run shows how it goes.
-    asked = case.flexible.evidence if stands(dam, block) else "none"
+    # A dam that does not stand, or keeps sliding, has no slip to be certain of; one run shows how it goes.
+    certain = stands(dam, block) and first.outcome is not Outcome.KEEPS_SLIDING
+    asked = case.flexible.evidence if certain else "none"
     reply = answer(first.shaken, frame_step, asked, first.run)
-    rested = first._replace(run=reply.run, outcome=judge_outcome(dam, block, reply.run)[0])
+    rested = first._replace(run=reply.run, outcome=judge_outcome(dam, block, reply.run, first.earthquake.silence)[0])
     if rested.reach < math.inf or first.earthquake.silence >= case.analysis.silence:
         return reply, first.earthquake
     # Its mesh or step is finer now, and it takes longer.

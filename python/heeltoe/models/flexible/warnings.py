@@ -21,23 +21,14 @@ from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.surroundings.left_out import left_out
 from heeltoe.models.flexible.surroundings.rock import ENOUGH as ENOUGH_OF_ROCK
 from heeltoe.models.flexible.surroundings.rock import HIGHEST
-from heeltoe.models.runner import about_the_anchors, largest_rotation, outcome_of
-from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
+from heeltoe.models.runner import about_the_anchors, advice_of, largest_rotation, slides_on
 from heeltoe.result.numbers import AnchorForce, EvidenceNumbers, SelfExcitation
+from heeltoe.result.outcome import Outcome, decide
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
 
 #: A mesh that misses corners of the section by more than this part of its height is told.
 _MISSED = 1e-3
-# What to do about it.
-_STAND = "give the dam more friction, less uplift or less water until it stands before the earthquake"
-_REMEDIES = {
-    "unstable": f"the dam slides under its static loads alone, and goes on for as long as the run lasts; {_STAND}",
-    "lost": "the part above the crack has gone over 100 crack widths away: the dam has failed; see its static safety",
-    "blown up": (
-        'energy came from nothing, as penalties can make it; use flexible.contact = "coulomb" or a smaller time_step'
-    ),
-}
 
 
 def stands(dam: FlexibleDam, block: Block) -> bool:
@@ -45,36 +36,25 @@ def stands(dam: FlexibleDam, block: Block) -> bool:
     return bool(dam.anchors) or (instability(block) is None and dam.start.stands)
 
 
-def judge_outcome(dam: FlexibleDam, block: Block, run: DamRun) -> tuple[str, Sentence | None]:
+def judge_outcome(dam: FlexibleDam, block: Block, run: DamRun, silence: float = 0.0) -> tuple[Outcome, Sentence | None]:
     """Return how a run ended, and what to do about it; none where there is a result to trust.
 
     A dam that slides, overturns or floats under its static loads is none that an earthquake moves; anchors with
-    stiffness hold what friction and weight do not. Rotations that are not small are none of this model.
+    stiffness hold what friction and weight do not. Rotations that are not small are none of this model. `silence` is
+    how long the run goes on after the ground motion [s].
     """
+    rotation = max(float(largest_rotation(summary.by_name())) for summary in run.summaries)
+    slides = silence > 0.0 and any(slides_on(frames.time, frames.slip, silence) for frames in run.all_frames)
+    outcome = decide(run.outcome, rotation=rotation, stands=stands(dam, block), slows=not slides)
+    if outcome.has_result:
+        return outcome, None
     raw = run.summary
-    if run.outcome in ("ok", "lost") and not stands(dam, block):
-        why = instability(block)
-        remedied = None if why is None else Sentence.of("{why}: {remedy}", why=why, remedy=_STAND)
-        return "unstable", remedied or _stopped("unstable", raw)
-    largest = max(float(largest_rotation(summary.by_name())) for summary in run.summaries)
-    outcome = outcome_of(run.outcome, largest)
-    if outcome == TOO_FAR:
-        text = (
-            "it rotates by {rotation_rad:.3g rad}; beyond {largest_rad:g rad} a rotation is not small, and the "
-            "flexible model knows no other: no setting of it has a result here, and a rigid block with "
-            'analysis.rotation = "finite" says whether it overturns'
-        )
-        return outcome, Sentence.of(text, rotation_rad=largest, largest_rad=LARGEST_ROTATION)
-    return outcome, _stopped(outcome, raw) if outcome in _REMEDIES else None
-
-
-def _stopped(outcome: str, raw: DamSummary) -> Sentence:
-    """Say where a run stopped, and what to do."""
-    return Sentence.of(
-        "stopped at {time_s:.3f s} with slip {slip_m:.4g m}: {remedy}",
-        time_s=raw.end_time,
-        slip_m=raw.slip,
-        remedy=_REMEDIES[outcome],
+    return outcome, advice_of(
+        outcome,
+        rotation=rotation,
+        why=instability(block),
+        stopped=Sentence.of("stopped at {time_s:.3f s} with slip {slip_m:.4g m}", time_s=raw.end_time, slip_m=raw.slip),
+        silence=silence,
     )
 
 
@@ -85,7 +65,7 @@ def warnings_of(
     evidences: Sequence[EvidenceNumbers],
     growth: SelfExcitation | None,
     safety: float | None,
-    outcome: str,
+    outcome: Outcome,
     leads: int = 0,
 ) -> list[Notice]:
     """Return what a reader of a flexible run must know; `safety` is that against sliding under the static loads,
@@ -94,7 +74,7 @@ def warnings_of(
     peak = float(abs(shaken.shaking.horizontal).max())
     return [
         # What does not stand has no result that evidence could be of.
-        *(_about_the_evidences(evidences, dam, leads) if outcome != "unstable" else ()),
+        *(_about_the_evidences(evidences, dam, leads) if outcome is not Outcome.UNSTABLE else ()),
         *_about_the_start(case, dam, safety),
         *_about_the_growth(growth, run.summaries[leads]),
         *_about_the_mesh(dam),

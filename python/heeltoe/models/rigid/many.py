@@ -25,7 +25,7 @@ from heeltoe.models.rigid.walk import limits_of, walk
 from heeltoe.models.runner import largest_rotation, rows_until_rest
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.result.contract import LARGEST_ROTATION
+from heeltoe.result.outcome import LARGEST_ROTATION
 
 # What ends blocks that run together, whether they are walked exactly, and whether rotations may be of any size.
 _Kind = tuple[Limits, bool, bool]
@@ -70,7 +70,8 @@ def rigid_many(
     -------
     dict
         (n,) arrays by name (:data:`heeltoe.kernel.block.SUMMARY`, SI); ``outcome`` counts
-        :data:`heeltoe.kernel.block.OUTCOMES`, ``final_mode`` counts :data:`heeltoe.kernel.block.MODES`. All-zero motion
+        :data:`heeltoe.kernel.block.OUTCOMES`, ``keeps_sliding`` is 1 of a block that does not slow down after its
+        motion, ``final_mode`` counts :data:`heeltoe.kernel.block.MODES`. All-zero motion
         numbers go with the outcome "unstable".
 
     Raises
@@ -103,7 +104,7 @@ def run_rows(
     """Run blocks that have been checked; what `rows.which` counts are `earthquakes`. `progress` is told how many more
     are done. Otherwise as :func:`rigid_many`; where the rows ask for the crest with :data:`CREST`, as single runs have
     it."""
-    table = {name: np.zeros(len(rows.numbers)) for name in _names(rows)}
+    table = {name: np.zeros(len(rows.numbers)) for name in (*_names(rows), "keeps_sliding")}
     follow = any(earthquake.motion.parts for earthquake in earthquakes)
     for part, kind in _parts(rows, limits, _CHUNK if progress else len(rows.numbers), sequences=follow):
         run = _runner(rows, earthquakes, kind, threads)

@@ -10,9 +10,10 @@ from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.rigid.tables import crack_response, energy_of, references_of, with_crest
 from heeltoe.models.rigid.walk import walk_with_drainage
-from heeltoe.models.rigid.warnings import advice_of, warnings_of
-from heeltoe.models.runner import largest_rotation, outcome_of
+from heeltoe.models.rigid.warnings import advice_of_block, warnings_of
+from heeltoe.models.runner import largest_rotation
 from heeltoe.motion.earthquake import Earthquake
+from heeltoe.result.outcome import Outcome, decide
 from heeltoe.result.response import Response
 
 
@@ -50,15 +51,14 @@ def run_rigid(
         run, drainage = walk_with_drainage(case, block, shaking, np.append(moments, np.nextafter(end, 0.0)))
         # A walk that ends there all the same has no state at the last moment.
         moments = np.append(moments, end)[: run.mode.size]
-    outcome = outcome_of(
-        run.outcome, float(largest_rotation(run.summary.by_name())), finite=case.analysis.rotation == "finite"
-    )
-    started = outcome != "unstable"
+    rotation = float(largest_rotation(run.summary.by_name()))
+    outcome = decide(run.outcome, rotation=rotation, finite=case.analysis.rotation == "finite")
+    started = outcome is not Outcome.UNSTABLE
     return Response(
         model="rigid",
         title=case.title,
         outcome=outcome,
-        advice=advice_of(block, run, outcome),
+        advice=advice_of_block(block, run, outcome, rotation),
         warnings=tuple(warnings_of(case, block, run)),
         energy=energy_of(run) if started else None,
         motion=earthquake.motion,

@@ -16,11 +16,12 @@ from heeltoe.mechanics.block import Block, build_block, instability
 from heeltoe.models.rigid.model import moments_of
 from heeltoe.models.rigid.tables import crack_response, energy_of, references_of, with_crest
 from heeltoe.models.rigid.walk import limits_of
-from heeltoe.models.rigid.warnings import ADVICE, advice_of, warnings_of
-from heeltoe.models.runner import largest_rotation, outcome_of
+from heeltoe.models.rigid.warnings import advice_of_block, warnings_of
+from heeltoe.models.runner import largest_rotation
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR, leading_crack
+from heeltoe.result.judge import leading_crack
 from heeltoe.result.numbers import CrackEnergy
+from heeltoe.result.outcome import Outcome, decide
 from heeltoe.result.response import CrackResponse, Response
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
@@ -63,8 +64,8 @@ def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None
     moments = moments[: run.cracks[0].mode.size]
     # Neither may turn far from the ground.
     turned = max(float(largest_rotation(run.cracks[0].summary.by_name())), float(np.abs(run.tilts).max()))
-    outcome = outcome_of(run.cracks[0].outcome, turned)
-    started = outcome != "unstable"
+    outcome = decide(run.cracks[0].outcome, rotation=turned)
+    started = outcome is not Outcome.UNSTABLE
     first, alone = blocks[asked], run.cracks[1 - asked]
     cracks = [
         _with_losses(
@@ -79,7 +80,7 @@ def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None
         model="rigid",
         title=case.title,
         outcome=outcome,
-        advice=_advice(blocks, run, outcome, asked),
+        advice=_advice(blocks, run, outcome, asked, turned),
         warnings=_warnings(blocks, run),
         energy=energy_of(alone) if started else None,
         motion=earthquake.motion,
@@ -109,28 +110,16 @@ def _with_losses(crack: CrackResponse, friction: float, lost: Sequence[float]) -
     return replace(crack, of_crack=replace(crack.of_crack, friction=friction, crack_energy=energy))
 
 
-def _advice(blocks: list[Block], run: StackRun, outcome: str, asked: int) -> Sentence | None:
+def _advice(blocks: list[Block], run: StackRun, outcome: Outcome, asked: int, rotation: float) -> Sentence | None:
     """Say where a run stopped, at which of the blocks, and what to do; None where there is a result to trust."""
-    if outcome == "ok":
-        return None
-    if outcome == "unstable":
+    place = asked
+    if outcome is Outcome.UNSTABLE:
         place = next((place for place, block in enumerate(blocks) if instability(block) is not None), asked)
-    elif outcome == TOO_FAR:
+    elif outcome is Outcome.LARGE_ROTATION:
         place = 1 - int(np.abs(run.tilts).max(axis=1).argmax())
-        turned = float(np.abs(run.tilts[1 - place]).max())
-        return Sentence.of(
-            "the block above the crack at {at_m:g m} rotates by {rotation_rad:.3g rad}: beyond {least_rad:g rad} that "
-            "is not small, and it may overturn, which two blocks with small rotations know nothing of; look at that "
-            'block alone, without [[further_cracks]] and with analysis.rotation = "finite"',
-            at_m=_elevation(blocks[place]),
-            rotation_rad=turned,
-            least_rad=LARGEST_ROTATION,
-        )
-    else:
-        place = asked
-    advice = advice_of(blocks[place], run.cracks[1 - place], outcome)
-    if advice is None or outcome not in ADVICE:
-        return advice
+    advice = advice_of_block(blocks[place], run.cracks[1 - place], outcome, rotation)
+    if advice is None:
+        return None
     return Sentence.of("at the crack at {at_m:g m}: {advice}", at_m=_elevation(blocks[place]), advice=advice)
 
 

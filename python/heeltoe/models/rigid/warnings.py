@@ -9,24 +9,10 @@ from heeltoe.kernel.block import BlockRun
 from heeltoe.mechanics.block import Block, instability
 from heeltoe.mechanics.friction import range_of
 from heeltoe.models.rigid.tables import anchors_of
-from heeltoe.models.runner import about_the_anchors
-from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
+from heeltoe.models.runner import about_the_anchors, advice_of
+from heeltoe.result.outcome import Outcome
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
-
-ADVICE = {
-    TOO_FAR: (
-        f"beyond {LARGEST_ROTATION:g} rad a rotation is not small, and small ones know nothing of overturning: set "
-        'analysis.rotation = "finite"'
-    ),
-    "unstable": "give the dam more friction, less uplift or less water until it stands before the earthquake",
-    "paradox": (
-        'no motion agrees with Coulomb friction here (Painlevé); set analysis.paradox = "tangential impact" to let the '
-        "sliding corner jam, or use the flexible model"
-    ),
-    "event limit": "lower crack.restitution, shorten motion.duration or raise analysis.event_limit",
-    "cycling": "report this case: events followed each other without time passing, which should not happen",
-}
 
 # A block that rotates by more than this part of what would overturn it is pulled back noticeably less by its weight.
 _SHARE_OF_SLENDERNESS = 0.1
@@ -47,30 +33,24 @@ def law_warnings(case: Case, block: Block) -> list[Notice]:
     return notices
 
 
-def advice_of(block: Block, run: BlockRun, outcome: str) -> Sentence | None:
-    """Say where a run stopped, and what to do; None where there is a result to trust."""
-    raw = run.summary
-    if outcome in ("ok", "overturned"):
+def advice_of_block(block: Block, run: BlockRun, outcome: Outcome, rotation: float) -> Sentence | None:
+    """Say where a run stopped, and what to do; None where there is a result to trust. `rotation` is the largest of the
+    run [rad]."""
+    if outcome.has_result:
         return None
-    if outcome == "unstable":
-        why = instability(block) or Sentence("its static loads are at the limit of friction or of overturning")
-        return Sentence.of("{why}: {remedy}", why=why, remedy=ADVICE[outcome])
-    if outcome == TOO_FAR:
-        largest = max(raw.rotation_max, -raw.rotation_min)
-        return Sentence.of(
-            "it rotates by {rotation_rad:.3g rad}; {remedy}", rotation_rad=largest, remedy=ADVICE[outcome]
-        )
-    return Sentence.of(
+    raw = run.summary
+    stopped = Sentence.of(
         "stopped at {time_s:.6f s} in mode {mode} with slip {slip_m:.6g m} at {slip_velocity_m_s:.6g m/s}, heel gap "
-        "{gap_heel_m:.6g m}, toe gap {gap_toe_m:.6g m}: {remedy}",
+        "{gap_heel_m:.6g m}, toe gap {gap_toe_m:.6g m}",
         time_s=raw.end_time,
         mode=repr(run.final_mode),
         slip_m=raw.slip,
         slip_velocity_m_s=raw.slip_velocity,
         gap_heel_m=raw.gap_heel,
         gap_toe_m=raw.gap_toe,
-        remedy=ADVICE[outcome],
     )
+    why = instability(block) or Sentence("its static loads are at the limit of friction or of overturning")
+    return advice_of(outcome, rotation=rotation, why=why, stopped=stopped)
 
 
 def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:

@@ -12,11 +12,9 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ndtr
 
 from heeltoe.base.arrays import Floats
-from heeltoe.result.contract import CRACKED
 from heeltoe.study.answers.likelihood import Tally, Witnesses, fit, within
 from heeltoe.study.run.aggregate import SHAKEN, Walk
 
@@ -24,20 +22,6 @@ from heeltoe.study.run.aggregate import SHAKEN, Walk
 _TOGETHER = 64
 #: Strengths that differ by rounding are one; where there are many the shares are those of so many groups of runs.
 _SAME, _GROUPS = 1e-9, 12
-#: Outcomes of dams that have failed, whatever the limit.
-FAILED = ("overturned", "unstable", "large rotation")
-#: Of the limits, which numbers of a run are held against them, without sign.
-LIMITED = {
-    "residual_slip": ("residual_slip_m",),
-    "peak_slip": ("peak_slip_downstream_m", "peak_slip_upstream_m"),
-    "opening": ("opening_upstream_m", "opening_downstream_m"),
-    "opening_upstream": ("opening_upstream_m",),
-    "opening_downstream": ("opening_downstream_m",),
-    "rotation": ("rocking_downstream_rad", "rocking_upstream_rad"),
-    "cracked_length": (CRACKED,),
-    "crest_displacement": ("crest_displacement_m",),
-    "crest_acceleration": ("crest_acceleration_g",),
-}
 
 
 @dataclass(frozen=True)
@@ -111,27 +95,16 @@ class Curve:
         return asdict(self)
 
 
-def exceeding(table: Mapping[str, Floats], outcome: NDArray[Any], limit: str, value: float) -> NDArray[np.float64]:
-    """Return which runs exceed a limit: 1, 0, or not a number where a run ended without a result."""
-    largest = np.max([np.abs(table[name]) for name in LIMITED[limit]], axis=0)
-    share = np.where(outcome == "ok", (largest > value).astype(np.float64), np.nan)
-    return np.where(np.isin(outcome, FAILED), 1.0, share)
-
-
 def not_met(walk: Walk) -> dict[str, dict[str, int]]:
     """Return for each model how many runs do not keep within the limits of the case, by the name of the limit: where
     any crack exceeds it, or the dam fails. A run without a result is not counted."""
     limits = walk.limits
-    names = sorted({name for limit in limits for name in LIMITED[limit]})
     counts = {model: dict.fromkeys(limits, 0) for model in walk.models}
-    for runs in walk("model", "outcome", *names, *(column for name in names for column in walk.of_cracks(name))):
-        words, code = runs.words("outcome")
-        outcome, model = np.array(words)[code], runs.model
-        values = {name: runs.largest(name, *walk.of_cracks(name)) for name in names}
-        for limit, value in limits.items():
-            exceeds = exceeding(values, outcome, limit, value) == 1.0
+    for runs in walk("model", *walk.judging(limits)):
+        judgement, model = runs.judged(walk, limits), runs.model
+        for limit, exceeds in judgement.not_met.items():
             for place, name in enumerate(walk.models):
-                counts[name][limit] += int(np.count_nonzero(exceeds & (model == place)))
+                counts[name][limit] += int(np.count_nonzero((exceeds == 1.0) & (model == place)))
     return counts
 
 
@@ -182,17 +155,13 @@ def counted(walk: Walk, request: Mapping[str, Any]) -> dict[tuple[str, str, floa
     limits = walk.asked
     tallies = {(model, *limit): Tally() for model in walk.models for limit in limits}
     measure = walk.measure(request["measure"], request["period"])
-    names = sorted({name for limit, _ in limits for name in LIMITED[limit]})
-    for runs in walk(
-        "model", "outcome", "event", *SHAKEN, *names, *(column for name in names for column in walk.of_cracks(name))
-    ):
+    names = dict(limits)
+    for runs in walk("model", "event", *SHAKEN, *walk.judging(names)):
         strength, model, event = runs.strength(measure), runs.model, runs.event
-        words, code = runs.words("outcome")
-        outcome = np.array(words)[code]
         # The crack that exceeds a limit first is the one that counts.
-        values = {name: runs.largest(name, *walk.of_cracks(name)) for name in names}
+        judgement = runs.judged(walk, names)
         for limit, value in limits:
-            exceeds = exceeding(values, outcome, limit, value)
+            exceeds = judgement.exceeds(limit, value)
             for place, name in enumerate(walk.models):
                 here = model == place
                 tallies[name, limit, value].add(strength[here], exceeds[here], event[here])

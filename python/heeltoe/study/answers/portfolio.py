@@ -8,7 +8,6 @@ import numpy as np
 import pyarrow as pa
 
 from heeltoe.base.arrays import Floats, finite
-from heeltoe.study.answers.fragility import LIMITED
 from heeltoe.study.answers.suite import below
 from heeltoe.study.run.aggregate import Walk
 
@@ -34,11 +33,8 @@ def portfolio_of(walk: Walk) -> list[dict[str, Any]] | None:
         return None
     # Those of the curves, then those of the case.
     limits = list(dict.fromkeys([*walk.asked, *walk.limits.items()]))
-    slips = _by_motion(walk, walk.cube("residual_slip_m"))
-    demands = {
-        limit: np.max([_by_motion(walk, walk.cube(column)) for column in _columns(walk, limit)], axis=0)
-        for limit in {limit for limit, _ in limits}
-    }
+    slips = _by_motion(walk, walk.worst("residual_slip"))
+    demands = {limit: _by_motion(walk, walk.worst(limit)) for limit in {limit for limit, _ in limits}}
     return [
         {
             "model": model,
@@ -54,14 +50,10 @@ def portfolio_of(walk: Walk) -> list[dict[str, Any]] | None:
     ]
 
 
-def _columns(walk: Walk, limit: str) -> list[str]:
-    return [column for name in LIMITED[limit] for column in (name, *walk.of_cracks(name))]
-
-
 def _by_motion(walk: Walk, cube: Floats) -> Floats:
     """Return numbers of runs by dam, by motion at each strength and by model, each motion by its worse sign; infinite
     where a run has none."""
-    size = np.nan_to_num(np.abs(cube), nan=np.inf)
+    size = np.nan_to_num(cube, nan=np.inf, posinf=np.inf)
     if size.shape[1] > 1:
         motions = [motion["name"] for motion in walk.manifest["motions"]]
         places = [[k for k, name in enumerate(motions) if name == motion] for motion in dict.fromkeys(motions)]

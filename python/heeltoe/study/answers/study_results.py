@@ -18,7 +18,7 @@ from heeltoe.base.arrays import Floats, Integers
 from heeltoe.base.display import Shown
 from heeltoe.case.paths import quantity_of
 from heeltoe.errors.error import InputError
-from heeltoe.models.runner import TRUSTED
+from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.answers import bands, summary
 from heeltoe.study.answers.comparison import compared
 from heeltoe.study.answers.fragility import Curve, counted, curve
@@ -152,14 +152,14 @@ class StudyResults(Shown):
     @property
     def all_ok(self) -> bool:
         """Whether every run is there and has a result to trust."""
-        return self.complete and set(self.outcomes) <= set(TRUSTED)
+        return self.complete and all(Outcome(name).has_result for name in self.outcomes)
 
     @property
     def answered(self) -> bool:
         """Whether every run is there, and of each model some have a result: what the study asks for has an answer.
 
         Runs without a result are counted in every answer; some of them in a study of many dams are no failure of it."""
-        known = [any(row["outcomes"].get(name, 0) for name in TRUSTED) for row in self.summary]
+        known = [any(Outcome(name).has_result for name in row["outcomes"]) for row in self.summary]
         return self.complete and len(known) == len(self.walk.models) and all(known)
 
     @cached_property

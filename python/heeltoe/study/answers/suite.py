@@ -8,47 +8,30 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from heeltoe.base.arrays import Floats, finite
-from heeltoe.models.runner import TRUSTED, severity
-from heeltoe.result.limits import CREST, UNITS
-from heeltoe.study.answers.fragility import LIMITED
+from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judged
 from heeltoe.study.run.aggregate import Walk
 from heeltoe.units.parse import STANDARD_GRAVITY
 
-#: What is told of each record, and of all of them: the name in the JSON, and the limits that are held against it; the
+#: What is told of each record, and of all of them: the name in the JSON, and the limit that is held against it; the
 #: crest where the runs say how it moves.
-DEMANDS = {
-    "residual_slip_m": "residual_slip",
-    "peak_slip_m": "peak_slip",
-    "opening_upstream_m": "opening_upstream",
-    "opening_downstream_m": "opening_downstream",
-    "rotation_rad": "rotation",
-    "cracked_length_m": "cracked_length",
-    "crest_displacement_m": "crest_displacement",
-    "crest_acceleration_g": "crest_acceleration",
-}
+DEMANDS = {f"{name}_{limit.unit}": name for name, limit in LIMITS.items() if name != "opening"}
 _SHARES = {"median": 0.50, "84%": 0.84}
 _SIGNS = ("recorded", "reversed")
 
 
-@dataclass(frozen=True)
-class _Way:
-    """What a record does to the dam one way round: how the run ended, and the demands, SI, infinite where the dam
-    fails, not a number where nobody knows."""
+class _Way(NamedTuple):
+    """What a record does to the dam one way round: its judgement, and the demands, SI, not a number where the run does
+    not say."""
 
-    outcome: str
+    judged: Judged
     factor: float
     demands: Mapping[str, float]
-
-    @property
-    def badness(self) -> tuple[int, float]:
-        slip = self.demands["residual_slip_m"]
-        return severity(self.outcome), math.inf if math.isnan(slip) else slip
 
 
 def suite_of(walk: Walk) -> dict[str, Any] | None:
@@ -73,31 +56,34 @@ def suite_of(walk: Walk) -> dict[str, Any] | None:
 
 
 def _demands(walk: Walk) -> dict[str, str]:
-    return {key: limit for key, limit in DEMANDS.items() if walk.crest or limit not in CREST}
+    return {key: limit for key, limit in DEMANDS.items() if walk.crest or limit not in CREST_LIMITS}
 
 
 def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
     ways = _ways(walk, model)
     records: list[dict[str, Any]] = []
+    judged: list[Judged] = []
     for motion in walk.manifest["motions"]:
         name = motion["name"]
         if motion["reversed"] and any(record["motion"] == name for record in records):
             continue
         signs = {sign: ways[name, sign] for sign in _SIGNS if (name, sign) in ways}
         if signs:
-            records.append(_record(motion, signs))
+            sign = max(signs, key=lambda name: signs[name].judged.badness)
+            records.append(_record(motion, sign, signs))
+            judged.append(signs[sign].judged)
     demands = _demands(walk)
-    values = {key: np.array([_counted(record, key) for record in records]) for key in demands}
+    values = {key: np.array([_counted(*row, key) for row in zip(records, judged, strict=True)]) for key in demands}
     statistics = {key: _statistics(column) for key, column in values.items()}
     worth = (walk.manifest["pilot"] or {}).get("evidence")
-    worst = max(records, key=lambda record: (severity(record["outcome"]), _counted(record, "residual_slip_m")))
-    for record in records:
-        record["governs"] = record is worst
+    governs = max(range(len(records)), key=lambda place: judged[place].badness)
+    for place, record in enumerate(records):
+        record["governs"] = place == governs
     return {
         "model": model,
         "records": records,
         "statistics": statistics,
-        "governing": {"motion": worst["motion"], "sign": worst["sign"]},
+        "governing": {"motion": records[governs]["motion"], "sign": records[governs]["sign"]},
         "limits": [
             _limit(name, allowed, statistics[key][judge], worth if model == "flexible" else None)
             for key, name in demands.items()
@@ -109,27 +95,22 @@ def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
 def _ways(walk: Walk, model: str) -> dict[tuple[str, str], _Way]:
     """Return what each motion does either way round, by its name and its sign."""
     wanted = _demands(walk)
-    names = sorted({name for limit in wanted.values() for name in LIMITED[limit]})
-    cracks = [column for name in names for column in walk.of_cracks(name)]
     ways = {}
-    for runs in walk("model", "motion", "reversed", "factor", "outcome", *names, *cracks):
-        outcomes, code = runs.words("outcome")
-        demands = {
-            key: runs.largest(*(column for name in LIMITED[limit] for column in (name, *walk.of_cracks(name))))
-            for key, limit in wanted.items()
-        }
+    for runs in walk("model", "motion", "reversed", "factor", *walk.judging(wanted.values())):
+        judgement = runs.judged(walk, dict.fromkeys(wanted.values(), math.inf))
+        demands = {key: judgement.size(limit).max(axis=1) for key, limit in wanted.items()}
+        judgement = replace(judgement, limits=walk.limits)
         motions, place = runs.words("motion")
         turned, factors = runs.table["reversed"].to_pylist(), runs.numbers("factor").tolist()
         for row in np.flatnonzero(runs.model == walk.models.index(model)).tolist():
             ways[motions[place[row]], _SIGNS[turned[row]]] = _Way(
-                outcomes[code[row]], factors[row], {key: float(column[row]) for key, column in demands.items()}
+                judgement[row], factors[row], {key: float(column[row]) for key, column in demands.items()}
             )
     return ways
 
 
-def _record(motion: Mapping[str, Any], signs: Mapping[str, _Way]) -> dict[str, Any]:
+def _record(motion: Mapping[str, Any], sign: str, signs: Mapping[str, _Way]) -> dict[str, Any]:
     """Return what a record does, by its worse sign."""
-    sign = max(signs, key=lambda name: signs[name].badness)
     way = signs[sign]
     other = next((signs[name] for name in signs if name != sign), None)
     return {
@@ -138,16 +119,16 @@ def _record(motion: Mapping[str, Any], signs: Mapping[str, _Way]) -> dict[str, A
         "factor": way.factor,
         "pga_g": motion["measures"]["pga"] * way.factor / STANDARD_GRAVITY,
         "sign": sign,
-        "outcome": way.outcome,
+        "outcome": str(way.judged.outcome),
         **{key: finite(value) for key, value in way.demands.items()},
         "other_sign_residual_slip_m": None if other is None else finite(other.demands["residual_slip_m"]),
     }
 
 
-def _counted(record: Mapping[str, Any], key: str) -> float:
-    """Return a demand of a record, SI; what has no result to trust counts as infinitely much."""
+def _counted(record: Mapping[str, Any], judged: Judged, key: str) -> float:
+    """Return a demand of a record, SI; a dam that fails and a run without a result count as infinitely much."""
     value = record[key]
-    return math.inf if value is None or record["outcome"] not in TRUSTED else float(value)
+    return math.inf if value is None or judged.failed else float(value)
 
 
 def _statistics(values: Floats) -> dict[str, float | None]:
@@ -179,7 +160,7 @@ def _limit(name: str, allowed: float, value: float | None, worth: Mapping[str, A
     uncertainty = 0.0 if value is None or worth is None else _uncertainty(name, value, worth)
     return {
         "name": name,
-        "unit": UNITS.get(name, "m"),
+        "unit": LIMITS[name].unit,
         "value": value,
         "allowed": allowed,
         "uncertainty": uncertainty,
@@ -192,7 +173,7 @@ def _limit(name: str, allowed: float, value: float | None, worth: Mapping[str, A
 def _uncertainty(name: str, value: float, worth: Mapping[str, Any]) -> float:
     """Return how far a number over the records may be off: in proportion as in the record whose evidence is known, and
     by no less than there."""
-    known = [worth[column] for column in LIMITED[name] if worth.get(column) is not None]
+    known = [worth[column] for column in LIMITS[name].keys if worth.get(column) is not None]
     if not known:
         return 0.0
     # Of the ways that one limit limits, the larger is the one that counts.

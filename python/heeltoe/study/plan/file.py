@@ -21,7 +21,7 @@ from pydantic import (
 
 from heeltoe.base.display import Shown
 from heeltoe.case.fields import Count, Fields, TimeSpan, Truth
-from heeltoe.case.quantities import AccelerationField, DimensionlessNumber, Duration, Length
+from heeltoe.case.quantities import AccelerationField, DimensionlessNumber, Duration, Length, Rotation
 from heeltoe.case.read import read_fields
 from heeltoe.case.sentences import collected, first_error, gathered
 from heeltoe.case.suite import PeriodField, SuiteRule
@@ -39,7 +39,7 @@ Measure = Literal[
 
 
 def _listed(value: Any) -> Any:
-    return [value] if isinstance(value, str) else value
+    return [value] if isinstance(value, str | int | float) else value
 
 
 class Distribution(Fields):
@@ -196,8 +196,8 @@ class FragilityLimits(Fields):
     """Of the largest slip, either way."""
     opening: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
     """Of the largest opening at either face."""
-    rotation: Annotated[tuple[DimensionlessNumber, ...], BeforeValidator(_listed)] = ()
-    """Of the largest rotation [rad]."""
+    rotation: Annotated[tuple[Rotation, ...], BeforeValidator(_listed)] = ()
+    """Of the largest rotation: plain numbers in rad, or with their unit."""
     cracked_length: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
     """Of the length of a bonded joint that cracks; a little less than its width stands for a joint cracked through."""
     crest_displacement: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()

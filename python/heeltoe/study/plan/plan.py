@@ -26,7 +26,8 @@ from heeltoe.motion.intensity import MEASURES, intensity, spectral_acceleration
 from heeltoe.motion.measures import measures
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.motion.targets import Target, target_of
-from heeltoe.result.limits import CREST
+from heeltoe.result.crest import CREST_PEAKS
+from heeltoe.result.judge import CREST_LIMITS
 from heeltoe.study.plan.axes import Axis, axis_of, beside, check_drawn, law_of
 from heeltoe.study.plan.crack_columns import check_cracks
 from heeltoe.study.plan.file import Distribution, Scale, Study
@@ -189,7 +190,7 @@ class Plan:
     def crest(self) -> bool:
         """Whether the runs are to say how the crest moves: a limit of the case or of a curve is on it."""
         asked = [self.case.limits, *([self.study.fragility.limits] if self.study.fragility else [])]
-        return any(getattr(limits, name) not in (None, ()) for limits in asked for name in CREST)
+        return any(getattr(limits, name) not in (None, ()) for limits in asked for name in CREST_LIMITS)
 
     @property
     def every(self) -> bool:
@@ -374,7 +375,7 @@ class Plan:
                 self.study.motions.model_dump(mode="json", exclude={"folder", "files", "events"})
             )
         if self.crest:
-            hashes["what is said of the crest"] = _hash(CREST)
+            hashes["what is said of the crest"] = _hash(CREST_PEAKS)
         if self.dams is not None:
             columns = [[axis.path, list(map(str, axis.values))] for axis in self.axes]
             hashes["the table of dams"] = _hash([list(self.dams), columns])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -15,7 +15,7 @@ from heeltoe.base.arrays import Floats, Integers
 from heeltoe.errors.error import InputError
 from heeltoe.motion.intensity import at_factor
 from heeltoe.result.crest import CREST_PEAKS
-from heeltoe.result.limits import CREST
+from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judgement, judge
 from heeltoe.study.plan.crack_columns import column_of
 from heeltoe.study.run.store import Store
 from heeltoe.units.parse import parse
@@ -80,7 +80,9 @@ class Walk:
         """What the base case allows, by the name of the limit, SI, accelerations in g."""
         limits = self.manifest["case"].get("limits") or {}
         known = {
-            name: value for name, value in limits.items() if value is not None and (self.crest or name not in CREST)
+            name: value
+            for name, value in limits.items()
+            if value is not None and (self.crest or name not in CREST_LIMITS)
         }
         return {name: self._number(value) for name, value in known.items()}
 
@@ -99,6 +101,11 @@ class Walk:
         if unit != ["m/s^2"]:
             return float(number)
         return float(number) / parse(self.manifest["case"].get("gravity", "1 g"), "acceleration", "gravity")
+
+    def judging(self, limits: Iterable[str] = ()) -> list[str]:
+        """Return the columns by which :meth:`Stretch.judged` judges runs by some limits."""
+        names = sorted({"residual_slip_m", *(key for limit in limits for key in LIMITS[limit].keys)})
+        return ["outcome", "slid_off", *names, *(column for name in names for column in self.of_cracks(name))]
 
     @property
     def crest(self) -> bool:
@@ -144,9 +151,18 @@ class Walk:
     def cube(self, name: str) -> Floats:
         """Return a number of all runs in an array of dams, motions of each, strengths of each motion, and models; not a
         number where a run has no such result."""
+        return self._cube((runs.whole("run"), runs.numbers(name)) for runs in self("run", name))
+
+    def worst(self, limit: str) -> Floats:
+        """The same of the size of what a limit limits, of the crack that has most of it; infinite of a dam that has
+        failed."""
+        judged = ((runs.whole("run"), runs.judged(self, {limit: 0.0})) for runs in self("run", *self.judging([limit])))
+        return self._cube((run, judgement.worst(limit)) for run, judgement in judged)
+
+    def _cube(self, columns: Iterable[tuple[Integers, Floats]]) -> Floats:
         cube = np.full(self.store.count, np.nan)
-        for runs in self("run", name):
-            cube[runs.whole("run")] = runs.numbers(name)
+        for run, values in columns:
+            cube[run] = values
         motions = len(self.manifest["motions"]) if self.every else 1
         return cube.reshape(-1, motions, self.strengths or 1, len(self.models))
 
@@ -203,9 +219,15 @@ class Stretch:
         """Return a column of numbers, (n,); not a number where a run has none."""
         return np.asarray(self.table[name].to_numpy(), dtype=np.float64)
 
-    def largest(self, *names: str) -> Floats:
-        """Return the largest of some columns of numbers, (n,), without signs."""
-        return np.asarray(np.max([np.abs(self.numbers(name)) for name in names], axis=0))
+    def judged(self, walk: Walk, limits: Mapping[str, float]) -> Judgement:
+        """Return the judgement of the runs by limits, see :meth:`Walk.judging`."""
+        words, code = self.words("outcome")
+        columns: dict[str, Any] = {"outcome": np.array(words, dtype=object)[code], "slid_off": self.table["slid_off"]}
+        for name in walk.judging(limits)[2:]:
+            if "]." not in name:
+                places = walk.of_cracks(name) or [name]
+                columns[name] = np.column_stack([self.numbers(column) for column in places])
+        return judge(columns, limits)
 
     def whole(self, name: str) -> Integers:
         """Return a column of whole numbers, (n,)."""

@@ -8,6 +8,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
@@ -31,24 +32,22 @@ from heeltoe.models.rigid.walk import limits_of
 from heeltoe.models.runner import (
     BOUNCY,
     HAIR,
-    TRUSTED,
+    block_until_rest,
     determined,
     outcomes_of,
-    reach_of_block,
-    slid_off,
     twin_of,
-    until_rest,
+    with_outcome,
 )
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import CRACKED, HEADLINES, headlines, leading_crack
+from heeltoe.result.contract import CRACKED, HEADLINES, headlines
 from heeltoe.result.crest import CREST_PEAKS, crest_peaks
+from heeltoe.result.judge import Judgement, judge
 from heeltoe.result.numbers import SlipByMode, TimeByMode
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.study.plan.crack_columns import OfCrack, column_of, numbers_of_cracks
 from heeltoe.study.plan.plan import Plan, Runs
 
-#: What the case of a run refuses, as water above the crest: such a run has no result and is counted as this.
-REFUSED = "refused"
 #: What the seconds of a part stand under in the metadata of its table, on their way to who counts them.
 SECONDS = "seconds"
 _RESTITUTION = BLOCK.index("restitution")
@@ -78,7 +77,7 @@ class PartResults:
         self.impacts = np.zeros(count, dtype=np.int64)
         self.slid_off = np.zeros(count, dtype=bool)
         self.undetermined = np.zeros(count, dtype=bool)
-        self.outcome = np.full(count, REFUSED, dtype=object)
+        self.outcome = np.full(count, Outcome.REFUSED, dtype=object)
         self.seconds: dict[str, float] = {}
 
     @contextmanager
@@ -96,18 +95,19 @@ class PartResults:
             for k, crack in enumerate(cracks)
             for key in (*(headline.key for headline in HEADLINES), CRACKED)
         }
-        trusted = np.isin(outcome, TRUSTED)
+        judgement = _judged(outcome, cracks or [request])
         for name, values in columns.items():
-            self.numbers[name][rows] = np.where(trusted, values, np.nan)
-        for crack in (request, *cracks):
-            peaks = zip(outcome, _largest_slip(crack.named).tolist(), crack.width.tolist(), strict=True)
-            self.slid_off[rows] |= np.array([slid_off(word, slip, width) for word, slip, width in peaks], dtype=bool)
-        self.impacts[rows] = np.where(trusted, request.named["impacts"], 0.0).astype(np.int64)
+            self.numbers[name][rows] = np.where(judgement.has_result, values, np.nan)
+        self.slid_off[rows] = judgement.slid_off
+        self.impacts[rows] = np.where(judgement.has_result, request.named["impacts"], 0.0).astype(np.int64)
         self.outcome[rows] = outcome
 
 
-def _largest_slip(named: Mapping[str, Floats]) -> Floats:
-    return np.maximum(named["peak_slip_downstream_m"], -named["peak_slip_upstream_m"])
+def _judged(outcome: Words, cracks: Sequence[OfCrack]) -> Judgement:
+    """Return the judgement of some runs by the numbers at their cracks, without limits."""
+    columns = {headline.key: np.column_stack([crack.named[headline.key] for crack in cracks]) for headline in HEADLINES}
+    columns["crack_width_m"] = np.column_stack([crack.width for crack in cracks])
+    return judge({"outcome": outcome, **columns}, {})
 
 
 def _of_table(
@@ -251,7 +251,8 @@ def _two_blocks(plan: Plan, runs: Runs, rows: Integers, results: PartResults, th
             return run_two_blocks(case, earthquake, None if plan.crest else ground.end)
 
         try:
-            result = until_rest(through, reach_of_block, ground, case.analysis.silence)
+            ran = block_until_rest(through, lambda ran: ran, ground, case.analysis.silence)
+            result = with_outcome(*ran)
             return result, twin_of(case, result, through, ground) is not None
         except InputError:
             return None
@@ -278,8 +279,7 @@ def _led(outcome: Words, cracks: Sequence[OfCrack]) -> Ran:
     all."""
     if len(cracks) == 1:
         return outcome, cracks[0], ()
-    slips = np.column_stack([crack.named["residual_slip_m"] for crack in cracks]).tolist()
-    leads = np.array([leading_crack(row) for row in slips])
+    leads = _judged(outcome, cracks).governing_crack
     places = np.arange(leads.size)
 
     def chosen(columns: Sequence[Floats]) -> Floats:
@@ -408,9 +408,9 @@ def _decoupled(plan: Plan, runs: Runs, rows: Integers, results: PartResults, thr
                 if earthquake.silence not in at_crack:
                     at_crack[earthquake.silence] = crack_earthquake(case, earthquake)
                 felt = at_crack[earthquake.silence].scaled(factor)
-                return run_rigid(case, felt, ground.end, block)
+                return replace(run_rigid(case, felt, ground.end, block), silence_s=earthquake.silence)
 
-            return until_rest(run, reach_of_block, ground, case.analysis.silence, swings=True)
+            return with_outcome(*block_until_rest(run, lambda ran: ran, ground, case.analysis.silence, swings=True))
 
         with results.timed("kernel"):
             return _ran([through(factor) for factor in scales.tolist()])

@@ -23,7 +23,8 @@ from heeltoe.models.flexible.evidence.refinement import Answer
 from heeltoe.models.flexible.model import answer_at_rest
 from heeltoe.models.flexible.run.expected import analysing, frame_step_of
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import leading_crack
+from heeltoe.result.judge import leading_crack
+from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.study_results import StudyResults, open_study
 from heeltoe.study.plan.file import Study, read_study
 from heeltoe.study.plan.plan import Pilot, Plan, plan_of
@@ -294,7 +295,7 @@ def _run(plan: Plan, store: Store, scheduler: str | None, progress: Callable[[Pr
 
 def _failed(table: pa.Table) -> int:
     counts = table["outcome"].combine_chunks().value_counts().to_pylist()
-    return sum(entry["counts"] for entry in counts if entry["values"] not in ("ok", "overturned"))
+    return sum(entry["counts"] for entry in counts if not Outcome(entry["values"]).has_result)
 
 
 def pilot_run(plan: Plan) -> Pilot:

@@ -25,14 +25,15 @@ from heeltoe.case.paths import bounds_of, quantity_of, value_of
 from heeltoe.case.read import read_case
 from heeltoe.errors.error import InputError, shown
 from heeltoe.models.run import AUTO, check_model, models_of, run
-from heeltoe.models.runner import TRUSTED
-from heeltoe.result.limits import LENGTHS
+from heeltoe.result.judge import LIMITS
 from heeltoe.result.response import Response
 from heeltoe.result.write import build_info
 from heeltoe.study.plan.axes import Axis
 from heeltoe.units.parse import DIMENSIONS, parse, parse_acceleration
 
 Progress = Callable[[str], None]
+#: Limits of a case that are lengths.
+_LENGTHS = tuple(name for name, limit in LIMITS.items() if limit.unit == "m" and name != "opening")
 
 #: Values at which a range is looked at, and the widest bracket of a crossing as a part of the range.
 SCANNED, _CLOSE = 9, 2e-4
@@ -181,8 +182,8 @@ def _limit_of(until: str) -> tuple[str, float]:
     """Return which limit a text names, and what it allows [m]."""
     name, equals, value = (part.strip() for part in until.partition("="))
     name = name.removeprefix("limits.").rstrip("<").strip()
-    if not equals or name not in LENGTHS:
-        raise InputError("solve-until", "--until", shown(until), names=", ".join(LENGTHS))
+    if not equals or name not in _LENGTHS:
+        raise InputError("solve-until", "--until", shown(until), names=", ".join(_LENGTHS))
     allowed = parse(value, "length", "--until")
     if allowed <= 0.0:
         raise InputError("out-of-range", "--until", value, bound="above 0")
@@ -339,7 +340,7 @@ def _point(value: float, response: Response, limit: str, shift: float) -> Point:
     """Return what a response says of a value."""
     check = next((check for check in response.limits if check.name == limit), None)
     sign = next((way.sign for way in response.signs if way.governs), "")
-    if check is None or check.failed or response.outcome not in TRUSTED:
+    if check is None or check.failed or check.value is None:
         return Point(value=value, result_m=None, met=False, sign=sign, outcome=response.outcome)
     result = max(check.value + shift, 0.0)
     return Point(

@@ -26,7 +26,7 @@ from heeltoe.models.rigid.tables import with_openings
 from heeltoe.models.rigid.varying import by_itself
 from heeltoe.models.rigid.walk import limits_of, walk
 from heeltoe.models.run import earthquake
-from heeltoe.models.runner import TRUSTED, outcomes_of
+from heeltoe.models.runner import outcomes_of
 from heeltoe.motion.ground_motion import Part
 from heeltoe.result.contract import HEADLINES, JOINT_METER_M, headlines
 from heeltoe.result.numbers import Spread, Statistics
@@ -191,7 +191,7 @@ def _flexible(
 def _trusted(rows: Mapping[str, Floats], names: Sequence[str], *, finite: bool) -> NDArray[np.bool_]:
     """Return which of the runs have a result."""
     words = [names[place] for place in rows["outcome"].astype(np.int64).tolist()]
-    return np.isin(outcomes_of(words, [rows], finite=finite), TRUSTED)
+    return np.array([outcome.has_result for outcome in outcomes_of(words, [rows], finite=finite)])
 
 
 def _step(response: FlexibleResponse) -> float:

@@ -105,10 +105,10 @@ def _not_met(subject: Subject) -> Block | None:
     items: list[tuple[Inline, ...]] = []
     for check in subject.result.limits:
         if not check.met:
-            value_text, allowed = (measured(number, check.unit, units) for number in (check.value, check.allowed))
+            value = "" if check.value is None else f" of {measured(check.value, check.unit, units)}"
             doubt = "" if check.certain else f" ± {measured(check.uncertainty, check.unit, units)}"
             used = "" if check.utilisation is None else f", {100.0 * check.utilisation:.0f} % of it"
-            text = f"{limited(check, units)} of {value_text}{doubt}, {allowed} allowed{used}"
+            text = f"{limited(check, units)}{value}{doubt}, {measured(check.allowed, check.unit, units)} allowed{used}"
             text += f"{', by a dam that has failed' if check.failed else ''}."
             items.append((Strong("Limit. "), glued(text)))
     if subject.joints is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from heeltoe.result.limits import LABELS
+from heeltoe.result.judge import LIMITS
 from heeltoe.study.small.solve import Crossing, Solved
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import Scale, unit_system
@@ -22,7 +22,7 @@ def field_scale(solved: Solved, units: str) -> Scale:
 
 def solve_answer(solved: Solved, units: str) -> tuple[Block, ...]:
     """Return what the field must be, in sentences."""
-    scale, limit = field_scale(solved, units), f"{LABELS[solved.limit]} of {length(solved.allowed_m, units)}"
+    scale, limit = field_scale(solved, units), f"{LIMITS[solved.limit].label} of {length(solved.allowed_m, units)}"
     blocks: list[Block] = []
     if not solved.crossings:
         met = all(point.met for point in solved.points)
@@ -35,8 +35,8 @@ def solve_answer(solved: Solved, units: str) -> tuple[Block, ...]:
         blocks.append(paragraph(text, Code(solved.field), f" = {_crossing(crossing, scale, units)}"))
     if not solved.one_way:
         text = (
-            f"The {LABELS[solved.limit]} is not monotonic in {solved.field}: a value beyond a crossing may be worse "
-            "again, and a crossing between two values of the scan may be missed. Look at the curve (--out)."
+            f"The {LIMITS[solved.limit].label} is not monotonic in {solved.field}: a value beyond a crossing may be "
+            "worse again, and a crossing between two values of the scan may be missed. Look at the curve (--out)."
         )
         blocks.append(Notes("warning", "Not monotonic", ((text,),)))
     if solved.refused:
@@ -60,7 +60,7 @@ def solve_table(solved: Solved, units: str) -> Table:
         for point, (result,) in zip(solved.points, results, strict=True)
     )
     caption = f"The runs of the {solved.model} model, each by its worse sign."
-    return Table((solved.field, LABELS[solved.limit], "met", "sign", "outcome"), rows, caption, "rrlll")
+    return Table((solved.field, LIMITS[solved.limit].label, "met", "sign", "outcome"), rows, caption, "rrlll")
 
 
 def _value(value: float, scale: Scale) -> str:

@@ -12,7 +12,7 @@ from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 from heeltoe.mechanics.references import cited
-from heeltoe.models.runner import TRUSTED
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.verdict import verdict
 from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.units.parse import STANDARD_GRAVITY
@@ -233,14 +233,14 @@ def _missing(study: StudyResults) -> Block | None:
 
 def _lost(study: StudyResults) -> Block | None:
     """Say which runs ended without a result."""
-    lost = {name: count for name, count in study.outcomes.items() if name not in TRUSTED}
+    lost = {name: count for name, count in study.outcomes.items() if not Outcome(name).has_result}
     if not sum(lost.values()):
         return None
     ended = ", ".join(f"{name} {count:,}" for name, count in lost.items())
     items = (
         f"{sum(lost.values()):,} of {sum(study.outcomes.values()):,} runs ended without a result: {ended}.",
-        "They are counted, never dropped: unstable dams and too large rotations exceed every limit, the others are "
-        "behind no fragility curve and count as infinitely far in bands.",
+        "Failed runs are kept: they exceed every limit. Other runs without a result are left out of fragility curves "
+        "and count as infinite slip in bands.",
     )
     return Notes("failure", "Runs without a result", tuple((item,) for item in items))
 

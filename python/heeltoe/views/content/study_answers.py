@@ -11,7 +11,8 @@ import numpy as np
 from heeltoe.errors.sanitize import plain
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.crest import CREST_PEAKS
-from heeltoe.result.limits import LABELS, UNITS
+from heeltoe.result.judge import LIMITS
+from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.answers import MODES
 from heeltoe.study.answers.hazard import FRACTILES
 from heeltoe.units.write import NOTHING, digits, measured, scaled
@@ -32,7 +33,7 @@ def answer(subject: StudySubject) -> list[Block]:
     blocks: list[Block] = []
     for row in subject.results.summary:
         slip = row["residual_slip_m"]
-        sentence = f"{_percent(row['share_that_slides'])} of {row['runs']:,} runs slide more than a joint meter reads"
+        sentence = _sliding(row)
         if slip["50%"] is not None:
             (amounts,) = in_one_unit(
                 [[Amount(slip[key], zero="0") for key in ("50%", "84%", "largest")]], subject.units
@@ -51,10 +52,21 @@ def answer(subject: StudySubject) -> list[Block]:
     return blocks
 
 
+def _sliding(summary: dict[str, Any]) -> str:
+    """Say which part of the runs slides, of those that have a result."""
+    runs = summary["runs"]
+    known = sum(count for name, count in summary["outcomes"].items() if Outcome(name).has_result)
+    if not known:
+        return f"None of {runs:,} runs has a result"
+    share = summary["share_that_slides"] * runs / known
+    those = f"{runs:,} runs" if known == runs else f"the {known:,} runs with a result, of {runs:,},"
+    return f"{_percent(share)} of {those} slide more than a joint meter reads"
+
+
 def _limits(subject: StudySubject) -> dict[str, str]:
     """Return the limits of the base case in words, by their names."""
     return {
-        name: f"{LABELS[name]} of {measured(value, UNITS.get(name, 'm'), subject.units)}"
+        name: f"{LIMITS[name].label} of {measured(value, LIMITS[name].unit, subject.units)}"
         for name, value in subject.results.walk.limits.items()
     }
 

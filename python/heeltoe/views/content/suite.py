@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from heeltoe.result.limits import LABELS
+from heeltoe.result.judge import LIMITS
 from heeltoe.units.write import NOTHING, digits, length, measured
 from heeltoe.views.content.tree import Block, Code, Inline, Notes, Section, Strong, Table, paragraph
 from heeltoe.views.words.numbers import Amount, in_one_unit
@@ -99,7 +99,7 @@ def _judged(row: Mapping[str, Any], judge: str) -> str:
 
 def _limit(check: Mapping[str, Any], judged: str, units: str) -> str:
     """Say how a number over the records stands to a limit."""
-    label, allowed = LABELS[check["name"]], measured(check["allowed"], check["unit"], units)
+    label, allowed = LIMITS[check["name"]].label, measured(check["allowed"], check["unit"], units)
     if check["value"] is None:
         return f"The {label}: {judged} is not finite, {allowed} is allowed."
     used = "" if check["utilisation"] is None else f" ({100.0 * check['utilisation']:.0f} %)"

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.result.limits import LABELS
+from heeltoe.result.judge import LIMITS
 from heeltoe.study.small.overturning import ENDS, OverturningMap
 from heeltoe.study.small.run_table import SmallStudy
 from heeltoe.study.small.solve import Solved
@@ -193,7 +193,7 @@ def solve_figure(solved: Solved, scale: Scale, units: str = "si") -> Figure:
         axes.axvline(at, color="#444444", linestyle=("--", ":", "-.")[place % 3], linewidth=1.2, label=label)
     axes.set_ylim(0.0, top)
     axes.set_xlabel(f"{solved.field} [{scale.unit}]" if scale.unit else solved.field)
-    axes.set_ylabel(f"{LABELS[solved.limit]}, either way [{metres.unit}]")
+    axes.set_ylabel(f"{LIMITS[solved.limit].label}, either way [{metres.unit}]")
     axes.legend(loc="best", fontsize=8)
     one_way = "" if solved.one_way else "; not one way"
     heading(figure, solved.title or "Untitled case", f"{solved.model} model, {len(solved.points)} values{one_way}")

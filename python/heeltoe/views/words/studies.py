@@ -7,23 +7,12 @@ from typing import Any
 
 from heeltoe.motion.intensity import MEASURES
 from heeltoe.result.contract import JOINT_METER_M
-from heeltoe.result.limits import UNITS
+from heeltoe.result.judge import LIMITS
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import length, lengths
 from heeltoe.views.words.fields import shown_values
 
-KINDS = {
-    "residual_slip": "residual slip",
-    "peak_slip": "peak slip",
-    "opening": "opening",
-    "opening_upstream": "upstream opening",
-    "opening_downstream": "downstream opening",
-    "rotation": "rotation",
-    "cracked_length": "cracked length",
-    "crest_displacement": "crest displacement",
-    "crest_acceleration": "crest acceleration",
-}
 #: As headings.
 TRAITS = {
     "mean_period_s": "period",
@@ -50,18 +39,19 @@ ABOUT_CRACKS = (
 
 def limit_of(limit: str, value: float, units: str = "si", of: str = "") -> str:
     """Write a limit with its amount; `of` stands between them."""
-    amount = f"{value:.3g} {UNITS[limit]}" if limit in UNITS else length(value, units)
-    return f"{KINDS[limit]}{of} {amount}"
+    unit = LIMITS[limit].unit
+    amount = length(value, units) if unit == "m" else f"{value:.3g} {unit}"
+    return f"{LIMITS[limit].short}{of} {amount}"
 
 
 def limits_of(limits: Sequence[tuple[str, float]], units: str = "si") -> dict[tuple[str, float], str]:
     """Write the limits of one table, lengths in one unit."""
     texts = {limit: limit_of(*limit, units) for limit in limits}
-    of_length = [limit for limit in texts if limit[0] not in UNITS]
+    of_length = [limit for limit in texts if LIMITS[limit[0]].unit == "m"]
     amounts = lengths([value for _, value in of_length], units)
     for limit, amount in zip(of_length, amounts, strict=True):
         number, unit = amount.split()
-        texts[limit] = f"{KINDS[limit[0]]} {number.rstrip('0').rstrip('.') if '.' in number else number} {unit}"
+        texts[limit] = f"{LIMITS[limit[0]].short} {number.rstrip('0').rstrip('.') if '.' in number else number} {unit}"
     return texts
 
 

@@ -1,0 +1,192 @@
+"""The one judge of results: which limits runs meet, which dams have failed, which crack and which sign govern.
+
+A run is one row, a study has n; every number is a column by its JSON name, of shape (n,) or, of several cracks, (n,
+cracks) from the crest down.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.base.arrays import Floats, Integers
+from heeltoe.result.contract import CRACKED, JOINT_METER_M
+from heeltoe.result.outcome import Outcome
+
+Flags = NDArray[np.bool_]
+
+
+class Limit(NamedTuple):
+    """A limit: what people call it, in a narrow place, too, which numbers it limits, without signs, and their unit."""
+
+    label: str
+    short: str
+    keys: tuple[str, ...]
+    unit: str = "m"
+
+
+#: Everything that a case or a study can limit. `opening` stands in studies alone.
+LIMITS = {
+    "residual_slip": Limit("residual slip", "residual slip", ("residual_slip_m",)),
+    "peak_slip": Limit("largest slip", "peak slip", ("peak_slip_downstream_m", "peak_slip_upstream_m")),
+    "opening": Limit("opening at either face", "opening", ("opening_upstream_m", "opening_downstream_m")),
+    "opening_upstream": Limit("opening at the upstream face", "upstream opening", ("opening_upstream_m",)),
+    "opening_downstream": Limit("opening at the downstream face", "downstream opening", ("opening_downstream_m",)),
+    "cracked_length": Limit("cracked length", "cracked length", (CRACKED,)),
+    "rotation": Limit("rotation", "rotation", ("rocking_downstream_rad", "rocking_upstream_rad"), "rad"),
+    "crest_displacement": Limit("crest displacement", "crest displacement", ("crest_displacement_m",)),
+    "crest_acceleration": Limit("crest acceleration", "crest acceleration", ("crest_acceleration_g",), "g"),
+}
+#: Those of the crest, which some models do not know.
+CREST_LIMITS = ("crest_displacement", "crest_acceleration")
+
+_PEAKS = LIMITS["peak_slip"].keys
+_WIDTH = "crack_width_m"
+
+
+class Judged(NamedTuple):
+    """One row: whether it has a result, whether the dam has failed and slid off, how bad that is (the larger the
+    worse), which crack governs, and whether each limit is met, None where the run does not say."""
+
+    outcome: Outcome
+    has_result: bool
+    failed: bool
+    slid_off: bool
+    badness: tuple[int, int, float]
+    governing_crack: int
+    met: Mapping[str, bool | None]
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """The judgement of n runs.
+
+    Attributes
+    ----------
+    outcome
+        (n,) how they ended.
+    columns
+        Their numbers by JSON name, (n, cracks), of a dam as a whole (n, 1).
+    limits
+        What is allowed, by the name of the limit, SI, accelerations in g.
+    """
+
+    outcome: NDArray[Any]
+    columns: Mapping[str, Floats]
+    limits: Mapping[str, float]
+
+    def __len__(self) -> int:
+        return self.outcome.size
+
+    @cached_property
+    def has_result(self) -> Flags:
+        """(n,) whether the numbers are those of a dam."""
+        return self._by_outcome(lambda outcome: outcome.has_result)
+
+    @cached_property
+    def slid_off(self) -> Flags:
+        """(n,) whether the part above slides farther than its crack is wide, so that nothing is left below it."""
+        if "slid_off" in self.columns:
+            return np.asarray(self.columns["slid_off"][:, 0] != 0.0)
+        if _WIDTH not in self.columns or any(key not in self.columns for key in _PEAKS):
+            return np.zeros(len(self), dtype=bool)
+        # Where it tips over the edge it turns too far for small rotations.
+        known = self._by_outcome(lambda outcome: outcome in (Outcome.OK, Outcome.LARGE_ROTATION))
+        down, up = (self.columns[key] for key in _PEAKS)
+        return np.asarray(known & (np.maximum(down, -up) > self.columns[_WIDTH]).any(axis=1))
+
+    @cached_property
+    def failed(self) -> Flags:
+        """(n,) whether the dam has failed: it meets no limit and exceeds every limit."""
+        return self._by_outcome(lambda outcome: outcome.failed) | self.slid_off
+
+    @cached_property
+    def governing_crack(self) -> Integers:
+        """(n,) which of several cracks slips most, or the lowest one where none slips by what a joint meter shows."""
+        slips = np.nan_to_num(np.abs(self.columns["residual_slip_m"]))
+        most = slips.argmax(axis=1)
+        return np.asarray(np.where(slips.max(axis=1) >= JOINT_METER_M, most, slips.shape[1] - 1), dtype=np.int64)
+
+    def size(self, limit: str) -> Floats:
+        """Return (n, cracks) the size of what a limit limits; not a number without a result."""
+        sizes = np.max([np.abs(self.columns[key]) for key in LIMITS[limit].keys], axis=0)
+        return np.where(self.has_result[:, None], sizes, np.nan)
+
+    def worst(self, limit: str) -> Floats:
+        """Return (n,) that of the crack that has most of it: infinite of a dam that has failed."""
+        return np.where(self.failed, np.inf, self.size(limit).max(axis=1))
+
+    def known(self, limit: str) -> bool:
+        """Whether the runs have what a limit limits."""
+        return all(key in self.columns for key in LIMITS[limit].keys)
+
+    def exceeds(self, limit: str, value: float) -> Floats:
+        """Return (n,) whether a value is exceeded: 1, 0, or not a number where the run does not say."""
+        worst = self.worst(limit)
+        return np.where(np.isnan(worst), np.nan, (worst > value).astype(np.float64))
+
+    @cached_property
+    def not_met(self) -> Mapping[str, Floats]:
+        """(n,) for each limit that the runs know whether it is not met: 1, 0, or not a number."""
+        return {name: self.exceeds(name, value) for name, value in self.limits.items() if self.known(name)}
+
+    def badness(self, row: int = 0) -> tuple[int, int, float]:
+        """Return by what the worse of two runs is told: how it ended, how many limits it does not meet, and how far
+        the dam slips, infinite where that is not known."""
+        outcome = self.outcome[row]
+        severity = 2 if self.failed[row] else outcome.severity
+        slip = float(self.size("residual_slip")[row].max())
+        count = sum(int(exceeds[row] == 1.0) for exceeds in self.not_met.values())
+        return severity, count, math.inf if math.isnan(slip) else slip
+
+    def __getitem__(self, row: int) -> Judged:
+        """Return the judgement of one run."""
+        if not 0 <= row < len(self):
+            raise IndexError(row)
+        unmet = {name: float(exceeds[row]) for name, exceeds in self.not_met.items()}
+        return Judged(
+            self.outcome[row],
+            bool(self.has_result[row]),
+            bool(self.failed[row]),
+            bool(self.slid_off[row]),
+            self.badness(row),
+            int(self.governing_crack[row]),
+            {name: None if math.isnan(value) else not value for name, value in unmet.items()},
+        )
+
+    def _by_outcome(self, says: Callable[[Outcome], bool]) -> Flags:
+        flags = {outcome: says(outcome) for outcome in Outcome}
+        return np.array([flags[outcome] for outcome in self.outcome.tolist()], dtype=bool)
+
+
+def judge(columns: Mapping[str, Any], limits: Mapping[str, float]) -> Judgement:
+    """Judge n >= 1 runs.
+
+    Parameters
+    ----------
+    columns
+        ``outcome``, (n,) words, and numbers by their JSON names, (n,) or (n, cracks): those that the limits limit,
+        ``residual_slip_m``, and ``crack_width_m`` with the peak slips or ``slid_off``.
+    limits
+        What is allowed, by the name of the limit, SI, accelerations in g.
+    """
+    rows = {outcome: outcome for outcome in Outcome}
+    outcome = np.array([rows[word] for word in np.asarray(columns["outcome"], dtype=object).tolist()], dtype=object)
+    numbers = {
+        name: np.asarray(column, dtype=np.float64).reshape(outcome.size, -1)
+        for name, column in columns.items()
+        if name != "outcome"
+    }
+    return Judgement(outcome, numbers, limits)
+
+
+def leading_crack(slips_m: Sequence[float]) -> int:
+    """Return which of several cracks governs; `slips_m` are the residual slips from the crest down [m]."""
+    # The order of the cracks in the file says nothing: one dam may be written in several ways.
+    return int(judge({"outcome": ["ok"], "residual_slip_m": [slips_m]}, {}).governing_crack[0])
