@@ -457,10 +457,10 @@ def _with_first_period(study: Study, case: Case) -> Study:
         return study
     if case.concrete.modulus is None:
         raise InputError("suite-no-period", "motions.scale.period", "T1")
-    from heeltoe.models.flexible.body.periods import dam_periods
+    from heeltoe.models.flexible.surroundings.first_mode import first_period
 
     # Six digits say what the spectrum is read at, in words and in files.
-    first = float(f"{dam_periods(case, 1).intact[0]:.6g}")
+    first = float(f"{first_period(case, 'motions.scale.period'):.6g}")
     scale = motions.scale.model_copy(update={"period": first})
     return study.model_copy(update={"motions": motions.model_copy(update={"scale": scale})})
 
