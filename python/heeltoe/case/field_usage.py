@@ -241,6 +241,8 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
     penalty = tuple(f"flexible.{name}" for name in ("penalty_factor", "newmark_gamma", "newmark_beta"))
     yield flexible and options.contact == "coulomb", 'flexible.contact = "coulomb"', penalty
     yield flexible and options.contact == "idce", 'flexible.contact = "idce"', ("flexible.theta",)
+    bonded = any(crack.bond is not None for crack in (case.crack, *case.further_cracks))
+    yield not bonded, "no crack has a bond", ("limits.cracked_length",)
     unjudged = case.concrete.tensile_strength is None
     yield flexible and unjudged, "concrete.tensile_strength is not given", ("concrete.dynamic_tension",)
     water = any(body and body.depth for body in (case.reservoir, case.tailwater))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated
 
@@ -51,7 +52,11 @@ class LimitCheck(Block):
     ] = 0.0
     elevation_m: Annotated[
         float | None,
-        Number("Of the crack whose result it is, where there are several: the largest of all.", "m", optional=True),
+        Number(
+            "Of the crack whose result it is, where there are several: the largest of all, or each bonded joint's own.",
+            "m",
+            optional=True,
+        ),
     ] = None
 
     @property
@@ -104,6 +109,9 @@ def check_limits(limits: Limits, response: Response) -> tuple[LimitCheck, ...]:
                     LimitCheck(name=name, value=getattr(response.crest, CREST[name]), allowed=limit, failed=failed)
                 )
             continue
+        if name == "cracked_length":
+            checks.extend(_check_joints(limit, response, failed=failed))
+            continue
         # Of several cracks any may break a limit.
         cracks = [_check(name, limit, crack, failed=failed) for crack in response.cracks]
         worst = max(cracks, key=lambda check: check.value)
@@ -117,24 +125,34 @@ def allowed_of(limits: Limits, name: str, gravity: float) -> float | None:
     return limit.si(gravity) / gravity if isinstance(limit, Acceleration) else limit
 
 
+def _check_joints(limit: float, response: Response, *, failed: bool) -> Iterator[LimitCheck]:
+    """Compare how far each bonded joint has cracked with what it may; a crack without a bond cracks no farther."""
+    for crack in response.cracks:
+        numbers = crack.numbers
+        joint, bond = (None, None) if numbers is None else (numbers.get("joint"), numbers.get("bond"))
+        if numbers is None or (joint is None and bond is None):
+            continue
+        # The bond of a block breaks all at once.
+        evidence = numbers.get("evidence")
+        worth = None if evidence is None else evidence["cracked_length_m"]
+        yield LimitCheck(
+            name="cracked_length",
+            value=joint["cracked_length_m"]
+            if joint
+            else numbers["crack_width_m"]
+            if bond["breaks_s"] is not None
+            else 0.0,
+            allowed=limit,
+            failed=failed,
+            uncertainty=0.0 if worth is None else worth.uncertainty,
+            elevation_m=crack.elevation if response.several else None,
+        )
+
+
 def _check(name: str, limit: float, crack: CrackResponse, *, failed: bool) -> LimitCheck:
     """Compare a number of one crack with what it may be."""
     numbers = crack.numbers
     assert numbers is not None
-    if name == "cracked_length":
-        joint, bond = numbers.get("joint"), numbers.get("bond")
-        # A crack that is no joint was there from the beginning; the bond of a block breaks all at once.
-        all_or_none = 0.0 if bond is not None and bond["breaks_s"] is None else numbers["crack_width_m"]
-        evidence = numbers.get("evidence")
-        worth = None if evidence is None else evidence["cracked_length_m"]
-        return LimitCheck(
-            name=name,
-            value=all_or_none if joint is None else joint["cracked_length_m"],
-            allowed=limit,
-            failed=failed,
-            uncertainty=0.0 if worth is None else worth.uncertainty,
-            elevation_m=crack.elevation,
-        )
     turned = max(("rocking_downstream_rad", "rocking_upstream_rad"), key=lambda key: abs(numbers[key]))
     peak = max(("peak_slip_downstream_m", "peak_slip_upstream_m"), key=lambda key: abs(numbers[key]))
     keys = {

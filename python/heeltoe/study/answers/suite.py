@@ -15,8 +15,10 @@ import numpy as np
 
 from heeltoe.base.arrays import Floats, finite
 from heeltoe.models.runner import TRUSTED, severity
+from heeltoe.result.contract import CRACKED
 from heeltoe.result.limits import CREST, UNITS
 from heeltoe.study.answers.fragility import LIMITED
+from heeltoe.study.plan.crack_columns import column_of
 from heeltoe.study.run.aggregate import Walk
 from heeltoe.units.parse import STANDARD_GRAVITY
 
@@ -39,11 +41,12 @@ _SIGNS = ("recorded", "reversed")
 @dataclass(frozen=True)
 class _Way:
     """What a record does to the dam one way round: how the run ended, and the demands, SI, infinite where the dam
-    fails, not a number where nobody knows."""
+    fails, not a number where nobody knows; how far each bonded joint has cracked [m]."""
 
     outcome: str
     factor: float
     demands: Mapping[str, float]
+    joints: tuple[float, ...]
 
     @property
     def badness(self) -> tuple[int, float]:
@@ -73,7 +76,8 @@ def suite_of(walk: Walk) -> dict[str, Any] | None:
 
 
 def _demands(walk: Walk) -> dict[str, str]:
-    return {key: limit for key, limit in DEMANDS.items() if walk.crest or limit not in CREST}
+    absent = {*(() if walk.crest else CREST), *(() if walk.joints else ("cracked_length",))}
+    return {key: limit for key, limit in DEMANDS.items() if limit not in absent}
 
 
 def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
@@ -93,16 +97,33 @@ def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
     worst = max(records, key=lambda record: (severity(record["outcome"]), _counted(record, "residual_slip_m")))
     for record in records:
         record["governs"] = record is worst
+    joints = [
+        {
+            "elevation_m": joint["elevation_m"],
+            "statistics": _statistics(np.array([_of_joint(record, place) for record in records])),
+            "records_cracked": sum(0.0 < _of_joint(record, place) < math.inf for record in records),
+        }
+        for place, joint in enumerate(walk.joints)
+    ]
+    known = worth if model == "flexible" else None
+    limits = []
+    for key, name in demands.items():
+        if (allowed := walk.limits.get(name)) is None:
+            continue
+        if name != "cracked_length":
+            limits.append(_limit(name, allowed, statistics[key][judge], known))
+            continue
+        # Each bonded joint is judged by itself.
+        for joint in joints:
+            at = joint["elevation_m"] if walk.cracks > 1 else None
+            limits.append(_limit(name, allowed, joint["statistics"][judge], known, at))
     return {
         "model": model,
         "records": records,
         "statistics": statistics,
         "governing": {"motion": worst["motion"], "sign": worst["sign"]},
-        "limits": [
-            _limit(name, allowed, statistics[key][judge], worth if model == "flexible" else None)
-            for key, name in demands.items()
-            if (allowed := walk.limits.get(name)) is not None
-        ],
+        "joints": joints,
+        "limits": limits,
     }
 
 
@@ -111,6 +132,7 @@ def _ways(walk: Walk, model: str) -> dict[tuple[str, str], _Way]:
     wanted = _demands(walk)
     names = sorted({name for limit in wanted.values() for name in LIMITED[limit]})
     cracks = [column for name in names for column in walk.of_cracks(name)]
+    of_joints = [column_of(joint["place"], CRACKED) if walk.cracks > 1 else CRACKED for joint in walk.joints]
     ways = {}
     for runs in walk("model", "motion", "reversed", "factor", "outcome", *names, *cracks):
         outcomes, code = runs.words("outcome")
@@ -118,11 +140,15 @@ def _ways(walk: Walk, model: str) -> dict[tuple[str, str], _Way]:
             key: runs.largest(*(column for name in LIMITED[limit] for column in (name, *walk.of_cracks(name))))
             for key, limit in wanted.items()
         }
+        joints = [runs.numbers(name) for name in of_joints]
         motions, place = runs.words("motion")
         turned, factors = runs.table["reversed"].to_pylist(), runs.numbers("factor").tolist()
         for row in np.flatnonzero(runs.model == walk.models.index(model)).tolist():
             ways[motions[place[row]], _SIGNS[turned[row]]] = _Way(
-                outcomes[code[row]], factors[row], {key: float(column[row]) for key, column in demands.items()}
+                outcomes[code[row]],
+                factors[row],
+                {key: float(column[row]) for key, column in demands.items()},
+                tuple(float(column[row]) for column in joints),
             )
     return ways
 
@@ -140,6 +166,7 @@ def _record(motion: Mapping[str, Any], signs: Mapping[str, _Way]) -> dict[str, A
         "sign": sign,
         "outcome": way.outcome,
         **{key: finite(value) for key, value in way.demands.items()},
+        "joints_cracked_m": [finite(value) for value in way.joints],
         "other_sign_residual_slip_m": None if other is None else finite(other.demands["residual_slip_m"]),
     }
 
@@ -147,6 +174,12 @@ def _record(motion: Mapping[str, Any], signs: Mapping[str, _Way]) -> dict[str, A
 def _counted(record: Mapping[str, Any], key: str) -> float:
     """Return a demand of a record, SI; what has no result to trust counts as infinitely much."""
     value = record[key]
+    return math.inf if value is None or record["outcome"] not in TRUSTED else float(value)
+
+
+def _of_joint(record: Mapping[str, Any], place: int) -> float:
+    """Return how far a bonded joint has cracked in a record; infinitely far where there is no result to trust."""
+    value = record["joints_cracked_m"][place]
     return math.inf if value is None or record["outcome"] not in TRUSTED else float(value)
 
 
@@ -174,11 +207,19 @@ def below(ordered: Floats, share: float) -> Floats:
     return np.where(finite, first + part * (np.where(finite, second, 0.0) - np.where(finite, first, 0.0)), np.inf)
 
 
-def _limit(name: str, allowed: float, value: float | None, worth: Mapping[str, Any] | None) -> dict[str, Any]:
-    """Return how a number over the records stands to a limit; `worth` is the evidence of the record that has some."""
+def _limit(
+    name: str,
+    allowed: float,
+    value: float | None,
+    worth: Mapping[str, Any] | None,
+    elevation_m: float | None = None,
+) -> dict[str, Any]:
+    """Return how a number over the records stands to a limit; `worth` is the evidence of the record that has some, and
+    the elevation that of the one of several cracks that is judged."""
     uncertainty = 0.0 if value is None or worth is None else _uncertainty(name, value, worth)
     return {
         "name": name,
+        "elevation_m": elevation_m,
         "unit": UNITS.get(name, "m"),
         "value": value,
         "allowed": allowed,

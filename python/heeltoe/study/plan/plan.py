@@ -429,6 +429,9 @@ def plan_of(study: Study, case: Case | None = None) -> Plan:
         hazard = read_hazard(study.hazard, study.fragility.measure, case.gravity, study.directory)
     names = None if dams is None else dams.names
     plan = Plan(study, case, tuple(axes), shakes, events, scale, dams=names, hazard=hazard)
+    bonded = any(crack.bond is not None for crack in case.cracks)
+    if study.fragility is not None and study.fragility.limits.cracked_length and not bonded:
+        raise InputError("needs-other", "fragility.limits.cracked_length", other="a bonded joint (crack.bond)")
     if study.suite is not None:
         if plan.sizes[2] > 1:
             raise InputError("suite-one-strength", "motions.scale.values", plan.sizes[2])
