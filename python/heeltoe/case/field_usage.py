@@ -50,14 +50,20 @@ READ_BY: dict[str, frozenset[str]] = {
         (f"further_cracks.law.{name}" for name in ("form", "slip", "speed", "surface")), frozenset({"flexible"})
     ),
     "joints": frozenset({"flexible", "statics"}),
-    "joints.bond": frozenset({"flexible"}),
-    "crack.bond": _SHAKEN,
-    # A rigid block bears its bond or not; it opens no crack that would take energy.
+    "crack.bond.dynamic_factor": _SHAKEN,
+    # A rigid block bears its bond or not, and so does one at rest; it opens no crack that would take energy.
     **dict.fromkeys(
-        (f"crack.bond.{name}" for name in ("fracture_energy", "shear_energy", "initial_energy")),
+        (
+            *(
+                f"{crack}.bond.{name}"
+                for crack in ("crack", "further_cracks", "joints")
+                for name in ("fracture_energy", "shear_energy", "initial_energy")
+            ),
+            *(f"{crack}.bond.dynamic_factor" for crack in ("further_cracks", "joints")),
+        ),
         frozenset({"flexible"}),
     ),
-    "further_cracks.bond": frozenset({"flexible"}),
+    **dict.fromkeys(("further_cracks.bond", "joints.bond"), frozenset({"flexible", "statics"})),
     "rock": frozenset({"flexible"}),
     "reservoir.virtual_mass_rotates": _BLOCKS,
     "tailwater.virtual_mass_rotates": _BLOCKS,

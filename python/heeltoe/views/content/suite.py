@@ -100,7 +100,9 @@ def _joints(row: Mapping[str, Any], units: str) -> Iterator[str]:
     count = len(row["records"])
     for joint in row["joints"]:
         name = "The bonded joint"
-        if len(row["joints"]) > 1 or row["limits"] and any(check["elevation_m"] is not None for check in row["limits"]):
+        if len(row["joints"]) > 1 or (
+            row["limits"] and any(check["elevation_m"] is not None for check in row["limits"])
+        ):
             name += f" at {quantity(joint['elevation_m'], '.4g m', units)}"
         cracked, largest = joint["records_cracked"], joint["statistics"]["largest"]
         reach = "not every record has a result" if largest is None else f"over {length(largest, units)}"

@@ -124,8 +124,8 @@ OF_OTHERS: dict[str, dict[str, str]] = {
         "suite.models[].records[].opening_upstream_m": "Largest opening at the upstream face.",
         "suite.models[].records[].opening_downstream_m": "Largest opening at the downstream face.",
         "suite.models[].records[].rotation_rad": "Largest rotation either way.",
-        "suite.models[].records[].cracked_length_m": "Length of a bonded joint that is cracked in the end: the largest of "
-        "all joints.",
+        "suite.models[].records[].cracked_length_m": "Length of a bonded joint that is cracked in the end: the "
+        "largest of all joints.",
         "suite.models[].records[].joints_cracked_m": "Length of each bonded joint that is cracked in the end, from the "
         "crest down.",
         "suite.models[].joints": "The bonded joints, from the crest down.",
