@@ -176,6 +176,7 @@ def keep_questions(directory: Path, plan: Plan) -> None:
         "motions": plan.motions_of_manifest(),
         "hazard": None if plan.hazard is None else plan.hazard.to_json(),
         "spectra": plan.spectra(),
+        "case": plan.case.model_dump(mode="json", exclude_unset=True),
     }
     _write_record(directory, record)
 

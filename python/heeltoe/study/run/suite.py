@@ -83,6 +83,7 @@ def run_suite(
     study, names = _study_of(case, model)
     place = mkdtemp(prefix="heeltoe-suite-") if out is None else out
     still = case.model_copy(update={"motions": (), "suite": Suite()})
+    still.model_fields_set.difference_update({"motions", "suite"})
     options = {"scheduler": scheduler, "progress": progress, "before": before}
     try:
         results = run_study(study, place, case=still, resume=resume, **options)  # type: ignore[arg-type]
