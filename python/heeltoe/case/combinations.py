@@ -438,6 +438,21 @@ def _broken(case: Case, rule: Rule) -> FeatureFields:
         yield from FEATURES[rule.feature].find(case)
 
 
+def _at_another_crack(case: Case, rule: Rule, path: str) -> float | None:
+    """Return the elevation of the crack that has the other feature of a rule, if both are of cracks and no crack has
+    both [m]."""
+    paths = [
+        case.path_as_written(place)
+        for place in ("crack", *map("further_cracks[{}]".format, range(len(case.further_cracks))))
+    ]
+    cracks = dict(zip(paths, (case.crack, *case.further_cracks), strict=True))
+    crack, others = path.rpartition(".")[0], [place for place, _ in FEATURES[rule.other].find(case)]
+    owners = [place.rpartition(".")[0] for place in others]
+    if crack not in cracks or crack in owners or not owners or owners[0] not in cracks:
+        return None
+    return cracks[owners[0]].elevation
+
+
 def _errors(case: Case, rule: Rule, user: str) -> Iterator[InputError]:
     for path, value in _broken(case, rule):
         name = rule.feature if value is None else f"{rule.feature} ({shown(value)})"
@@ -445,7 +460,10 @@ def _errors(case: Case, rule: Rule, user: str) -> Iterator[InputError]:
         if rule.other:
             remedy = f"{remedy}, or {FEATURES[rule.other].removal}"
         if not user:
-            yield InputError("combination", path, name, other=rule.other, reason=rule.reason, remedy=remedy)
+            of_another = _at_another_crack(case, rule, path) if rule.other else None
+            other = rule.other if of_another is None else f"{rule.other} of another crack, at {of_another:g} m"
+            apart = "" if of_another is None else ", and the cracks of a dam are solved together"
+            yield InputError("combination", path, name, other=other, reason=f"{rule.reason}{apart}", remedy=remedy)
             continue
         model = next((candidate for candidate in _MODELS if candidate != user and supports(case, candidate)), None)
         run = "" if model is None else f"run {USERS[model]}, or "

@@ -50,14 +50,20 @@ READ_BY: dict[str, frozenset[str]] = {
         (f"further_cracks.law.{name}" for name in ("form", "slip", "speed", "surface")), frozenset({"flexible"})
     ),
     "joints": frozenset({"flexible", "statics"}),
-    "joints.bond": frozenset({"flexible"}),
-    "crack.bond": _SHAKEN,
-    # A rigid block bears its bond or not; it opens no crack that would take energy.
+    "crack.bond.dynamic_factor": _SHAKEN,
+    # A rigid block bears its bond or not, and so does one at rest; it opens no crack that would take energy.
     **dict.fromkeys(
-        (f"crack.bond.{name}" for name in ("fracture_energy", "shear_energy", "initial_energy")),
+        (
+            *(
+                f"{crack}.bond.{name}"
+                for crack in ("crack", "further_cracks", "joints")
+                for name in ("fracture_energy", "shear_energy", "initial_energy")
+            ),
+            *(f"{crack}.bond.dynamic_factor" for crack in ("further_cracks", "joints")),
+        ),
         frozenset({"flexible"}),
     ),
-    "further_cracks.bond": frozenset({"flexible"}),
+    **dict.fromkeys(("further_cracks.bond", "joints.bond"), frozenset({"flexible", "statics"})),
     "rock": frozenset({"flexible"}),
     "reservoir.virtual_mass_rotates": _BLOCKS,
     "tailwater.virtual_mass_rotates": _BLOCKS,
@@ -241,6 +247,8 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
     penalty = tuple(f"flexible.{name}" for name in ("penalty_factor", "newmark_gamma", "newmark_beta"))
     yield flexible and options.contact == "coulomb", 'flexible.contact = "coulomb"', penalty
     yield flexible and options.contact == "idce", 'flexible.contact = "idce"', ("flexible.theta",)
+    bonded = any(crack.bond is not None for crack in (case.crack, *case.further_cracks))
+    yield not bonded, "no crack has a bond", ("limits.cracked_length",)
     unjudged = case.concrete.tensile_strength is None
     yield flexible and unjudged, "concrete.tensile_strength is not given", ("concrete.dynamic_tension",)
     water = any(body and body.depth for body in (case.reservoir, case.tailwater))

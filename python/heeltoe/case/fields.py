@@ -7,14 +7,25 @@ import inspect
 from functools import cache
 from itertools import pairwise
 from textwrap import dedent
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, GetJsonSchemaHandler, WithJsonSchema
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    GetJsonSchemaHandler,
+    WithJsonSchema,
+    model_validator,
+)
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
 from heeltoe.base.display import Named
 from heeltoe.case.quantities import DimensionlessNumber, Duration, Length
+
+#: The word for a field without a value.
+NONE = "none"
 
 Fraction = Annotated[DimensionlessNumber, Field(ge=0.0, le=1.0)]
 FrictionCoefficient = Annotated[DimensionlessNumber, Field(ge=0.0, le=10.0)]
@@ -46,6 +57,14 @@ class Fields(Named, BaseModel):
     # The validator of a block by itself is made when it is asked for; that of a case has all of its blocks.
     model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
+    @model_validator(mode="before")
+    @classmethod
+    def _leave_out(cls, fields: Any) -> Any:
+        """Leave out an optional field that is "none": TOML and the command line have no null."""
+        if not isinstance(fields, dict):
+            return fields
+        return {name: value for name, value in fields.items() if not (value == NONE and _can_be_none(cls, name))}
+
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         result = handler(schema)
@@ -53,6 +72,13 @@ class Fields(Named, BaseModel):
         for name, text in field_texts(cls).items():
             properties[cls.model_fields[name].alias or name]["description"] = text
         return result
+
+
+@cache
+def _can_be_none(block: type[BaseModel], name: str) -> bool:
+    """Whether a field has no value by default."""
+    field = block.model_fields.get(name)
+    return field is not None and field.default is None
 
 
 @cache

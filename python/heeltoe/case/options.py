@@ -142,7 +142,7 @@ class Limits(Fields):
     opening_downstream: Annotated[Length, Field(ge=0.0)] | None = None
     """Opening of the crack at the downstream face."""
     cracked_length: Annotated[Length, Field(ge=0.0)] | None = None
-    """Length that is cracked in the end: of a bonded joint what the earthquake cracks, of a crack all of it."""
+    """Length of each bonded joint that is cracked in the end; of a crack without a bond it limits nothing."""
     rotation: Annotated[Rotation, Field(ge=0.0)] | None = None
     """Rotation of the part above the crack, either way: a plain number in rad, or with its unit."""
     crest_displacement: Annotated[Length, Field(ge=0.0)] | None = None

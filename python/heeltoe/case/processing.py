@@ -4,7 +4,7 @@ The work is done in :mod:`heeltoe.motion.processing`; here are fields, units and
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -27,7 +27,14 @@ Corner = Annotated[Frequency, Field(gt=0.0, le=1e4)]
 Order = Annotated[int, Field(strict=True, ge=1, le=10)]
 
 
-class Baseline(Fields):
+class Step(Fields):
+    """A step of processing."""
+
+    scales: ClassVar[bool] = False
+    """Whether it multiplies the motion by a number; a vertical component is then multiplied by the same."""
+
+
+class Baseline(Step):
     """Take a polynomial out of the velocity, so that the motion ends at rest."""
 
     step: Literal["baseline"]
@@ -42,7 +49,7 @@ class Baseline(Fields):
         return baseline(motion, self.order, displacement=self.displacement)
 
 
-class BandPass(Fields):
+class BandPass(Step):
     """Butterworth filter, forward and backward; with one corner alone a high-pass or a low-pass."""
 
     step: Literal["band-pass"]
@@ -59,7 +66,7 @@ class BandPass(Fields):
         return band_pass(motion, self.low, self.high, self.order)
 
 
-class Taper(Fields):
+class Taper(Step):
     """Fade in and out with half a cosine."""
 
     step: Literal["taper"]
@@ -74,7 +81,7 @@ class Taper(Fields):
         return taper(motion, self.share, self.ends)
 
 
-class CutSignificant(Fields):
+class CutSignificant(Step):
     """Keep the significant duration."""
 
     step: Literal["cut"]
@@ -89,7 +96,7 @@ class CutSignificant(Fields):
         return cut_significant(motion, self.start, self.end)
 
 
-class CutToWindow(Fields):
+class CutToWindow(Step):
     """Keep what lies between two moments."""
 
     step: Literal["window"]
@@ -104,9 +111,10 @@ class CutToWindow(Fields):
         return cut_to_window(motion, self.start, self.end)
 
 
-class ScaleToArias(Fields):
+class ScaleToArias(Step):
     """Scale to an Arias intensity."""
 
+    scales: ClassVar[bool] = True
     step: Literal["scale-to-arias"]
     """Which step this is."""
     intensity: Annotated[Velocity, Field(gt=0.0)]
@@ -117,9 +125,10 @@ class ScaleToArias(Fields):
         return scale_to_arias(motion, self.intensity, gravity)
 
 
-class ScaleToSpectrum(Fields):
+class ScaleToSpectrum(Step):
     """Scale to a spectral pseudo-acceleration at one period."""
 
+    scales: ClassVar[bool] = True
     step: Literal["scale-to-spectrum"]
     """Which step this is."""
     period: Annotated[Duration, Field(ge=0.0, le=100.0)]
@@ -134,7 +143,7 @@ class ScaleToSpectrum(Fields):
         return scale_to_spectrum(motion, self.period, self.acceleration.si(gravity), self.damping)
 
 
-class ScaleTime(Fields):
+class ScaleTime(Step):
     """Stretch time, which changes the frequency content."""
 
     step: Literal["scale-time"]

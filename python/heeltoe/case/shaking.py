@@ -28,8 +28,8 @@ def resolve(
 ) -> tuple[GroundMotion, GroundMotion | None]:
     """Read, check, process, scale, reverse and cut the ground motions of a case, in this order, and check them again.
 
-    A peak asked for is the peak of the whole record. A vertical motion without a peak of its own is scaled by the
-    same factor as the horizontal one, as both were recorded together.
+    A peak asked for is the peak of the whole record. A vertical motion without a peak or a scaling step of its own is
+    scaled by the same factors as the horizontal one, as both were recorded together.
 
     Parameters
     ----------
@@ -65,8 +65,10 @@ def resolve(
             vertical = vertical.scaled_to(
                 shaking.vertical.pga.si(gravity), f"scaled to a peak of {shaking.vertical.pga}"
             )
-        elif factor != 1.0:
-            vertical = vertical.scaled(factor, f"scaled by {factor:.6g} like the horizontal motion")
+        elif not _scales(shaking.vertical):
+            factor *= _scale_of_processing(shaking, gravity, base_directory, field)
+            if factor != 1.0:
+                vertical = vertical.scaled(factor, f"scaled by {factor:.6g} like the horizontal motion")
         vertical = vertical.with_warnings(*check_pair(horizontal, vertical)).led_by(horizontal.lead)
         horizontal = horizontal.led_by(vertical.lead)
         vertical = _finish(vertical, shaking.vertical, shaking.duration)
@@ -119,6 +121,20 @@ def read_source(
     motion = process(motion, shaking.processing, gravity, field=f"{field}.processing")
     check_moved(motion, field)
     return motion
+
+
+def _scales(shaking: Source) -> bool:
+    """Whether the processing of a motion scales it."""
+    return any(step.scales for step in shaking.processing)
+
+
+def _scale_of_processing(shaking: Source, gravity: float, base_directory: Path, field: str) -> float:
+    """Return the factor by which the processing of a motion scales it; all other steps are the same for any scale."""
+    if not _scales(shaking):
+        return 1.0
+    others = tuple(step for step in shaking.processing if not step.scales)
+    plain = read_source(shaking.model_copy(update={"processing": others}), gravity, base_directory, field)
+    return read_source(shaking, gravity, base_directory, field).pga / plain.pga
 
 
 def _source(

@@ -84,7 +84,11 @@ LONGEST_PATH = 5000
 CasePath = Annotated[str, typer.Argument(metavar="CASE.toml", help="The case file (TOML or JSON).")]
 Changes = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="PATH=VALUE", help="Set a field of the case, e.g. crack.friction=1.0."),
+    typer.Option(
+        "--set",
+        metavar="PATH=VALUE",
+        help="Set a field of the case, e.g. crack.friction=1.0; none takes an optional field out.",
+    ),
 ]
 JsonPath = Annotated[str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")]
 Workbook = Annotated[

@@ -133,8 +133,8 @@ class Suite:
     resume: bool
 
     def options(self) -> dict[str, Any]:
-        """Return what needs a suite."""
-        return {f"--{name}": value for name, value in vars(self).items() if name != "motions"}
+        """Return what needs a suite; one motion can be scaled to Sa, too."""
+        return {f"--{name}": value for name, value in vars(self).items() if name not in ("motions", "sa")}
 
     def fields(self, pga: str | None) -> dict[str, Any]:
         """Return the fields of the block `[suite]` that are given."""

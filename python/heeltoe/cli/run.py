@@ -128,7 +128,9 @@ def run(
     ] = None,
     sa: Annotated[
         str | None,
-        typer.Option(metavar="0.5g[@0.3s]", help="Scale each record of a suite to Sa at a period (default: T1)."),
+        typer.Option(
+            metavar="0.5g[@0.3s]", help="Scale the motion, or each record of a suite, to Sa at a period (default: T1)."
+        ),
     ] = None,
     match: Annotated[
         str | None, typer.Option(metavar="en1998:0.3g,B", help="Match each record of a suite to this spectrum.")
@@ -170,6 +172,10 @@ def run(
         return
     refuse(suite.options(), "suite-needs")
     changes += motion_changes(motion, pga=pga, duration=duration)
+    if sa is not None:
+        if pga is not None:
+            raise InputError("fields-conflict", "--sa", other="--pga")
+        changes = [*changes, _scaling_to_sa(read_case(case, changes), sa)]
     _run(case, changes, reverse, output_step, request)
 
 
@@ -265,6 +271,28 @@ def _run(path: str, changes: FieldChanges, reverse: bool, output_step: str | Non
     )
     if not result.ok:
         raise typer.Exit(NO_RESULT)
+
+
+def _scaling_to_sa(case: Case, sa: str) -> dict[str, Any]:
+    """Return the changes that scale the motion of a case to a spectral acceleration, as 0.5g@0.3s; without a period at
+    the first one of the dam."""
+    if case.motion is None:
+        raise InputError("motion-missing", "motion")
+    from heeltoe.units.parse import parse, parse_acceleration
+
+    acceleration, at, period = sa.partition("@")
+    if not at:
+        if case.concrete.modulus is None:
+            raise InputError("suite-no-period", "--sa", "T1")
+        from heeltoe.models.flexible.surroundings.first_mode import first_period
+
+        period = f"{first_period(case, '--sa'):.6g} s"
+    parse_acceleration(acceleration, "--sa")
+    if not 0.0 < parse(period, "duration", "--sa") <= 100.0:
+        raise InputError("out-of-range", "--sa", period, bound="above 0 s, at most 100 s")
+    steps = [step.model_dump(mode="json", exclude_unset=True) for step in case.motion.processing]
+    steps.append({"step": "scale-to-spectrum", "period": period, "acceleration": acceleration})
+    return {"motion.processing": steps, "motion.pga": None}
 
 
 def _table(

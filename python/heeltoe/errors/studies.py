@@ -36,7 +36,10 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
     "study-folder": ("{value} is not a directory", "give the directory of the records, relative to the study file"),
     "study-folder-empty": ("{value} has no records", "give a directory with records"),
     "study-pair": ("{value} has {count} horizontal components, not 2", "add the other one, or leave pairs out"),
-    "study-vertical": ("{value} has no vertical component", "add it, or leave vertical out"),
+    "study-vertical": (
+        "{value} has no vertical component beside it: none of its name, and none that the case names for it",
+        "add it, or leave vertical out",
+    ),
     "study-horizontal": ("{value} has no horizontal component beside it", "add one, or take the file out"),
     "study-components": (
         "{value} has more components than an event has: {names}",

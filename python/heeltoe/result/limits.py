@@ -33,7 +33,11 @@ class LimitCheck(Block):
     ] = 0.0
     elevation_m: Annotated[
         float | None,
-        Number("Of the crack whose result it is, where there are several: the largest of all.", "m", optional=True),
+        Number(
+            "Of the crack whose result it is, where there are several: the largest of all, or each bonded joint's own.",
+            "m",
+            optional=True,
+        ),
     ] = None
 
     @property
@@ -90,7 +94,8 @@ def judge_response(limits: Limits, response: Response) -> Judgement:
         key: [[math.nan if crack.numbers is None else crack.numbers[key] for crack in response.cracks]]
         for key in ("crack_width_m", *sorted(keys))
     }
-    columns[CRACKED] = [[_cracked(crack) for crack in response.cracks]]
+    if any(_bonded(crack) for crack in response.cracks):
+        columns[CRACKED] = [[_cracked(crack) for crack in response.cracks]]
     if response.crest is not None or not response.started:
         columns |= {key: [[value]] for key, value in crest_peaks(response.crest).items()}
     return judge({"outcome": [response.outcome], **columns}, allowances(limits, response.gravity))
@@ -108,32 +113,40 @@ def check_limits(limits: Limits, response: Response) -> tuple[LimitCheck, ...]:
     checks = []
     for name in judgement.not_met:
         sizes = judgement.size(name)[0].tolist()
-        value, place = max(sizes), sizes.index(max(sizes))
-        known = not math.isnan(value)
-        of_crack = known and name not in CREST_LIMITS
-        checks.append(
-            LimitCheck(
-                name=name,
-                value=value if known else None,
-                allowed=judgement.limits[name],
-                failed=bool(judgement.failed[0]),
-                uncertainty=_uncertainty(name, response.cracks[place]) if of_crack else 0.0,
-                elevation_m=response.cracks[place].elevation if response.several and of_crack else None,
+        # Any of several cracks may break a limit; each bonded joint is judged by itself.
+        joints = [place for place, crack in enumerate(response.cracks) if _bonded(crack)]
+        for place in joints if name == "cracked_length" else [sizes.index(max(sizes))]:
+            known = not math.isnan(sizes[place])
+            of_crack = known and name not in CREST_LIMITS
+            checks.append(
+                LimitCheck(
+                    name=name,
+                    value=sizes[place] if known else None,
+                    allowed=judgement.limits[name],
+                    failed=bool(judgement.failed[0]),
+                    uncertainty=_uncertainty(name, response.cracks[place]) if of_crack else 0.0,
+                    elevation_m=response.cracks[place].elevation if response.several and of_crack else None,
+                )
             )
-        )
     return tuple(checks)
 
 
-def _cracked(crack: CrackResponse) -> float:
-    """Return what is cracked in the end [m]."""
+def _bonded(crack: CrackResponse) -> bool:
+    """Whether a crack is a joint that was bonded before the earthquake; not known without a result."""
     numbers = crack.numbers
-    if numbers is None:
-        return math.nan
-    joint, bond = numbers.get("joint"), numbers.get("bond")
+    return numbers is not None and (numbers.get("joint") is not None or numbers.get("bond") is not None)
+
+
+def _cracked(crack: CrackResponse) -> float:
+    """Return how far a bonded joint has cracked in the end [m]; what is cracked from the start cracks no farther."""
+    numbers = crack.numbers
+    if numbers is None or not _bonded(crack):
+        return 0.0
+    joint = numbers.get("joint")
     if joint is not None:
         return float(joint["cracked_length_m"])
-    # A crack that is no joint was there from the beginning; the bond of a block breaks all at once.
-    return 0.0 if bond is not None and bond["breaks_s"] is None else float(numbers["crack_width_m"])
+    # The bond of a block breaks all at once.
+    return 0.0 if numbers["bond"]["breaks_s"] is None else float(numbers["crack_width_m"])
 
 
 def _uncertainty(name: str, crack: CrackResponse) -> float:

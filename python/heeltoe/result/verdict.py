@@ -122,7 +122,8 @@ def _limits(response: Response, units: str) -> str:
 
 def limited(check: LimitCheck, units: str = "si") -> str:
     """Say what is limited, and at which of several cracks, in units ``"si"`` or ``"us"``."""
-    at = "" if check.elevation_m is None else f" at the crack at {_level(check.elevation_m, units)}"
+    crack = "joint" if check.name == "cracked_length" else "crack"
+    at = "" if check.elevation_m is None else f" at the {crack} at {_level(check.elevation_m, units)}"
     return check.label + at
 
 

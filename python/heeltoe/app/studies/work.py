@@ -180,7 +180,10 @@ def _headlines(suite: Mapping[str, Any] | None, units: str) -> list[dict[str, An
     for row in suite["models"]:
         slip, by = row["statistics"]["residual_slip_m"][suite["judge"]], JUDGED[suite["judge"]]
         checks = [
-            LimitCheck(failed=False, **{name: check[name] for name in ("name", "value", "allowed", "uncertainty")})
+            LimitCheck(
+                failed=False,
+                **{name: check[name] for name in ("name", "value", "allowed", "uncertainty", "elevation_m")},
+            )
             for check in row["limits"]
             if check["value"] is not None
         ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import product
 
 from heeltoe.case.crack.kinks import climbs
@@ -25,6 +25,11 @@ from heeltoe.models.statics.sheet import sources_of, sources_of_inertia
 from heeltoe.models.statics.spectral import SpectralDemand
 from heeltoe.models.statics.water import StillWater, still_water, water_in_earthquake
 from heeltoe.units.sentences import Sentence
+
+# Fields of [statics] that say what of a joint is bonded; sources of slips that no run has found.
+_OWN_BOND = ("bonded", "cohesion", "tensile_strength")
+NO_SLIP, OWN_SLIP = "no slip is given, taken as zero", "statics.residual_slip"
+_NO_RUN = (NO_SLIP, OWN_SLIP)
 
 
 def usual(case: Case) -> Solved:
@@ -86,8 +91,8 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
                 f"{called}pseudo-static {way}{name}",
                 loads,
                 case.crack.apparent_friction,
-                case.statics.cohesion,
-                (Sentence(f"uplift: {source}"), *taken),
+                bond_of(case).cohesion,
+                (Sentence(f"uplift: {source}"), *taken, *_about_bond(case)),
                 sources_of(case) | sources_of_inertia(case, *ground),
                 peak_of(case.crack),
             )
@@ -126,8 +131,8 @@ def response_spectrum(case: Case, before: Solved, demand: SpectralDemand) -> tup
             f"{name} {way}",
             "earthquake",
             case.crack.apparent_friction,
-            case.statics.cohesion,
-            taken,
+            bond_of(case).cohesion,
+            (*taken, *_about_bond(case)),
             sources_of(case) | {name: Sentence("first mode and static correction, concrete and water together")},
             peak_of(case.crack),
         )
@@ -192,17 +197,21 @@ def post_seismic(case: Case, slip: float, source: str, ligament: tuple[float, fl
         friction = math.tan(max(math.atan(friction) - falling, 0.0))
         kind = "kinetic, on a flank of the asperities that falls in the direction of the push, tan(φ - i)"
     words = f"friction {friction:g}, {kind}" if law is None else "friction that all slip leaves, by crack.law"
-    bond = case.crack.bond if ligament is not None else None
+    bond = bond_of(case)
+    held = None if ligament is None else (max(ligament[0], bond.start), ligament[1])
     assumptions = [Sentence.of("slip {slip_m:.4f m} {way}: {source}", slip_m=size, way=way, source=source)]
-    if bond is None:
+    if held is None and case.crack.bond is not None and source in _NO_RUN:
+        lost = "whether the earthquake breaks the joint is not known without its run: no cohesion, no tensile strength"
+        assumptions.append(Sentence(f"{words}; {lost}"))
+    elif held is None:
         assumptions.append(Sentence(f"{words}; the crack has slid: no cohesion, no tensile strength"))
     else:
-        assert ligament is not None
         text = (
             "{words}; the joint holds over {left_m:.3f m} of its {width_m:.3f m}; there alone count the static "
-            "cohesion and tensile strength of crack.bond"
+            f"cohesion and tensile strength of {bond.source}"
         )
-        assumptions.append(Sentence.of(text, words=words, left_m=ligament[1] - ligament[0], width_m=width))
+        left = max(0.0, held[1] - held[0])
+        assumptions.append(Sentence.of(text, words=words, left_m=left, width_m=width))
     if size:
         text = (
             "the block stands on {left_m:.3f m} of its {width_m:.3f m}, whether or not the ground goes on beyond the "
@@ -221,8 +230,8 @@ def post_seismic(case: Case, slip: float, source: str, ligament: tuple[float, fl
         assumptions.append(Sentence("prestress of the anchors as before the slip"))
     start, end = (0.0, width - size) if slip >= 0.0 else (size, width)
     contact = Contact(start, end, bonded_from=end)
-    if bond is not None and ligament is not None:
-        contact = Contact(start, end, ligament[0], bond.tensile_strength, ligament[1])
+    if held is not None:
+        contact = Contact(start, end, held[0], bond.tensile_strength, held[1])
     water = still_water(case, start, end)
     matches = not size
     if not matches and climbs(case.crack.kinks):
@@ -231,7 +240,7 @@ def post_seismic(case: Case, slip: float, source: str, ligament: tuple[float, fl
             "the straight line from heel to toe, and its kinks count for nothing"
         )
         assumptions.append(Sentence(text))
-    cohesion = 0.0 if bond is None else bond.cohesion
+    cohesion = 0.0 if held is None else bond.cohesion
     question = Question(
         "post-seismic", "post-earthquake", friction, cohesion, tuple(assumptions), sources_of(case), law, matches
     )
@@ -252,13 +261,57 @@ def _falls(case: Case, slip: float) -> float:
     return rough.angle if falls else 0.0
 
 
-def _contact(case: Case) -> Contact:
-    width = case.cut.crack_width
-    law, choice = case.crack.law, case.statics
+@dataclass(frozen=True)
+class JointBond:
+    """What the checks count of the bond of a joint before the earthquake, from a place to the toe.
+
+    Attributes
+    ----------
+    start
+        Where it begins, from the heel [m].
+    tensile_strength, cohesion
+        Static [Pa].
+    source
+        What says so.
+    """
+
+    start: float
+    tensile_strength: float
+    cohesion: float
+    source: str
+
+
+def bond_of(case: Case) -> JointBond:
+    """Return the bond that the checks count, in all load cases by one rule: that of ``[statics]`` where the case gives
+    one of its fields, else that of ``[crack.bond]`` over the whole joint."""
+    width, choice, bond, law = case.cut.crack_width, case.statics, case.crack.bond, case.crack.law
+    if bond is not None and choice.model_fields_set.isdisjoint(_OWN_BOND):
+        return JointBond(0.0, bond.tensile_strength, bond.cohesion, "crack.bond")
     # The cohesion of a law is that of the whole crack, unless the case says how much of it is bonded.
     whole = law is not None and law.cohesion is not None and "bonded" not in choice.model_fields_set
     bonded = 1.0 if whole else choice.bonded
-    return Contact(0.0, width, (1.0 - bonded) * width, choice.tensile_strength)
+    return JointBond((1.0 - bonded) * width, choice.tensile_strength, choice.cohesion, "statics")
+
+
+def _about_bond(case: Case) -> tuple[Sentence, ...]:
+    """Say what counts of the bond of a joint."""
+    bond, width = case.crack.bond, case.cut.crack_width
+    if bond is None:
+        return ()
+    counted = bond_of(case)
+    if counted.source == "crack.bond":
+        text = (
+            "the joint of {width_m:.3f m} is bonded: static cohesion {cohesion_pa:.4g MPa} and tensile strength "
+            "{tension_pa:.4g MPa} of crack.bond"
+        )
+        return (Sentence.of(text, width_m=width, cohesion_pa=counted.cohesion, tension_pa=counted.tensile_strength),)
+    text = "bonded, cohesion and tensile_strength of statics go before those of crack.bond: bonded over {left_m:.3f m}"
+    return (Sentence.of(text, left_m=width - counted.start),)
+
+
+def _contact(case: Case) -> Contact:
+    bond = bond_of(case)
+    return Contact(0.0, case.cut.crack_width, bond.start, bond.tensile_strength)
 
 
 def _dry(case: Case) -> tuple[Resultant, ...]:
@@ -286,8 +339,9 @@ def _still(name: str, loads: Loads, case: Case, assumptions: tuple[Sentence, ...
     """Return a case of still water on the crack as it is before the earthquake."""
     contact = _contact(case)
     water = still_water(case, contact.start, contact.end)
-    friction, cohesion = case.crack.apparent_friction, case.statics.cohesion
-    question = Question(name, loads, friction, cohesion, assumptions, sources_of(case), peak_of(case.crack))
+    friction, cohesion = case.crack.apparent_friction, bond_of(case).cohesion
+    taken = (*assumptions, *_about_bond(case))
+    question = Question(name, loads, friction, cohesion, taken, sources_of(case), peak_of(case.crack))
     return solve_case(question, case, _dry(case), contact, water)
 
 

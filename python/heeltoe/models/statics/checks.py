@@ -76,8 +76,19 @@ def check_case(outcome: LoadCase, case: Case) -> tuple[Check, ...]:
         elif row.check == "resultant":
             checks.append(_resultant(outcome, row))
         else:
-            checks.append(_factor(outcome, row))
+            checks.append(_factor(outcome, row, _by_friction(outcome, case)))
     return tuple(check for check in checks if outcome.governs is None or check.name in outcome.governs)
+
+
+def _by_friction(outcome: LoadCase, case: Case) -> str:
+    """Say the sliding factor by friction alone where cohesion is counted, and what criteria with a table of their own
+    for it ask; nothing elsewhere."""
+    if not outcome.cohesive_force_n or outcome.friction_factor is None:
+        return ""
+    words = f"by friction alone {outcome.friction_factor:.2f}"
+    rows = criteria_of(case, outcome.loads, cohesion=False)
+    asked = next((row for row in rows if row.check == "sliding" and row.cohesion is False), None)
+    return words if asked is None else f"{words}, where {asked.required:.2f} is asked ({asked.paragraph})"
 
 
 def fallen(words: str, **quantities: float) -> Check:
@@ -114,7 +125,7 @@ def _equilibrium(outcome: LoadCase) -> Check:
     return _stands(outcome.name, sentence, met=outcome.outcome == "stands")
 
 
-def _factor(outcome: LoadCase, row: Criterion) -> Check:
+def _factor(outcome: LoadCase, row: Criterion, by_friction: str) -> Check:
     name = f"{row.check} factor"
     values = {
         "sliding": (outcome.sliding_factor, "nothing pushes along the crack"),
@@ -130,6 +141,9 @@ def _factor(outcome: LoadCase, row: Criterion) -> Check:
         f"{name} {value:.{digits}f} is {abs(value - row.required):.{digits}f} {'above' if met else 'below'} "
         f"the {row.required:.2f} of {{source}}"
     )
+    if row.check == "sliding" and by_friction:
+        words += f"; {by_friction}"
+        row = replace(row, note=f"{row.note}; {outcome.name}: {by_friction}" if row.note else by_friction)
     return _check(outcome, name, value, row, met, words)
 
 

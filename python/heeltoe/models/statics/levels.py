@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from heeltoe.case.model import Case
-from heeltoe.models.statics.cases import at_depth, usual
+from heeltoe.models.statics.cases import at_depth, bond_of, usual
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.models.statics.own_criteria import criteria_of
 
@@ -34,7 +34,8 @@ def critical_water_levels(case: Case) -> dict[str, float | None]:
     lowest = section.heel[1] - section.base_elevation
     if case.ice is not None:
         lowest = max(lowest, case.ice.depth)
-    counted = bool(case.statics.cohesion and case.statics.bonded)
+    bond = bond_of(case)
+    counted = bond.cohesion > 0.0 and bond.start < section.crack_width
     rows = criteria_of(case, "usual", cohesion=counted)
     # Criteria of a user's own may ask for none.
     required = next((row.required for row in rows if row.check == "sliding"), None)

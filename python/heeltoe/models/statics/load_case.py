@@ -79,6 +79,9 @@ class LoadCase(Block):
             "with kinks that along the straight line from heel to toe, or that on its pieces where it is smaller."
         ),
     ]
+    friction_factor: Annotated[
+        float | None, Number("The same without the cohesive force: by friction alone; null where nothing pushes.")
+    ]
     overturning_factor: Annotated[
         float | None,
         Number(
@@ -256,7 +259,10 @@ def solve_case(
         length = max(0.0, pressed[1] - pressed[0])
         friction, cohesion = question.law(max(0.0, settled.normal) / length if length else 0.0)
     cohesive = cohesion * max(0.0, bonded[1] - bonded[0])
-    sliding = _sliding(case, settled, (cohesive, friction), shear, closed if question.matches else None)
+    sliding, by_friction = (
+        _sliding(case, settled, (held, friction), shear, closed if question.matches else None)
+        for held in (cohesive, 0.0)
+    )
     about = "heel" if shear < 0.0 else "toe"
     down = -math.fsum(min(0.0, force.vertical) for force in across)
     up = math.fsum(max(0.0, force.vertical) for force in across)
@@ -270,6 +276,7 @@ def solve_case(
         friction=friction,
         cohesive_force_n=cohesive,
         sliding_factor=sliding.factor,
+        friction_factor=by_friction.factor,
         overturning_factor=_overturning(across, contact.start if about == "heel" else contact.end, about),
         overturning_about=about,
         flotation_factor=down / up if up else None,

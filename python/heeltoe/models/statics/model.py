@@ -16,7 +16,7 @@ from heeltoe.errors.error import expect
 from heeltoe.mechanics.block import build_block, static_state, without_bond
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.mechanics.references import REFERENCES
-from heeltoe.models.statics.cases import flood, post_seismic, pseudo_static, response_spectrum, usual
+from heeltoe.models.statics.cases import NO_SLIP, OWN_SLIP, flood, post_seismic, pseudo_static, response_spectrum, usual
 from heeltoe.models.statics.checks import Check, check_case, fallen
 from heeltoe.models.statics.criteria import unread
 from heeltoe.models.statics.levels import critical_water_levels, highest_level
@@ -190,7 +190,7 @@ def statics(
             cases.append(after.load_case)
             checks += check_case(after.load_case, case)
             warnings += _about_anchors_after(case, slip, source, after.load_case)
-        if source == _UNKNOWN:
+        if source == NO_SLIP:
             warnings.append(Notice("slip-unknown"))
     warnings += _warnings_of_cases(case, cases)
     references = dict.fromkeys(check.source for check in checks if check.required is not None)
@@ -299,15 +299,12 @@ def _unread(case: Case, rules: Rules) -> tuple[Notice, ...]:
     return (Notice("fields-idle", field=idle[0], fields=", ".join(idle), why=why),) if idle else ()
 
 
-_UNKNOWN = "no slip is given, taken as zero"
-
-
 def _slip(case: Case, slip: float | None, source: str) -> tuple[float | None, str | None]:
     """Return the residual slip and where it comes from; None where nothing asks for a post-seismic case."""
     if slip is not None:
         return slip, source
     if case.statics.residual_slip is not None:
-        return case.statics.residual_slip, "statics.residual_slip"
+        return case.statics.residual_slip, OWN_SLIP
     if case.statics.residual_friction is not None or case.motion is not None:
-        return 0.0, _UNKNOWN
+        return 0.0, NO_SLIP
     return None, None

@@ -14,7 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from heeltoe.base.arrays import Floats, finite
+from heeltoe.result.contract import CRACKED
 from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judged
+from heeltoe.study.plan.crack_columns import column_of
 from heeltoe.study.run.aggregate import Walk
 from heeltoe.units.parse import STANDARD_GRAVITY
 
@@ -26,12 +28,13 @@ _SIGNS = ("recorded", "reversed")
 
 
 class _Way(NamedTuple):
-    """What a record does to the dam one way round: its judgement, and the demands, SI, not a number where the run does
-    not say."""
+    """What a record does to the dam one way round: its judgement, the demands, SI, not a number where the run does not
+    say, and how far each bonded joint has cracked [m]."""
 
     judged: Judged
     factor: float
     demands: Mapping[str, float]
+    joints: tuple[float, ...]
 
 
 def suite_of(walk: Walk) -> dict[str, Any] | None:
@@ -56,7 +59,8 @@ def suite_of(walk: Walk) -> dict[str, Any] | None:
 
 
 def _demands(walk: Walk) -> dict[str, str]:
-    return {key: limit for key, limit in DEMANDS.items() if walk.crest or limit not in CREST_LIMITS}
+    absent = {*(() if walk.crest else CREST_LIMITS), *(() if walk.joints else ("cracked_length",))}
+    return {key: limit for key, limit in DEMANDS.items() if limit not in absent}
 
 
 def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
@@ -79,32 +83,56 @@ def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
     governs = max(range(len(records)), key=lambda place: judged[place].badness)
     for place, record in enumerate(records):
         record["governs"] = place == governs
+    joints = []
+    for place, joint in enumerate(walk.joints):
+        cracked = np.array([_of_joint(*row, place) for row in zip(records, judged, strict=True)])
+        joints.append(
+            {
+                "elevation_m": joint["elevation_m"],
+                "statistics": _statistics(cracked),
+                "records_cracked": int(((cracked > 0.0) & np.isfinite(cracked)).sum()),
+            }
+        )
+    known = worth if model == "flexible" else None
+    limits = []
+    for key, name in demands.items():
+        if (allowed := walk.limits.get(name)) is None:
+            continue
+        if name != "cracked_length":
+            limits.append(_limit(name, allowed, statistics[key][judge], known))
+            continue
+        # Each bonded joint is judged by itself.
+        for joint in joints:
+            at = joint["elevation_m"] if walk.cracks > 1 else None
+            limits.append(_limit(name, allowed, joint["statistics"][judge], known, at))
     return {
         "model": model,
         "records": records,
         "statistics": statistics,
         "governing": {"motion": records[governs]["motion"], "sign": records[governs]["sign"]},
-        "limits": [
-            _limit(name, allowed, statistics[key][judge], worth if model == "flexible" else None)
-            for key, name in demands.items()
-            if (allowed := walk.limits.get(name)) is not None
-        ],
+        "joints": joints,
+        "limits": limits,
     }
 
 
 def _ways(walk: Walk, model: str) -> dict[tuple[str, str], _Way]:
     """Return what each motion does either way round, by its name and its sign."""
     wanted = _demands(walk)
+    of_joints = [column_of(joint["place"], CRACKED) if walk.cracks > 1 else CRACKED for joint in walk.joints]
     ways = {}
     for runs in walk("model", "motion", "reversed", "factor", *walk.judging(wanted.values())):
         judgement = runs.judged(walk, dict.fromkeys(wanted.values(), math.inf))
         demands = {key: judgement.size(limit).max(axis=1) for key, limit in wanted.items()}
+        joints = [runs.numbers(name) for name in of_joints]
         judgement = replace(judgement, limits=walk.limits)
         motions, place = runs.words("motion")
         turned, factors = runs.table["reversed"].to_pylist(), runs.numbers("factor").tolist()
         for row in np.flatnonzero(runs.model == walk.models.index(model)).tolist():
             ways[motions[place[row]], _SIGNS[turned[row]]] = _Way(
-                judgement[row], factors[row], {key: float(column[row]) for key, column in demands.items()}
+                judgement[row],
+                factors[row],
+                {key: float(column[row]) for key, column in demands.items()},
+                tuple(float(column[row]) for column in joints),
             )
     return ways
 
@@ -121,6 +149,7 @@ def _record(motion: Mapping[str, Any], sign: str, signs: Mapping[str, _Way]) -> 
         "sign": sign,
         "outcome": str(way.judged.outcome),
         **{key: finite(value) for key, value in way.demands.items()},
+        "joints_cracked_m": [finite(value) for value in way.joints],
         "other_sign_residual_slip_m": None if other is None else finite(other.demands["residual_slip_m"]),
     }
 
@@ -128,6 +157,13 @@ def _record(motion: Mapping[str, Any], sign: str, signs: Mapping[str, _Way]) -> 
 def _counted(record: Mapping[str, Any], judged: Judged, key: str) -> float:
     """Return a demand of a record, SI; a dam that fails and a run without a result count as infinitely much."""
     value = record[key]
+    return math.inf if value is None or judged.failed else float(value)
+
+
+def _of_joint(record: Mapping[str, Any], judged: Judged, place: int) -> float:
+    """Return how far a bonded joint has cracked in a record; a dam that fails and a run without a result count as
+    infinitely far."""
+    value = record["joints_cracked_m"][place]
     return math.inf if value is None or judged.failed else float(value)
 
 
@@ -155,11 +191,19 @@ def below(ordered: Floats, share: float) -> Floats:
     return np.where(finite, first + part * (np.where(finite, second, 0.0) - np.where(finite, first, 0.0)), np.inf)
 
 
-def _limit(name: str, allowed: float, value: float | None, worth: Mapping[str, Any] | None) -> dict[str, Any]:
-    """Return how a number over the records stands to a limit; `worth` is the evidence of the record that has some."""
+def _limit(
+    name: str,
+    allowed: float,
+    value: float | None,
+    worth: Mapping[str, Any] | None,
+    elevation_m: float | None = None,
+) -> dict[str, Any]:
+    """Return how a number over the records stands to a limit; `worth` is the evidence of the record that has some, and
+    the elevation that of the one of several cracks that is judged."""
     uncertainty = 0.0 if value is None or worth is None else _uncertainty(name, value, worth)
     return {
         "name": name,
+        "elevation_m": elevation_m,
         "unit": LIMITS[name].unit,
         "value": value,
         "allowed": allowed,

@@ -123,7 +123,7 @@ class Scale(Fields):
     """What `values` are: factors on the record; or what the scaled motion has: its peak acceleration, its peak
     velocity, its spectral acceleration at `period` with 5 % damping, its Arias intensity."""
     period: PeriodField | None = None
-    """Of `sa`: the period at which it is; "T1" for the first period of the dam, intact and with its water."""
+    """Of `sa`: the period at which it is; "T1" for the first period of the dam, intact, with its water and its rock."""
     values: Values
     """A list, through which every motion goes, or a distribution of which each run draws one."""
 

@@ -430,6 +430,9 @@ def plan_of(study: Study, case: Case | None = None) -> Plan:
         hazard = read_hazard(study.hazard, study.fragility.measure, case.gravity, study.directory)
     names = None if dams is None else dams.names
     plan = Plan(study, case, tuple(axes), shakes, events, scale, dams=names, hazard=hazard)
+    bonded = any(crack.bond is not None for crack in case.cracks)
+    if study.fragility is not None and study.fragility.limits.cracked_length and not bonded:
+        raise InputError("needs-other", "fragility.limits.cracked_length", other="a bonded joint (crack.bond)")
     if study.suite is not None:
         if plan.sizes[2] > 1:
             raise InputError("suite-one-strength", "motions.scale.values", plan.sizes[2])
@@ -458,10 +461,10 @@ def _with_first_period(study: Study, case: Case) -> Study:
         return study
     if case.concrete.modulus is None:
         raise InputError("suite-no-period", "motions.scale.period", "T1")
-    from heeltoe.models.flexible.body.periods import dam_periods
+    from heeltoe.models.flexible.surroundings.first_mode import first_period
 
     # Six digits say what the spectrum is read at, in words and in files.
-    first = float(f"{dam_periods(case, 1).intact[0]:.6g}")
+    first = float(f"{first_period(case, 'motions.scale.period'):.6g}")
     scale = motions.scale.model_copy(update={"period": first})
     return study.model_copy(update={"motions": motions.model_copy(update={"scale": scale})})
 

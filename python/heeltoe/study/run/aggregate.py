@@ -79,11 +79,8 @@ class Walk:
     def limits(self) -> dict[str, float]:
         """What the base case allows, by the name of the limit, SI, accelerations in g."""
         limits = self.manifest["case"].get("limits") or {}
-        known = {
-            name: value
-            for name, value in limits.items()
-            if value is not None and (self.crest or name not in CREST_LIMITS)
-        }
+        absent = {*(() if self.crest else CREST_LIMITS), *(() if self.joints else ("cracked_length",))}
+        known = {name: value for name, value in limits.items() if value is not None and name not in absent}
         return {name: self._number(value) for name, value in known.items()}
 
     @property
@@ -111,6 +108,11 @@ class Walk:
     def crest(self) -> bool:
         """Whether the runs say how the crest moves."""
         return bool(self.manifest.get("crest"))
+
+    @property
+    def joints(self) -> list[dict[str, Any]]:
+        """The bonded joints from the crest down: ``place`` among the cracks and ``elevation_m``."""
+        return list(self.manifest.get("joints") or ())
 
     def of_cracks(self, name: str) -> list[str]:
         """Return the columns of a headline number at each of several cracks, from the crest down; none of one crack."""

@@ -123,7 +123,8 @@ def _of_table(
         "end_time_s": table["end_time"],
         "energy_residual": table["energy_residual"],
         "impacts": table["impacts"],
-        CRACKED: np.minimum(table["cracked_length"], width) if joint else width,
+        # What is cracked from the start cracks no farther.
+        CRACKED: np.minimum(table["cracked_length"], width) if joint else np.zeros_like(width),
     }
     return OfCrack(named, width)
 
@@ -146,7 +147,7 @@ def _of_responses(responses: Sequence[Response], place: int) -> OfCrack:
             "end_time_s": response.end_time_s,
             "energy_residual": response.energy.residual,
             # These models know no joint that holds.
-            CRACKED: numbers.crack_width_m,
+            CRACKED: 0.0,
         }
         rows.append({name: row[name] if name in row else numbers[name] for name in names})
         widths.append(numbers.crack_width_m)

@@ -155,6 +155,11 @@ def keep(store: Store, plan: Plan) -> None:
         "spectra": plan.spectra(),
         "pilot": None if plan.pilot is None else plan.pilot.to_json(),
         "crest": plan.crest,
+        "joints": [
+            {"place": place, "elevation_m": crack.elevation}
+            for place, crack in enumerate(plan.case.cracks)
+            if crack.bond is not None
+        ],
         "study": plan.study.model_dump(mode="json"),
         "case": plan.case.model_dump(mode="json", exclude_unset=True),
         "build": build_info(),
@@ -171,6 +176,7 @@ def keep_questions(directory: Path, plan: Plan) -> None:
         "motions": plan.motions_of_manifest(),
         "hazard": None if plan.hazard is None else plan.hazard.to_json(),
         "spectra": plan.spectra(),
+        "case": plan.case.model_dump(mode="json", exclude_unset=True),
     }
     _write_record(directory, record)
 

@@ -76,12 +76,14 @@ def run_suite(
     case = source if isinstance(source, Case) else read_case(source)
     changes = {f"suite.{name}": value for name, value in suite.items() if value is not None}
     if motions is not None:
-        changes["motions"] = [{"file": name} for name in _listed(motions)]
+        vertical = bool(suite.get("vertical") or case.suite.vertical)
+        changes["motions"] = [_entry(case, name, vertical=vertical) for name in _listed(motions)]
     case = case.with_(changes) if changes else case
     check_model(model, "model")
     study, names = _study_of(case, model)
     place = mkdtemp(prefix="heeltoe-suite-") if out is None else out
     still = case.model_copy(update={"motions": (), "suite": Suite()})
+    still.model_fields_set.difference_update({"motions", "suite"})
     options = {"scheduler": scheduler, "progress": progress, "before": before}
     try:
         results = run_study(study, place, case=still, resume=resume, **options)  # type: ignore[arg-type]
@@ -133,6 +135,24 @@ def _study_of(case: Case, model: str) -> tuple[Study, dict[str, str]]:
 
 def _as_written(period: str | float | None) -> str:
     return f"{period!r} s" if isinstance(period, float) else "T1"
+
+
+def _entry(case: Case, name: str, *, vertical: bool) -> dict[str, str]:
+    """Return a record of a suite, on request with the vertical component that the case names for it."""
+    named = _vertical_of(case, name) if vertical else None
+    return {"file": name} if named is None else {"file": name, "vertical": named}
+
+
+def _vertical_of(case: Case, name: str) -> str | None:
+    """Return the file of the vertical component that goes with a record in the case; None where it names none."""
+
+    def is_same(file: str | None) -> bool:
+        return file is not None and (file == name or _absolute(str(case.base_directory / file)) == name)
+
+    listed = (motion.vertical for motion in case.motions if is_same(motion.file))
+    single = (case.motion, *case.aftershocks)
+    pairs = (motion.vertical.file for motion in single if motion and motion.vertical and is_same(motion.file))
+    return next((file for file in (*listed, *pairs) if file is not None), None)
 
 
 def _listed(motions: Motions) -> list[str]:

@@ -338,7 +338,8 @@ def _give(met: Point, missed: Point, last: Point, points: Sequence[Point]) -> fl
 
 def _point(value: float, response: Response, limit: str, shift: float) -> Point:
     """Return what a response says of a value."""
-    check = next((check for check in response.limits if check.name == limit), None)
+    checks = [check for check in response.limits if check.name == limit]
+    check = max(checks, key=lambda check: check.value or 0.0, default=None)
     sign = next((way.sign for way in response.signs if way.governs), "")
     if check is None or check.failed or check.value is None:
         return Point(value=value, result_m=None, met=False, sign=sign, outcome=response.outcome)

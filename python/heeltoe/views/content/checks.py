@@ -18,12 +18,15 @@ if TYPE_CHECKING:
     from heeltoe.models.statics.joints import Joints
     from heeltoe.models.statics.model import Statics
 
+# Told where cohesion is counted.
+_ALONE = "friction_factor"
 _CASES: Labels = (
     ("Normal force", "normal_force_n", None),
     ("Force along the crack, + downstream", "shear_force_n", None),
     ("Coefficient of friction", "friction", None),
     ("Cohesive force", "cohesive_force_n", None),
     ("Sliding factor", "sliding_factor", None),
+    ("The same by friction alone", _ALONE, None),
     ("The same on the pieces of the crack", "sliding_factor_on_pieces", None),
     ("Overturning factor", "overturning_factor", None),
     ("Flotation factor", "flotation_factor", None),
@@ -142,6 +145,8 @@ def load_cases(checked: Statics, numbers: Numbers, prefix: str) -> Table:
     """Return the table of the load cases; `prefix` is where the static checks stand in the JSON of the numbers."""
     rows: list[tuple[Inline, ...]] = [("Outcome", *(case.outcome for case in checked.cases))]
     for label, key, kind in _CASES:
+        if key == _ALONE and not any(case.cohesive_force_n for case in checked.cases):
+            continue
         cells = [numbers(f"{prefix}cases.{place}.{key}", kind) for place in range(len(checked.cases))]
         if any(isinstance(cell, Value) and cell.number for cell in cells):
             rows.append((label, *cells))

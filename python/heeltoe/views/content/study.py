@@ -20,7 +20,7 @@ from heeltoe.units.sentences import counted, listed
 from heeltoe.units.write import NOTHING, digits
 from heeltoe.views.content.dam_pages import dam_pages
 from heeltoe.views.content.drawings import drawing
-from heeltoe.views.content.input import case_table, rerun_section
+from heeltoe.views.content.input import case_table, named, rerun_section, revisions
 from heeltoe.views.content.one_unit import with_one_unit
 from heeltoe.views.content.study_answers import (
     answer,
@@ -145,7 +145,9 @@ def study_subject(
         **(study_figures(study, units) if figures is None else figures),
     }
     blocks = {name: drawing(name, figure, _CAPTIONS[name]) for name, figure in drawn.items()}
-    return replace(subject, figures=blocks)
+    # The section stands below its heading, which would be empty without it.
+    shown = {name: replace(block, held=name == "section") for name, block in blocks.items()}
+    return replace(subject, figures=shown)
 
 
 def study_answer(study: StudyResults, units: str) -> tuple[Block, ...]:
@@ -192,12 +194,13 @@ def study_document(subject: StudySubject) -> Document:
         Section("Appendix: the base case", (case_table(subject.case, subject.units, "Given by the base case."),)),
     )
     models = study.walk.models
-    what = "suite" if study.suite else "study"
+    what, build = "suite" if study.suite else "study", study.manifest["build"]["heeltoe"]
     return Document(
-        title=plain(study.title),
+        title=plain(study.title) or "Untitled case",
         subtitle=f"A {what} of {study.store.count:,} runs, by the {listed(models)} model{'s' * (len(models) > 1)}",
-        footer=f"heeltoe {study.manifest['build']['heeltoe']} · study {study.manifest['fingerprint'][:12]}",
-        blocks=with_one_unit(without_gaps(*sections), subject.numbers),
+        footer=" · ".join([*named(subject.case), f"heeltoe {build}", f"{what} {study.manifest['fingerprint'][:12]}"]),
+        blocks=with_one_unit(without_gaps(revisions(subject.case), *sections), subject.numbers),
+        about=tuple((label, plain(words)) for label, words in subject.case.project.rows()),
     )
 
 
@@ -268,7 +271,8 @@ def _base_case(subject: StudySubject) -> Block | None:
 def _varied(subject: StudySubject) -> Section:
     study, blocks = subject.study, list[Block]()
     if study["suite"]:
-        return Section("The dam", subject.figure("section"))
+        text = "All records shake the same dam; the appendix has every field of its case."
+        return Section("The dam", (paragraph(text), *subject.figure("section")))
     drawn = study["samples"] is not None
     how = f"By the method “{study['method']}”"
     how += f", {study['samples']:,} samples, seed {study['seed']}." if drawn else "."
@@ -367,11 +371,17 @@ def _references(subject: StudySubject) -> tuple[str, ...]:
 
 
 def _rerun(subject: StudySubject) -> Section:
+    needed, command = "the study file, its base case and its records", "heeltoe study STUDY.toml --report"
+    if subject.study["suite"]:
+        needed, command = "the case and its records", "heeltoe run CASE.toml --motions RECORDS --report"
     return rerun_section(
-        "With the study file, its base case and its records, this command makes the same numbers again:",
-        subject.command or "heeltoe study STUDY.toml --report",
+        f"With {needed}, this command makes the same numbers again:",
+        subject.command or command,
         subject.results.manifest["build"],
-        paragraph(Strong("Study, SHA-256. "), Code(subject.results.manifest["fingerprint"])),
+        paragraph(
+            Strong("Suite, SHA-256. " if subject.study["suite"] else "Study, SHA-256. "),
+            Code(subject.results.manifest["fingerprint"]),
+        ),
         paragraph(
             "The hash covers the study, every field of the base case in SI units, defaults included, and the samples "
             "of all ground motions, so that the same hash and the same build mean the same numbers."

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.result.judge import LIMITS
+from heeltoe.units.sentences import quantity
 from heeltoe.units.write import NOTHING, digits, length, measured
 from heeltoe.views.content.tree import Block, Code, Inline, Notes, Section, Strong, Table, paragraph
 from heeltoe.views.words.numbers import Amount, in_one_unit
@@ -19,6 +20,7 @@ _DEMANDS = {
     "peak_slip_m": "largest slip",
     "opening_upstream_m": "opening upstream",
     "opening_downstream_m": "opening downstream",
+    "cracked_length_m": "cracked length",
     "crest_displacement_m": "crest displacement",
 }
 _ACCELERATION = "crest_acceleration_g"
@@ -31,7 +33,7 @@ def suite_answer(subject: StudySubject) -> list[Block]:
         return []
     blocks: list[Block] = []
     for row in suite["models"]:
-        sentences = [_governing(row, subject.units), _numbers(row, subject.units)]
+        sentences = [_governing(row, subject.units), _numbers(row, subject.units), *_joints(row, subject.units)]
         blocks.append(paragraph(Strong(f"Answer, {row['model']} model. "), " ".join(filter(None, sentences))))
         judged = _judged(row, suite["judge"])
         missed = [_limit(check, judged, subject.units) for check in row["limits"] if not check["met"]]
@@ -93,6 +95,24 @@ def _numbers(row: Mapping[str, Any], units: str) -> str:
     return f"The mean is {texts[0]}, the median {texts[1]}; 84 % stay below {texts[2]}."
 
 
+def _joints(row: Mapping[str, Any], units: str) -> Iterator[str]:
+    """Say of each bonded joint whether it cracks, and how far."""
+    count = len(row["records"])
+    for joint in row["joints"]:
+        name = "The bonded joint"
+        if len(row["joints"]) > 1 or (
+            row["limits"] and any(check["elevation_m"] is not None for check in row["limits"])
+        ):
+            name += f" at {quantity(joint['elevation_m'], '.4g m', units)}"
+        cracked, largest = joint["records_cracked"], joint["statistics"]["largest"]
+        reach = "not every record has a result" if largest is None else f"over {length(largest, units)}"
+        if count > 1:
+            at_most = "" if largest is None else " at most"
+            yield f"{name} cracks in {cracked} of {count} records{f', {reach}{at_most}' if largest != 0.0 else ''}."
+        else:
+            yield f"{name} cracks {reach}." if cracked else f"{name} does not crack."
+
+
 def _judged(row: Mapping[str, Any], judge: str) -> str:
     return JUDGED[judge] if len(row["records"]) > 1 else "that of the record"
 
@@ -100,6 +120,8 @@ def _judged(row: Mapping[str, Any], judge: str) -> str:
 def _limit(check: Mapping[str, Any], judged: str, units: str) -> str:
     """Say how a number over the records stands to a limit."""
     label, allowed = LIMITS[check["name"]].label, measured(check["allowed"], check["unit"], units)
+    if check["elevation_m"] is not None:
+        label += f" at the joint at {quantity(check['elevation_m'], '.4g m', units)}"
     if check["value"] is None:
         return f"The {label}: {judged} is not finite, {allowed} is allowed."
     used = "" if check["utilisation"] is None else f" ({100.0 * check['utilisation']:.0f} %)"

@@ -139,7 +139,7 @@ OF_STUDIES: dict[str, str] = {
         for mode in ("rest", "sliding", "rocking", "slide_rocking", "drifting")
     },
     "energy_residual": "What is left of the balance of energies, over the turnover.",
-    "cracked_length_m": "Length that is cracked in the end, of a crack that is no bonded joint all of it.",
+    "cracked_length_m": "Length of a bonded joint that is cracked in the end; 0 of a crack without a bond.",
     "crest_acceleration_g": "Largest acceleration of the crest with that of the ground, where a limit is on the crest.",
     "slid_off": "Whether the part above has slid off.",
 }

@@ -124,7 +124,14 @@ OF_OTHERS: dict[str, dict[str, str]] = {
         "suite.models[].records[].opening_upstream_m": "Largest opening at the upstream face.",
         "suite.models[].records[].opening_downstream_m": "Largest opening at the downstream face.",
         "suite.models[].records[].rotation_rad": "Largest rotation either way.",
-        "suite.models[].records[].cracked_length_m": "Length that is cracked in the end.",
+        "suite.models[].records[].cracked_length_m": "Length of a bonded joint that is cracked in the end: the "
+        "largest of all joints.",
+        "suite.models[].records[].joints_cracked_m": "Length of each bonded joint that is cracked in the end, from the "
+        "crest down.",
+        "suite.models[].joints": "The bonded joints, from the crest down.",
+        "suite.models[].joints[].elevation_m": "Elevation of the joint.",
+        "suite.models[].joints[].records_cracked": "In how many records the joint cracks.",
+        "suite.models[].joints[].statistics": "Cracked length of the joint over the records.",
         "suite.models[].records[].crest_displacement_m": "Largest displacement of the crest, where a limit is on it.",
         "suite.models[].records[].crest_acceleration_g": "Largest acceleration of the crest, likewise.",
         "suite.models[].records[].other_sign_residual_slip_m": "Residual slip with the other sign; null without it.",
@@ -140,6 +147,7 @@ OF_OTHERS: dict[str, dict[str, str]] = {
         "suite.models[].governing.sign": "The sign that is the worse one.",
         "suite.models[].limits": "The limits of the case.",
         "suite.models[].limits[].name": "Field of limits in the case.",
+        "suite.models[].limits[].elevation_m": "Of the bonded joint that is judged, where there are several cracks.",
         "suite.models[].limits[].unit": "In what number and limit are counted: m, rad or g.",
         "suite.models[].limits[].value": "The number over the records; null where it is not finite.",
         "suite.models[].limits[].allowed": "How much the case allows.",

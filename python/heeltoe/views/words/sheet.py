@@ -314,8 +314,12 @@ class _Steps:
         formula, worked = "F = μ N / |T|", f"{held} / {_say(abs(self.shear))}"
         if cohesive:
             formula, worked = "F = (C + μ N) / |T|", f"({_say(cohesive)} + {held}) / {_say(abs(self.shear))}"
+        alone: list[Step] = []
+        if cohesive and load_case.friction_factor is not None:
+            by = ("F = μ N / |T|", f"{held} / {_say(abs(self.shear))}")
+            alone = [Step("sliding, friction alone", *by, f"{load_case.friction_factor:.4f}")]
         if load_case.sliding_factor_on_pieces is None:
-            return [Step("sliding", formula, worked, f"{load_case.sliding_factor:.4f}", limit, met)]
+            return [Step("sliding", formula, worked, f"{load_case.sliding_factor:.4f}", limit, met), *alone]
         borne = load_case.sliding_factor_on_pieces * abs(self.shear)
         less = load_case.pieces_bear == "less"
         judged, idle = (limit, met), ("", None)

@@ -18,13 +18,14 @@ from heeltoe.base.arrays import Floats
 from heeltoe.base.blas import one_blas_thread
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
+from heeltoe.models.flexible.body.bonded import bonded_dam
 from heeltoe.models.flexible.body.elastic import Body, dam
 from heeltoe.models.flexible.body.modes import intact_periods
 from heeltoe.models.flexible.body.reservoir import WaterBody, water_body
 from heeltoe.models.flexible.body.rock import rock_material
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.models.flexible.surroundings.reduction import Complexes
-from heeltoe.models.flexible.surroundings.response import IntactDam, WaterOfDam, crest_response
+from heeltoe.models.flexible.surroundings.response import CrestResponse, IntactDam, WaterOfDam, crest_response
 from heeltoe.models.flexible.surroundings.rock import ReducedRock, reduced_rock
 
 # Frequencies among which the first peak is looked for, up to so many times that of the dry dam on a rigid base.
@@ -74,6 +75,11 @@ class SectionForces:
             rock = reduced_rock(intact.base, rock_material(case.rock), highest=farthest * first)
         water = WaterOfDam.of(intact, parts, waves)
         return cls(intact, parts.upper, case.above.heel, case.concrete.damping, water, waves, rock, first)
+
+    def crest(self) -> CrestResponse:
+        """Return how the crest answers up to the farthest frequency at which :func:`first_mode` looks for its peak."""
+        frequencies = np.linspace(0.0, _FARTHEST * self.first, _COUNT)
+        return crest_response(self.dam, frequencies, self.ratio, water=self.water, rock=self.rock)
 
     def at(self, omega: float) -> Complexes:
         """Return the forces (4,) of inertia and moving water for a unit acceleration of the ground downstream like
@@ -129,8 +135,7 @@ def first_mode(case: Case, field: str) -> FirstMode:
         Where the dam has no modulus, or is damped so much that its crest has no peak.
     """
     section = SectionForces.of(case, _FARTHEST)
-    frequencies = np.linspace(0.0, _FARTHEST * section.first, _COUNT)
-    response = crest_response(section.dam, frequencies, section.ratio, water=section.water, rock=section.rock)
+    response = section.crest()
     if response.resonance is None or response.damping is None:
         raise InputError("no-first-mode", field)
     omega = 2.0 * np.pi * response.resonance
@@ -140,3 +145,30 @@ def first_mode(case: Case, field: str) -> FirstMode:
         2.0 * response.damping * section.at(omega).imag,
         -section.at(_STILL * omega).real,
     )
+
+
+@one_blas_thread()
+def first_period(case: Case, field: str) -> float:
+    """Return the first period of a dam with its cracks bonded, its water and its rock as the case has them [s].
+
+    Where waves leave, through rock or through water with sound, it is that of the first peak of the crest's response;
+    without them that of the first mode.
+
+    Parameters
+    ----------
+    case
+        A dam with a modulus.
+    field
+        What asks for it, for errors.
+
+    Raises
+    ------
+    InputError
+        Where the dam has no modulus, or is damped so much that its crest has no peak.
+    """
+    if case.rock is None and not case.has_compressible_water:
+        return float(intact_periods(bonded_dam(case), 1)[0])
+    resonance = SectionForces.of(case, _FARTHEST).crest().resonance
+    if resonance is None:
+        raise InputError("no-first-mode", field)
+    return 1.0 / resonance
