@@ -121,6 +121,7 @@ def circle_in(graph: dict[str, set[str]]) -> list[str]:
     return []
 
 
+@pytest.mark.slow
 def test_no_files_import_each_other_in_a_circle(copy):
     package = copy / "heeltoe"
     assert circle_in(graph_of(package)) == []

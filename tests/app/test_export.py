@@ -217,6 +217,7 @@ def test_only_files_of_the_tab_are_offered(tmp_path):
     assert len(session.offers) <= 40
 
 
+@pytest.mark.slow
 def test_a_tab_that_comes_again_has_what_it_had(ask):
     def enter(**given):
         more = "&".join(f"{name}={value}" for name, value in given.items())

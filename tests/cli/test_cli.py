@@ -447,3 +447,10 @@ def test_examples_are_listed_with_a_line_each(tmp_path):
     ]
     assert all(len(line.strip()) > 10 for line in lines[1::2])
     assert not list(tmp_path.iterdir())
+
+
+def test_a_friction_law_that_is_none_is_refused_with_those_that_are():
+    result = command("law", "barton")
+    assert result.returncode == 2
+    assert result.stderr.startswith("heeltoe: law: barton is not a friction law")
+    assert "barton-bandis" in result.stderr

@@ -117,6 +117,7 @@ def test_anchors_that_a_slip_has_crossed_are_counted_with_and_without():
     assert "anchors-after-slip" not in codes(heeltoe.statics(case, 0.001))
 
 
+@pytest.mark.slow
 def test_a_kinked_crack_at_rest_makes_no_energy():
     case = example("stepped-crack", "motion.pga=0.001g", "motion.duration=2s", "flexible.evidence=none", ENDS)
     still = GroundMotion.from_points([0.0, 1.0], [0.0, 0.0])

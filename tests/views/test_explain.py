@@ -125,6 +125,7 @@ def test_every_key_of_the_json_is_explained(results):
     assert sorted(unknown) == []
 
 
+@pytest.mark.slow
 def test_every_key_that_is_explained_is_there(results):
     there = {
         re.sub(r"^(beside|motions|sections\.statics)\.", "", path) for data in results.values() for path in keys(data)

@@ -43,6 +43,7 @@ def failing(*_, **__):
     raise OSError(28, "No space left on device")
 
 
+@pytest.mark.slow
 def test_files_of_both(typical_written):
     directory, paths = typical_written
     written = {str(path.relative_to(directory)) for path in paths}

@@ -55,6 +55,7 @@ def pages_of(document):
         yield page[int(20 * one) : int(275 * one) - 2]
 
 
+@pytest.mark.slow
 def test_pages_are_full(document):
     import numpy as np
 

@@ -62,6 +62,7 @@ def surrounded(friction=1.2, modulus="20 GPa", sound=True, elevation=0.0, **rock
     return build_flexible_dam(case.with_(changes))
 
 
+@pytest.mark.slow
 def test_rock_and_water_take_a_part_of_it():
     assert growth_of(surrounded(modulus="20000 GPa", sound=False), [1.2])[0] == pytest.approx(
         growth_of(build_flexible_dam(typical(1.2, 4)), [1.2])[0], rel=0.03

@@ -86,6 +86,7 @@ def test_compressible_water_counts_as_a_mass_and_the_screen_says_so(capsys):
 
 
 # Pine Flat, rigid rock, compressible water: 2.53 Hz (Samii and Lotfi 2007), 2.60 Hz (Gorai and Maity 2020).
+@pytest.mark.slow
 def test_pine_flat_amplifies_where_others_find_it():
     periods = dam_periods(example("pine-flat", "flexible.elements_across=8"), 1, response=True)
     curves = {(curve.rock, curve.water): curve.response for curve in periods.amplification.curves}

@@ -65,6 +65,7 @@ def test_where_sliding_is_stable_a_stiff_dam_is_the_rigid_one():
         assert abs(too_far(case)) < 0.003
 
 
+@pytest.mark.slow
 def test_where_sliding_flutters_a_stiff_dam_slides_farther():
     # 3.4 %, with 3, 8 or 16 elements along the crack; growth 69 1/s at a period of 3.3 ms.
     assert growth(stiff()) == pytest.approx(69.0, rel=0.02)

@@ -84,7 +84,9 @@ def check(seed: int) -> float | None:
     return float(run.summary.contact_residual)
 
 
-@pytest.mark.parametrize("count", [20, pytest.param(300, marks=pytest.mark.product)])
+@pytest.mark.parametrize(
+    "count", [pytest.param(20, marks=pytest.mark.slow), pytest.param(300, marks=pytest.mark.product)]
+)
 def test_random_cracks_with_random_laws_end(count):
     result = [check(seed) for seed in range(count)]
     ran = [item for item in result if item is not None]

@@ -85,12 +85,13 @@ def test_a_cantilever_has_the_bending_stress_of_a_beam(across):
 # The run
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "options",
-    [{}, pytest.param({"contact": "idce", "damping": "stiffness"}, marks=pytest.mark.slow)],
+    [{}, {"contact": "idce", "damping": "stiffness"}],
     ids=["exact contact", "penalties"],
 )
-@pytest.mark.parametrize("elevation", [pytest.param(0.0, marks=pytest.mark.slow), 12.0])
+@pytest.mark.parametrize("elevation", [0.0, 12.0])
 def test_it_is_the_largest_of_all_moments(elevation, options):
     response = shaken(elevation=elevation, output_step=2e-3, flexible=options)
     history = response.crack
