@@ -24,7 +24,7 @@ from heeltoe.app.desk import Desk
 from heeltoe.app.guard import Guard
 from heeltoe.app.sessions import Session, Sessions, TooManyError
 from heeltoe.app.settings import Settings
-from heeltoe.app.transfers import gone, take
+from heeltoe.app.transfers import answer_offer, gone, take
 from heeltoe.app.workers import Workers
 
 _PAGE = Path(__file__).parent / "page"
@@ -75,7 +75,7 @@ def application(settings: Settings) -> Starlette:
     async def download(request: Request) -> Response:
         # What only looks at the head of a file shall not use up its link.
         offer = sessions.take(request.path_params["key"]) if request.method == "GET" else None
-        return gone() if offer is None else offer.answer()
+        return gone() if offer is None else answer_offer(offer)
 
     return Starlette(
         routes=[

@@ -12,10 +12,8 @@ from typing import TYPE_CHECKING, Any
 from heeltoe.app.settings import Settings
 
 if TYPE_CHECKING:
-    from heeltoe.app.case.draft import Draft
     from heeltoe.app.jobs import Job, Tell
-    from heeltoe.app.studies.actions import Made
-    from heeltoe.app.transfers import Offer
+    from heeltoe.app.state import Draft, Made, Offer
     from heeltoe.case.model import Case
 
 

@@ -6,7 +6,6 @@ Offered files stand behind addresses that nobody can guess and that serve once."
 from __future__ import annotations
 
 import secrets
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, R
 
 from heeltoe.app.sessions import Session, Sessions
 from heeltoe.app.settings import Settings
+from heeltoe.app.state import Offer
 
 
 async def take(request: Request, session: Session, sessions: Sessions, settings: Settings) -> Response:
@@ -70,30 +70,6 @@ def _refused(status: int, text: str) -> Response:
 _MOST = 40
 
 
-@dataclass(frozen=True)
-class Offer:
-    """A file that may be fetched once.
-
-    Attributes
-    ----------
-    path
-        Where it is.
-    name
-        What the browser calls it.
-    """
-
-    path: Path
-    name: str
-
-    def answer(self) -> Response:
-        """Return the file, to be kept and never to be shown as a page of this server."""
-        if not self.path.is_file():
-            return gone()
-        return FileResponse(
-            self.path, media_type="application/octet-stream", filename=self.name, headers={"Cache-Control": "no-store"}
-        )
-
-
 def offer(session: Session, path: Path, name: str) -> dict[str, Any]:
     """Return where a tab can fetch a file of its folder once."""
     if not path.resolve().is_relative_to(session.folder.resolve()):
@@ -108,3 +84,12 @@ def offer(session: Session, path: Path, name: str) -> dict[str, Any]:
 def gone() -> Response:
     """Return what is behind an address that serves no file, or has served it."""
     return PlainTextResponse("This address holds no file, or the file has been fetched; ask the page again.", 404)
+
+
+def answer_offer(offer: Offer) -> Response:
+    """Return the file, to be kept and never to be shown as a page of this server."""
+    if not offer.path.is_file():
+        return gone()
+    return FileResponse(
+        offer.path, media_type="application/octet-stream", filename=offer.name, headers={"Cache-Control": "no-store"}
+    )

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from heeltoe.case.model import Case
-    from heeltoe.cli.run import RunOptions
+    from heeltoe.cli.options import RunOptions
     from heeltoe.study.answers.study_results import StudyResults
     from heeltoe.study.run.run import Outlook, Progress
 

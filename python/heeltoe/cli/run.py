@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from typer.core import TyperCommand
@@ -22,8 +21,6 @@ from heeltoe.cli.common import (
     Peak,
     Workbook,
     check_json,
-    check_units,
-    check_written,
     command_line,
     finish,
     motion_changes,
@@ -33,7 +30,7 @@ from heeltoe.cli.common import (
     units_of,
 )
 from heeltoe.cli.many import Suite, run_suite_command
-from heeltoe.errors.error import InputError
+from heeltoe.cli.options import RunOptions
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
@@ -177,57 +174,6 @@ def run(
             raise InputError("fields-conflict", "--sa", other="--pga")
         changes = [*changes, _scaling_to_sa(read_case(case, changes), sa)]
     _run(case, changes, reverse, output_step, request)
-
-
-@dataclass(frozen=True)
-class RunOptions:
-    """What is asked for beside the case, as it was typed."""
-
-    model: str
-    spread: str | None
-    json: str | None
-    out: Path | None
-    units: str | None
-    csv: bool
-    vtk: bool
-    vary: list[str] | None
-    report: bool
-    details: bool
-    xlsx: bool
-
-    @property
-    def suffix(self) -> str:
-        """Of tables."""
-        return ".csv" if self.csv else ".parquet"
-
-    def check(self) -> None:
-        """Refuse what cannot be, or does not go together, before anything is read."""
-        from heeltoe.models.run import check_model
-
-        check_model(self.model, "--model")
-        check_units(self.units)
-        check_written(self.out, report=self.report, xlsx=self.xlsx, others={})
-        if self.vtk and self.out is None and not self.report:
-            raise InputError("vtk-without-out", "--vtk")
-        if self.vary:
-            refuse({"--vtk": self.vtk, "--spread": self.spread is not None, "--report": self.report}, "vary-option")
-
-    def check_elastic(self, case: Case) -> None:
-        """Refuse what shows elastic parts where there are none."""
-        from heeltoe.models.run import models_of
-
-        if self.vtk and "flexible" not in models_of(case, self.model)[0]:
-            raise InputError("vtk-rigid", "--vtk")
-
-    def runs(self) -> int | Literal["cheap"] | None:
-        """Return how many runs with the shaking varied are asked for; a report has what costs little without asking."""
-        if self.spread is None:
-            return "cheap" if self.report else None
-        if self.spread == "none":
-            return None
-        from heeltoe.study.small.spread import RUNS, check_runs
-
-        return check_runs(self.spread or RUNS, "--spread")
 
 
 def _run(path: str, changes: FieldChanges, reverse: bool, output_step: str | None, request: RunOptions) -> None:

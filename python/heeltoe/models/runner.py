@@ -34,9 +34,10 @@ STEP = 2.5
 BOUNCY, HAIR = 0.7, 1e-9
 # A slip is determined where that of the twin differs by less than this part of it, or than a joint meter reads.
 _CHAOTIC = 0.01
-# A dam that slides in the last quarter of its free motion by this part of the quarter before, or more, does not slow
-# down: one that keeps sliding as it vibrates does so within 0.4 %. Less free motion [s] does not show that.
-_AS_FAST, _LEAST_SILENCE = 0.99, 2.0
+# What slides in the last quarter of its free motion by this part of the quarter before, or more, does not slow down: a
+# block but for rounding, an elastic dam within the 0.4 % by which one that slides on as it vibrates does so. Less free
+# motion [s] does not show that.
+_AS_FAST, _AS_FAST_VIBRATING, _LEAST_SILENCE = 1.0 - 1e-6, 0.99, 2.0
 #: Where in the free motion after the record the slip is looked at to see that.
 _QUARTERS = (0.5, 0.75)
 
@@ -161,7 +162,7 @@ def until_rest(
     return last if reach(last) < math.inf else whole
 
 
-def keeps_sliding(slips: Floats, silence: float) -> NDArray[np.bool_]:
+def keeps_sliding(slips: Floats, silence: float, as_fast: float = _AS_FAST) -> NDArray[np.bool_]:
     """Return which runs do not slow down in the free motion after the record, (...,).
 
     Parameters
@@ -170,16 +171,18 @@ def keeps_sliding(slips: Floats, silence: float) -> NDArray[np.bool_]:
         (..., 3) slips in the middle of the free motion, after three quarters of it, and at its end [m].
     silence
         How long it is [s].
+    as_fast
+        What the last quarter is at least of the quarter before, of one that does not slow down.
     """
     before, now = np.moveaxis(np.abs(np.diff(slips)), -1, 0)
-    return np.asarray((silence >= _LEAST_SILENCE) & (now > JOINT_METER_M) & (now >= _AS_FAST * before))
+    return np.asarray((silence >= _LEAST_SILENCE) & (now > JOINT_METER_M) & (now >= as_fast * before))
 
 
 def slides_on(time: Floats, slip: Floats, silence: float) -> bool:
-    """Whether a history of slip [m] that ends with a free motion so long [s] shows a dam that does not slow down."""
+    """Whether the slip [m] of an elastic dam, which ends with a free motion so long [s], does not slow down."""
     parts = np.array([*_QUARTERS, 1.0])
     moments = time[-1] - silence * (1.0 - parts)
-    return bool(keeps_sliding(np.interp(moments, time, slip), silence))
+    return bool(keeps_sliding(np.interp(moments, time, slip), silence, _AS_FAST_VIBRATING))
 
 
 def block_until_rest(

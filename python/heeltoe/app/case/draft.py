@@ -8,10 +8,10 @@ from __future__ import annotations
 import copy
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.app.case.files import as_sent, of_this_machine, unsent
+from heeltoe.app.state import Draft
 from heeltoe.case.changes import apply
 from heeltoe.case.lists import as_blocks
 from heeltoe.case.model import problems
@@ -24,32 +24,6 @@ if TYPE_CHECKING:
 
 #: Letters that a case may have as JSON, and edits that can be taken back.
 LARGEST, MOST_STEPS = 200_000, 50
-
-
-@dataclass(eq=False)
-class Draft:
-    """The fields of a case as they were typed.
-
-    Attributes
-    ----------
-    fields
-        As a case file has them.
-    errors
-        What is wrong with them.
-    case
-        The case in force that goes with them: theirs where they are sound, else the last one that was.
-    undo, redo
-        Fields as they were.
-    step
-        Edits of one step are taken back together: all letters of a word, all of a drag.
-    """
-
-    fields: dict[str, Any]
-    errors: list[InputError] = field(default_factory=list)
-    case: Case | None = None
-    undo: list[dict[str, Any]] = field(default_factory=list)
-    redo: list[dict[str, Any]] = field(default_factory=list)
-    step: object = None
 
 
 def draft_of(session: Session) -> Draft:

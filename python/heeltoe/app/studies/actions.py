@@ -3,39 +3,18 @@
 from __future__ import annotations
 
 import shutil
-from dataclasses import dataclass
 from functools import partial
 from itertools import count
-from pathlib import Path
 from typing import Any
 
 from heeltoe.app.answer import aside, start
 from heeltoe.app.desk import BadRequestError, Desk, Entry, Request, number, text
 from heeltoe.app.sessions import Session
+from heeltoe.app.state import Made
 from heeltoe.app.transfers import offer
 from heeltoe.errors.error import InputError
 
 _NUMBERS = count(1)
-
-
-@dataclass(eq=False)
-class Made:
-    """A study of a tab.
-
-    Attributes
-    ----------
-    number, title
-        For the page.
-    folder
-        Of its file, its case, its records and its runs.
-    job
-        The number of its run.
-    """
-
-    number: int
-    title: str
-    folder: Path
-    job: int
 
 
 async def form(desk: Desk, request: Request) -> dict[str, Any]:

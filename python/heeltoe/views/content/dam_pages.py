@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -14,13 +14,11 @@ from heeltoe.errors.sanitize import plain
 from heeltoe.units.parse import DIMENSIONS, STANDARD_GRAVITY
 from heeltoe.units.write import digits
 from heeltoe.views.content.drawings import drawing
+from heeltoe.views.content.study_subject import StudySubject
 from heeltoe.views.content.tree import Block, Code, Inline, Section, Strong, Table, paragraph
 from heeltoe.views.words.fields import shown
 from heeltoe.views.words.numbers import Amount, in_one_unit
 from heeltoe.views.words.studies import limit_of
-
-if TYPE_CHECKING:
-    from heeltoe.views.content.study import StudySubject
 
 #: Dams that have a page, and the motions that each shows.
 PAGES, _MOTIONS = 10, 12

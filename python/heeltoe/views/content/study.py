@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 from heeltoe.mechanics.references import cited
@@ -32,12 +30,12 @@ from heeltoe.views.content.study_answers import (
     portfolio_section,
     results,
 )
+from heeltoe.views.content.study_subject import StudySubject
 from heeltoe.views.content.suite import suite, suite_answer
 from heeltoe.views.content.tree import (
     Block,
     Code,
     Document,
-    FigureBlock,
     Notes,
     References,
     Section,
@@ -72,50 +70,6 @@ _CAPTIONS |= {
     "suite-spectra": "Response spectra of the records as they shake the dam, with mean and any target.",
 }
 _SOURCES = {"fragility": ("fragility", "likelihood", "jackknife"), "measures": ("measures",), "sensitivity": ("sobol",)}
-
-
-@dataclass(frozen=True, eq=False)
-class StudySubject:
-    """What the report is about.
-
-    Attributes
-    ----------
-    found
-        The study.
-    directory
-        Where relative paths of its base case start.
-    numbers
-        Writes the numbers of the study's JSON.
-    figures
-        Of the study, by name.
-    command
-        What was typed; empty if it was not typed.
-    """
-
-    results: StudyResults
-    directory: Path
-    numbers: Numbers
-    figures: Mapping[str, FigureBlock]
-    command: str
-
-    @cached_property
-    def case(self) -> Case:
-        """Its base case."""
-        return Case.of(self.results.manifest["case"], self.directory)
-
-    @property
-    def study(self) -> dict[str, Any]:
-        """The study file as read."""
-        return dict(self.results.manifest["study"])
-
-    @property
-    def units(self) -> str:
-        """The name of the units, ``"si"`` or ``"us"``."""
-        return self.numbers.units.name
-
-    def figure(self, *names: str) -> tuple[FigureBlock, ...]:
-        """Return those of the figures that are there."""
-        return tuple(self.figures[name] for name in names if name in self.figures)
 
 
 def study_subject(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -16,12 +16,10 @@ from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.answers import MODES
 from heeltoe.study.answers.hazard import FRACTILES
 from heeltoe.units.write import NOTHING, digits, measured, scaled
+from heeltoe.views.content.study_subject import StudySubject
 from heeltoe.views.content.tree import Block, Code, Inline, Section, Strong, Table, paragraph
 from heeltoe.views.words.numbers import Amount, in_one_unit, kind
 from heeltoe.views.words.studies import ABOUT_CRACKS, TRAITS, ends_of, left_out, limit_of, limits_of, strength_scale
-
-if TYPE_CHECKING:
-    from heeltoe.views.content.study import StudySubject
 
 _SHARES = (("50%", "half stay below"), ("84%", "84 % stay below"), ("95%", "95 % stay below"), ("largest", "largest"))
 _NAMES = {"pga": "PGA", "pgv": "PGV", "sa": "SA", "arias": "Arias intensity", "housner intensity": "Housner intensity"}

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from heeltoe.result.judge import LIMITS
 from heeltoe.units.sentences import quantity
 from heeltoe.units.write import NOTHING, digits, length, measured
+from heeltoe.views.content.study_subject import StudySubject
 from heeltoe.views.content.tree import Block, Code, Inline, Notes, Section, Strong, Table, paragraph
 from heeltoe.views.words.numbers import Amount, in_one_unit
 from heeltoe.views.words.studies import JUDGED, STATISTICS
-
-if TYPE_CHECKING:
-    from heeltoe.views.content.study import StudySubject
 
 _DEMANDS = {
     "residual_slip_m": "residual slip",

@@ -1,0 +1,72 @@
+"""What a session holds: the case as it was typed, studies, and files on offer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from heeltoe.case.model import Case
+from heeltoe.errors.error import InputError
+
+
+@dataclass(eq=False)
+class Draft:
+    """The fields of a case as they were typed.
+
+    Attributes
+    ----------
+    fields
+        As a case file has them.
+    errors
+        What is wrong with them.
+    case
+        The case in force that goes with them: theirs where they are sound, else the last one that was.
+    undo, redo
+        Fields as they were.
+    step
+        Edits of one step are taken back together: all letters of a word, all of a drag.
+    """
+
+    fields: dict[str, Any]
+    errors: list[InputError] = field(default_factory=list)
+    case: Case | None = None
+    undo: list[dict[str, Any]] = field(default_factory=list)
+    redo: list[dict[str, Any]] = field(default_factory=list)
+    step: object = None
+
+
+@dataclass(eq=False)
+class Made:
+    """A study of a tab.
+
+    Attributes
+    ----------
+    number, title
+        For the page.
+    folder
+        Of its file, its case, its records and its runs.
+    job
+        The number of its run.
+    """
+
+    number: int
+    title: str
+    folder: Path
+    job: int
+
+
+@dataclass(frozen=True)
+class Offer:
+    """A file that may be fetched once.
+
+    Attributes
+    ----------
+    path
+        Where it is.
+    name
+        What the browser calls it.
+    """
+
+    path: Path
+    name: str
