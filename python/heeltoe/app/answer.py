@@ -4,6 +4,7 @@ it rests, and with evidence on a button."""
 from __future__ import annotations
 
 import asyncio
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -60,16 +61,18 @@ async def decoupled(desk: Desk, request: Request) -> dict[str, Any]:
 
 
 async def elastic(desk: Desk, request: Request) -> dict[str, Any]:
-    """Run the elastic dam without evidence with the sliders where they are; without values the tab waits for it no
-    longer. The next one takes the place of one that runs."""
+    """Run the elastic dam without evidence with the sliders where they are, `long` or not; without values the tab waits
+    for it no longer. The next one takes the place of one that runs."""
+    from heeltoe.app.live import LONGEST_S
     from heeltoe.app.live import elastic as work
 
     session = desk.session
     if request.get("values") is None:
         return {"of": "elastic stopped"}
     changes = changes_of(session, request.get("values"))
+    longest = math.inf if request.get("long") is True else LONGEST_S
     try:
-        payload = await desk.workers.until_cancelled(work, session.case, changes, session.units)
+        payload = await desk.workers.until_cancelled(work, session.case, changes, session.units, longest)
     except WorkerLostError:
         payload = {"waits": LOST}
     session.elastic = payload.get("left")

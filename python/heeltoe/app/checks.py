@@ -27,6 +27,14 @@ _NOT_IN_RESPONSE: Any = {
     "uplift": True,
     "crack": {"friction", "restitution", "bond"},
 }
+# What the page says of checks whose slip is not that of the elastic dam with the sliders as they stand.
+_BLOCK_SLIP = (
+    "Provisional: the slip after the earthquake is that of the rigid block, until the elastic dam has run with the "
+    "sliders as they stand."
+)
+_NO_SLIP = (
+    "Provisional: no slip is taken after the earthquake, until the elastic dam has run with the sliders as they stand."
+)
 _RESPONSES: Kept[Amplification] = Kept(4)
 
 
@@ -61,34 +69,40 @@ async def spread(desk: Desk, request: Request) -> dict[str, Any]:
     return start(desk, "spread", spread_of, session.case, changes, model, session.units)
 
 
-def _judged(case: Case, left: Sequence[Mapping[str, Any]]) -> Joints:
+def _judged(case: Case, left: Sequence[Mapping[str, Any]]) -> tuple[Joints, str]:
     """Return the static checks at every section, with the slips of the elastic dam where that has been run as it is
-    now, or else of the rigid block where that knows the case."""
+    now, or else of the rigid block where that knows the case; and what makes their slip provisional, if anything."""
     from heeltoe.case.combinations import UNSUPPORTED
     from heeltoe.errors.error import InputError
-    from heeltoe.models.run import earthquake, live
+    from heeltoe.models.run import earthquake, live, models_of
     from heeltoe.models.statics.after import joints_after
     from heeltoe.models.statics.joints import statics_of_sections
     from heeltoe.models.statics.model import statics as judge
 
     if case.motion is None:
-        return statics_of_sections(case)
+        return statics_of_sections(case), ""
+    awaited = case.statics.residual_slip is None and "flexible" in models_of(case)[0]
     now = case.without_evidence().model_dump_json()
     elastic = next((run for run in reversed(left) if run["case"] == now and run["slips_m"]), None)
     if elastic is not None and case.statics.residual_slip is None:
 
         def after(alone: Case, place: int | None) -> Statics:
-            slip = elastic["slips_m"].get(f"{alone.crack.elevation:g}")
-            return judge(alone) if slip is None else judge(alone, slip, slip_source=elastic["source"])
+            level = f"{alone.crack.elevation:g}"
+            slip, held = elastic["slips_m"].get(level), elastic["ligaments_m"].get(level)
+            if slip is None:
+                return judge(alone)
+            # What still holds has not slid.
+            kept, ligament = (slip, None) if held is None else (0.0, (held[0], held[1]))
+            return judge(alone, kept, slip_source=elastic["source"], ligament=ligament, beside=("flexible",))
 
-        return statics_of_sections(case, after)
+        return statics_of_sections(case, after), ""
     try:
         response = live(case, "rigid", earthquake(case))
     except InputError as error:
         if error.code != UNSUPPORTED:
             raise
-        return statics_of_sections(case)
-    return joints_after(case, lambda: (response,))
+        return statics_of_sections(case), _NO_SLIP if awaited else ""
+    return joints_after(case, lambda: (response,)), _BLOCK_SLIP if awaited else ""
 
 
 def checked(
@@ -106,7 +120,7 @@ def checked(
 
     try:
         changed = case.with_(changes) if changes else case
-        judged = _judged(changed, left)
+        judged, provisional = _judged(changed, left)
         if spectrum:
             if spectrum != OF_MOTION and not spectrum.startswith(STANDARDS):
                 raise InputError("target-form", "spectrum", spectrum)
@@ -123,6 +137,7 @@ def checked(
         ]
     return {
         "ok": judged.ok,
+        "provisional": provisional,
         "verdict": answer_of(judged, units) if several else verdict_of(judged.governing.statics),
         "failed": missed,
         "basis": basis(judged.governing.statics, units),

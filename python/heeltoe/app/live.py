@@ -12,7 +12,7 @@ from heeltoe.case.combinations import UNSUPPORTED
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.models.run import AUTO, cost_of, earthquake, live, models_of, run
-from heeltoe.models.statics.after import slip_source
+from heeltoe.models.statics.after import ligament_of, slip_source
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.comparison import meaning
 from heeltoe.result.response import Response
@@ -55,8 +55,8 @@ def refused(error: InputError) -> dict[str, Any]:
     return {"error": {"field": error.field, "text": str(error), "problem": error.problem, "remedy": error.remedy}}
 
 
-def elastic(case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any]:
-    """Return what the elastic dam does, without evidence, or why that is not computed by itself."""
+def elastic(case: Case, changes: Mapping[str, Any], units: str, longest_s: float = LONGEST_S) -> dict[str, Any]:
+    """Return what the elastic dam does, without evidence, or why that is not computed by itself: it takes longer."""
     began = perf_counter()
     try:
         changed = (case.with_(changes) if changes else case).without_evidence()
@@ -64,8 +64,8 @@ def elastic(case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any
         if "flexible" not in names:
             return {"absent": f"The elastic dam cannot be run: {why}."}
         cost = cost_of(changed, "flexible")
-        if cost is not None and cost.seconds > LONGEST_S:
-            return {"waits": f"It takes about {cost.seconds:.0f} s: it is run with its button."}
+        if cost is not None and cost.seconds > longest_s:
+            return {"waits": f"The elastic dam takes about {cost.seconds:.0f} s, and does not follow the sliders."}
         response = run(changed, "flexible")
     except InputError as error:
         return refused(error)
@@ -93,5 +93,6 @@ def _elastic(case: Case, response: Response, units: str) -> dict[str, Any]:
         "case": case.without_evidence().model_dump_json(),
         "source": slip_source(response),
         "slips_m": {f"{crack.elevation:g}": crack.residual_slip_m for crack in response.cracks} if known else {},
+        "ligaments_m": {f"{crack.elevation:g}": ligament_of(crack) for crack in response.cracks} if known else {},
     }
     return drawn(response, units) | {"dam": dam(case, response, units), "left": left}

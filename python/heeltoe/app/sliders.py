@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from heeltoe.case.model import Case
+from heeltoe.units.sentences import quantity
 from heeltoe.units.systems import FOOT, unit_system
 
 # Where drains are put that the case does not have: a part of the width of the crack.
@@ -48,18 +49,31 @@ class Slider:
 
 def sliders(case: Case, units: str) -> list[Slider]:
     """Return the sliders of a case, each where the case is."""
-    crack = case.crack
+    crack, which = case.crack, _which(case, units)
     pga = None if case.motion is None or case.motion.pga is None else case.motion.pga.si(case.gravity) / case.gravity
     efficiency = case.uplift.drain_efficiency
     no_water = "" if case.reservoir else "The case has no reservoir."
-    return [
+    of_crack = [
         _friction(case),
-        _with(_water(case, units)),
         _with(Slider("crack.restitution", "Restitution", 0.0, 1.0, 0.01, crack.restitution)),
         *_strengths(case, units),
+    ]
+    friction, *others = (replace(slider, label=slider.label + which) for slider in of_crack)
+    return [
+        friction,
+        _with(_water(case, units)),
+        *others,
         _with(Slider("motion.pga", "Peak acceleration", 0.02, 1.0, 0.01, pga or 0.4, "g")),
         Slider("uplift.drain_efficiency", "Drain efficiency", 0.0, 1.0, 0.01, efficiency or 0.0, off=no_water),
     ]
+
+
+def _which(case: Case, units: str) -> str:
+    """Say which of several cracks a slider is of."""
+    if not case.further_cracks:
+        return ""
+    kind = "crack" if case.crack.bond is None else "joint"
+    return f", {kind} at {quantity(case.crack.elevation, '.4g m', units)}"
 
 
 def _friction(case: Case) -> Slider:

@@ -30,8 +30,8 @@ Order = Annotated[int, Field(strict=True, ge=1, le=10)]
 class Step(Fields):
     """A step of processing."""
 
+    # Whether it multiplies the motion by a number; a vertical component is then multiplied by the same.
     scales: ClassVar[bool] = False
-    """Whether it multiplies the motion by a number; a vertical component is then multiplied by the same."""
 
 
 class Baseline(Step):

@@ -83,6 +83,13 @@ export class Card {
     this.hide(false);
   }
 
+  /** Say what stands in the way of a result, with the button that makes it. @param {string} why @param {HTMLElement} button */
+  offer(why, button) {
+    this.verdict.replaceChildren(element("p", {}, why), element("p", {}, button));
+    this.content.replaceChildren();
+    this.hide(false);
+  }
+
   /** @param {string} why Why it is not of the sliders as they stand; empty where it is. */
   mark(why) {
     for (const part of [this.root, this.details]) part.classList.toggle("stale", why !== "");

@@ -53,7 +53,9 @@ export class StaticChecks {
     }
     const rows = answer.checks.map((/** @type {any} */ { cells, met }) => element("tr", {}, ...cells.map((/** @type {string} */ cell) => element("td", {}, cell)), element("td", { class: met ? "" : "bad" }, met ? "met" : "fails")));
     const basis = answer.basis.map((/** @type {[string, string]} */ [label, text]) => element("tr", {}, element("th", { scope: "row" }, label), element("td", {}, text)));
+    const mark = answer.provisional ? [element("p", { class: "provisional", role: "status" }, answer.provisional)] : [];
     this.content.replaceChildren(
+      ...mark,
       element("p", { class: answer.ok ? "" : "bad" }, answer.failed.length ? `${answer.verdict.replace(/\.$/, "")}: ${answer.failed.join("; ")}.` : answer.verdict),
       table("Checks", ["load case", "check", "is", "required", ""], rows),
       element("table", { class: "numbers facts", "aria-label": "What the checks rest on" }, element("tbody", {}, ...basis)),

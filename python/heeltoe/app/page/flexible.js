@@ -38,7 +38,15 @@ export class FlexibleRun {
     this.status.classList.add("status");
     this.about = element("p", { class: "faint status" }, EVIDENCE);
     this.root = element("div", { class: "slider" }, run.start, run.cancel, run.bar, run.status, this.about);
+    /** Runs a dam that takes too long to follow the sliders. */
+    this.long = element("button", { type: "button", class: "main", onclick: () => this.runLong() }, "Run the elastic dam");
     talk.on("elastic", (answer) => this.hear(answer));
+  }
+
+  runLong() {
+    this.long.toggleAttribute("disabled", true);
+    this.card.mark("computing");
+    this.serial = this.talk.ask("elastic", { values: this.values(), long: true });
   }
 
   /** @param {string} why The elastic dam cannot be run; empty where it can. */
@@ -64,6 +72,7 @@ export class FlexibleRun {
     // Nobody waits for what runs.
     if (this.serial) this.talk.ask("elastic", { values: null });
     this.serial = 0;
+    this.long.toggleAttribute("disabled", false);
     if (!this.can) return;
     if (this.shown >= 0) this.card.mark("updating");
     this.resting = setTimeout(() => {
@@ -75,6 +84,7 @@ export class FlexibleRun {
   hear(answer) {
     if (answer.serial !== this.serial) return;
     this.serial = 0;
+    this.long.toggleAttribute("disabled", false);
     // That with evidence was there sooner.
     if (this.sure && this.shown === this.position) return;
     this.status.textContent = answer.absent || "";
@@ -82,7 +92,8 @@ export class FlexibleRun {
       this.shown = -1;
       // What cannot be has no card; what waits for its button says so where its number will be.
       if (answer.absent) this.card.hide(true);
-      else this.card.show(answer.waits ? { absent: answer.waits } : answer);
+      else if (answer.waits) this.card.offer(answer.waits, this.long);
+      else this.card.show(answer);
       this.card.mark("");
       this.done(null);
       return;
