@@ -33,7 +33,9 @@ def hazard_figure(study: StudyResults, units: str = "si") -> Figure | None:
     strength = measured(settings["measure"], settings["period"], units)
     limits = limits_of([(row["limit"], row["value"]) for row in rows], units)
     several = len({row["model"] for row in rows}) > 1
-    names = [limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "") for row in rows]
+    names = [
+        limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "") + _least(row) for row in rows
+    ]
     known = any(row["by_event"] for row in rows)
     events = _events(rows)
     below = 1.3 + 0.2 * max(len(events), 2 * len(rows))
@@ -48,6 +50,9 @@ def hazard_figure(study: StudyResults, units: str = "si") -> Figure | None:
     for place, (row, label) in enumerate(zip(rows, names, strict=True)):
         colour, dash = LINES[place % len(LINES)]
         left.axhline(row["annual_rate"], color=colour, linestyle=dash, linewidth=1.3)
+        high = row["annual_rate_bounds"][1]
+        if high is not None and high > row["annual_rate"]:
+            left.axhline(high, color=colour, linestyle=":", linewidth=1.0)
         if row["annual_rate_interval"] is not None:
             left.axhspan(*row["annual_rate_interval"], color=colour, alpha=0.12, linewidth=0.0)
         edges = np.array([row["contribution"][0]["from"], *(part["to"] for part in row["contribution"])])
@@ -67,7 +72,11 @@ def hazard_figure(study: StudyResults, units: str = "si") -> Figure | None:
         _fractiles(fractiles, rows)
         _shares(shares, rows, events)
     figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8)
-    return headed(figure, study, "fragility over hazard")
+    return headed(figure, study, "fragility over hazard; dotted: at most, with motions beyond the hazard curve")
+
+
+def _least(row: Mapping[str, Any]) -> str:
+    return " (at least)" if row["annual_rate_bounds"][1] is None else ""
 
 
 def _events(rows: Sequence[Mapping[str, Any]]) -> list[str]:
