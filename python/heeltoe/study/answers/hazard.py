@@ -101,28 +101,27 @@ def motions_of(strength: Floats, rate: Floats, width: float) -> Motions:
         In how much of the logarithm of the strength a fragility curve rises.
     """
     known, hazard = np.log(strength), np.log(rate)
-    slopes = -np.diff(hazard) / np.diff(known)
     edges = np.geomspace(strength[0], strength[-1], _GROUPS + 1)
     cuts = np.unique(np.concatenate([known, np.log(edges[1:-1])]))
     node, weight = np.polynomial.legendre.leggauss(_NODES)
     nodes, rates = list[Floats](), list[Floats]()
     for start, stop in pairwise(cuts.tolist()):
-        stretch = min(max(int(np.searchsorted(known, (start + stop) / 2.0)) - 1, 0), slopes.size - 1)
-        k = float(slopes[stretch])
-        pieces = max(1, math.ceil((stop - start) * max(k, 1.0 / width)))
-        ends = np.linspace(start, stop, pieces + 1)
+        stretch = int(np.searchsorted(known, start, side="right")) - 1
+        length, fall = known[stretch + 1] - known[stretch], hazard[stretch] - hazard[stretch + 1]
+        # Parts of the stretch, by which even one that is all but upright has the rate of its ends.
+        first, last = (start - known[stretch]) / length, (stop - known[stretch]) / length
+        ends = np.linspace(first, last, math.ceil((last - first) * max(fall, length / width)) + 1)
         half = (ends[1:] - ends[:-1]) / 2.0
         at = (ends[:-1] + half)[:, None] + half[:, None] * node
-        level = hazard[stretch] - k * (at - known[stretch])
-        nodes.append(at.ravel())
-        rates.append((half[:, None] * weight * k * np.exp(level)).ravel())
+        nodes.append((known[stretch] + at * length).ravel())
+        rates.append((half[:, None] * weight * fall * np.exp(hazard[stretch] - fall * at)).ravel())
     logarithm = np.concatenate(nodes)
     group = np.clip(np.searchsorted(np.log(edges), logarithm, side="right") - 1, 0, _GROUPS - 1)
     return Motions(
         *(logarithm, np.concatenate(rates), group, edges),
         ends=(float(known[0]), float(known[-1])),
         rates=(float(rate[0]), float(rate[-1])),
-        slope=float(slopes[0]),
+        slope=float((hazard[0] - hazard[1]) / (known[1] - known[0])),
     )
 
 

@@ -78,10 +78,10 @@ def _do_not_stand(subject: StudySubject, model: str) -> list[str]:
         return []
     fallen = study.not_standing[model]
     bounds = "" if fallen.interval is None else f"; {_percents(fallen.interval)}"
-    do, others = ("does", "the others") if fallen.count == 1 else ("do", "the others")
+    do = "does" if fallen.count == 1 else "do"
     return [
         f"{fallen.count:,} of {counted(fallen.dams, 'dam')} ({_percent(fallen.share)}{bounds}) {do} not stand before "
-        f"the earthquake; the curves are of {others}."
+        "the earthquake; the curves are of the others."
     ]
 
 
@@ -293,7 +293,7 @@ def hazard_section(subject: StudySubject) -> Section | None:
     rows: list[tuple[Inline, ...]] = []
     for row, label in zip(annual, labels, strict=True):
         if row["annual_rate"] is None:
-            rows.append((label, f"no rate: {row['why']}", "", "", "", ""))
+            rows.append((label, "no rate", "", "", "", ""))
             continue
         scale = strength_scale(row["measure"], subject.units)
         most = max(row["contribution"], key=lambda part: part["share"])

@@ -20,6 +20,8 @@ from heeltoe.views.words.studies import limits_of
 
 #: Events of a hazard that figure and table show, and the letters of a name.
 _SHOWN, _LONGEST = 12, 28
+#: An axis of probabilities that ends at less than so many times its beginning has two numbers in each decade.
+_NARROW = 300.0
 
 
 @styled
@@ -96,7 +98,8 @@ def _fractiles(axes: Axes, rows: Sequence[Mapping[str, Any]]) -> None:
             axes.plot([known["16%"], known["84%"]], [-place] * 2, color=colour, linewidth=5.0, solid_capstyle="butt")
         axes.plot(row["annual_probability"], -place, "o", color="#000000", markersize=4.5, zorder=3)
     axes.set_xscale("log")
-    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
+    low, high = axes.get_xlim()
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0) if high < _NARROW * low else (1.0,), numticks=6))
     axes.xaxis.set_major_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_ylim(0.6 - len(rows), 0.6)
