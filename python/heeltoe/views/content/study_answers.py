@@ -41,10 +41,11 @@ def answer(subject: StudySubject) -> list[Block]:
             of = " of the crack that leads" if subject.results.walk.cracks > 1 else ""
             sentence += f"; the residual slip{of}, positive downstream, has the median {amounts[0]}, 84 % stay below "
             sentence += f"{amounts[1]}, and the farthest run ends at {amounts[2]}"
-        sentence = f"{sentence}. " + " ".join(
+        sentence = " ".join(
             (
-                *_not_kept(subject, row),
                 *_do_not_stand(subject, row["model"]),
+                f"{sentence}.",
+                *_not_kept(subject, row),
                 *_exceeded(subject, row["model"]),
                 *_probabilities_of_a_year(subject, row["model"]),
             )
