@@ -10,7 +10,7 @@ from heeltoe.study.plan.plan import plan_of
 from heeltoe.study.run import batches as parts
 from shared.command import command
 from shared.dams import STUDIES, example
-from shared.studies import DRAWN, GRID, study_file
+from shared.studies import BLOCK, DRAWN, GRID, study_file
 
 
 def plan(folder, text, case=None):
@@ -293,3 +293,16 @@ def test_a_case_is_no_study_and_a_study_no_case(tmp_path):
     study.write_text('case = "dam.toml"\nmodel = "rigid"\n', encoding="utf-8")
     with pytest.raises(InputError, match='is a study, not a case; run it with "heeltoe study"'):
         read_case(study)
+
+
+def test_a_limit_without_a_unit_is_one_of_millimetres(tmp_path):
+    """Dams that slide 100 m are no limit: people write limits of slips and openings in millimetres."""
+    for limit in ("residual_slip", "peak_slip", "opening", "crest_displacement"):
+        file = study_file(tmp_path, f'case = "case.toml"\n[fragility]\nlimits = {{ {limit} = [100] }}\n')
+        with pytest.raises(InputError, match="has no unit") as error:
+            read_study(file)
+        assert '"100 mm"' in str(error.value)
+        assert '"100 m"' not in str(error.value)
+    with pytest.raises(InputError, match=r"limits\.residual_slip") as error:
+        read_study(study_file(tmp_path, 'case = "case.toml"\n', case=f"{BLOCK}[limits]\nresidual_slip = 100\n"))
+    assert '"100 mm"' in str(error.value)

@@ -17,6 +17,7 @@ from heeltoe.case.quantities import (
     MemorySize,
     Pressure,
     Rotation,
+    Slip,
 )
 from heeltoe.case.sentences import gathered
 from heeltoe.errors.error import InputError, shown
@@ -133,19 +134,19 @@ class Analysis(Fields):
 class Limits(Fields):
     """What the user allows; the verdict and the report compare the results with it."""
 
-    residual_slip: Annotated[Length, Field(ge=0.0)] | None = None
+    residual_slip: Annotated[Slip, Field(ge=0.0)] | None = None
     """Slip that remains, either way."""
-    peak_slip: Annotated[Length, Field(ge=0.0)] | None = None
+    peak_slip: Annotated[Slip, Field(ge=0.0)] | None = None
     """Largest slip on the way, either way."""
-    opening_upstream: Annotated[Length, Field(ge=0.0)] | None = None
+    opening_upstream: Annotated[Slip, Field(ge=0.0)] | None = None
     """Opening of the crack at the upstream face."""
-    opening_downstream: Annotated[Length, Field(ge=0.0)] | None = None
+    opening_downstream: Annotated[Slip, Field(ge=0.0)] | None = None
     """Opening of the crack at the downstream face."""
     cracked_length: Annotated[Length, Field(ge=0.0)] | None = None
     """Length of each bonded joint that is cracked in the end; of a crack without a bond it limits nothing."""
     rotation: Annotated[Rotation, Field(ge=0.0)] | None = None
     """Rotation of the part above the crack, either way: a plain number in rad, or with its unit."""
-    crest_displacement: Annotated[Length, Field(ge=0.0)] | None = None
+    crest_displacement: Annotated[Slip, Field(ge=0.0)] | None = None
     """Horizontal displacement of the crest from where it stands before the earthquake, relative to the ground, either
     way. Single runs of the rigid block and of the elastic dam are judged by it, and of suites and studies none."""
     crest_acceleration: AccelerationField | None = None
@@ -258,7 +259,7 @@ class StaticsChoice(Fields):
     FERC); none (USBR); or at once the reservoir's (ICOLD)."""
     residual_friction: FrictionCoefficient | None = None
     """Coefficient of friction after the earthquake; the kinetic one where it is not given."""
-    residual_slip: Annotated[Length, Field(ge=0.0)] | None = None
+    residual_slip: Annotated[Slip, Field(ge=0.0)] | None = None
     """Slip after the earthquake; that of an analysis where it is not given."""
     drain_diameter: Annotated[Length, Field(gt=0.0, le=10.0)] | None = None
     """Of the drains of a `drained` uplift: slip closes them in proportion, and wholly from one diameter on; before the

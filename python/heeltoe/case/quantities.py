@@ -12,12 +12,12 @@ from heeltoe.case.sentences import collected
 from heeltoe.units.parse import DIMENSIONS, Acceleration, parse, parse_acceleration
 
 
-def _quantity(dimension: str, example: str = "") -> tuple[Any, ...]:
+def _quantity(dimension: str, example: str = "", kind: str = "") -> tuple[Any, ...]:
     """Return how a number of a dimension is read, written with its SI unit, so that a case written as JSON is a case
-    that can be read, and described."""
+    that can be read, and described; of some `kind` of it with errors of its own."""
     unit = DIMENSIONS[dimension].unit
     return (
-        BeforeValidator(collected(lambda value: parse(value, dimension, ""))),
+        BeforeValidator(collected(lambda value: parse(value, kind or dimension, ""))),
         PlainSerializer(lambda value: f"{value!r} {unit}", return_type=str, when_used="json-unless-none"),
         _schema(dimension, example=example),
     )
@@ -40,6 +40,8 @@ def _rotation(value: object) -> float:
 
 Length = Annotated[float, *_quantity("length")]
 """A length [m]."""
+Slip = Annotated[float, *_quantity("length", str(DIMENSIONS["slip"].example), "slip")]
+"""A length of a slip or an opening [m]."""
 Density = Annotated[float, *_quantity("density")]
 """A density [kg/m^3]."""
 Pressure = Annotated[float, *_quantity("pressure")]

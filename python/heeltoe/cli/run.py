@@ -31,6 +31,7 @@ from heeltoe.cli.common import (
 )
 from heeltoe.cli.many import Suite, run_suite_command
 from heeltoe.cli.options import RunOptions
+from heeltoe.errors.error import InputError
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case

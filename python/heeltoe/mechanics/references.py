@@ -89,7 +89,14 @@ REFERENCES = {
         'J. W. Baker, "Efficient analytical fragility function fitting using dynamic structural analysis", Earthquake '
         "Spectra 31 (2015), 579-599"
     ),
-    "jackknife": 'B. Efron and C. Stein, "The jackknife estimate of variance", Annals of Statistics 9 (1981), 586-596',
+    "bounds": (
+        'C. J. Clopper and E. S. Pearson, "The use of confidence or fiducial limits illustrated in the case of the '
+        'binomial", Biometrika 26 (1934), 404-413'
+    ),
+    "clusters": (
+        'R. E. Chandler and S. Bate, "Inference for clustered data using the independence loglikelihood", Biometrika '
+        "94 (2007), 167-183"
+    ),
     "measures": (
         'N. Luco and C. A. Cornell, "Structure-specific scalar intensity measures for near-source and ordinary '
         'earthquake ground motions", Earthquake Spectra 23 (2007), 357-392'

@@ -56,6 +56,8 @@ class Dimension:
 
 DIMENSIONS = {
     "length": Dimension("a length", "m", "100 m"),
+    # How far a dam may slide or open: a plain 100 is one of millimetres.
+    "slip": Dimension("a length", "m", "150 mm"),
     "density": Dimension("a density", "kg/m^3", "2400 kg/m^3"),
     "pressure": Dimension("a pressure or modulus", "Pa", "20 GPa"),
     "duration": Dimension("a time", "s", "30 s"),

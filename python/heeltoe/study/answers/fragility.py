@@ -1,27 +1,74 @@
 """Fragility: the probability that a limit is exceeded, given how strong the motion is.
 
 A lognormal curve, ``P = Phi(ln(x / median) / dispersion)``, is fitted by maximum likelihood to which runs exceed the
-limit and which do not (Shinozuka et al. 2000; Baker 2015). Runs of one event are no independent witnesses: the
-confidence is that of a jackknife that leaves one event out at a time.
+limit and which do not (Shinozuka et al. 2000; Baker 2015). With fewer than three strengths, or where the runs that
+exceed and those that do not do not overlap, there is no curve, only shares with their bounds. Dams that do not stand
+before they are shaken have no strength at which they fail: they are a part of their own, and the curve is of the
+others.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from scipy.special import ndtr
 
 from heeltoe.base.arrays import Floats
-from heeltoe.study.answers.likelihood import Tally, Witnesses, fit, within
+from heeltoe.result.outcome import Outcome
+from heeltoe.study.answers.confidence import Ends, Knowledge, dispersion_ends, exact_bounds, knowledge_of, median_ends
+from heeltoe.study.answers.fit_test import FitTest, fit_test, groups_of
+from heeltoe.study.answers.likelihood import SAME, Tally, Witnesses, fit, overlap, within
 from heeltoe.study.run.aggregate import SHAKEN, Walk
 
-#: Events that are left out side by side.
-_TOGETHER = 64
-#: Strengths that differ by rounding are one; where there are many the shares are those of so many groups of runs.
-_SAME, _GROUPS = 1e-9, 12
+#: Fewer strengths than these make no curve.
+_STRENGTHS = 3
+
+
+@dataclass(frozen=True)
+class Share:
+    """Runs of one strength, or of about the same where there are many.
+
+    Attributes
+    ----------
+    strength
+        Of the motion, SI.
+    runs, exceeding
+        How many runs there are, and how many of them exceed the limit.
+    share, interval
+        The part that exceeds, with its exact bounds for independent runs.
+    fitted, fitted_interval
+        The same by the curve; None where there is no curve, or not known how well.
+    """
+
+    strength: float
+    runs: int
+    exceeding: int
+    share: float
+    interval: tuple[float, float]
+    fitted: float | None = None
+    fitted_interval: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class NotStanding:
+    """The dams that do not stand before they are shaken.
+
+    Attributes
+    ----------
+    count, dams, runs
+        How many they are, of how many dams, and how many runs they have.
+    share, interval
+        The part of the dams, with its exact bounds; no bounds where dams are listed and not drawn, or all stand.
+    """
+
+    count: int
+    dams: int
+    runs: int
+    share: float
+    interval: tuple[float, float] | None
 
 
 @dataclass(frozen=True)
@@ -34,11 +81,13 @@ class Curve:
         What is limited, and to how much, SI.
     measure
         Of the strength.
+    confidence
+        Probability of the intervals.
     median, dispersion
         Of the strength at which the limit is reached; None where there is no curve.
     median_interval, dispersion_interval
-        What they lie within with the probability `confidence`; None of a single event, or where one of them decides
-        whether there is a curve at all.
+        What they lie within with the probability `confidence`, None for an end that the runs do not give; None
+        altogether without a curve or of a single event.
     record, other
         Parts of the dispersion: from event to event, and what varies besides; None of a single event.
     runs, exceeding, events
@@ -49,9 +98,19 @@ class Curve:
         Whether the median lies among the strengths; beyond them the curve is a guess.
     why
         Why there is no curve; empty where there is one.
-    covariance
-        Variance of the logarithm of the median, covariance, variance of the logarithm of the dispersion, from event to
-        event; None where there are no intervals.
+    interval_why
+        Why an interval, or an end of one, is missing; empty where none is.
+    shares
+        Which part of the runs exceeds, strength by strength.
+    gap
+        The strongest motion up to which no run exceeds, and the weakest from which every run does; None where there is
+        none. Without overlap the median lies between them.
+    fit
+        A test of whether the curve fits the shares; None without a curve.
+    not_standing
+        Dams that are not behind the curve, as they do not stand; None where that was not counted.
+    knowledge
+        How well the curve is known; None of a single event.
     """
 
     limit: str
@@ -60,8 +119,8 @@ class Curve:
     confidence: float
     median: float | None
     dispersion: float | None
-    median_interval: tuple[float, float] | None
-    dispersion_interval: tuple[float, float] | None
+    median_interval: Ends | None
+    dispersion_interval: Ends | None
     record: float | None
     other: float | None
     runs: int
@@ -70,7 +129,12 @@ class Curve:
     unknown: int
     reached: bool = True
     why: str = ""
-    covariance: tuple[float, float, float] | None = None
+    interval_why: str = ""
+    shares: tuple[Share, ...] = ()
+    gap: Ends = (None, None)
+    fit: FitTest | None = None
+    not_standing: NotStanding | None = None
+    knowledge: Knowledge | None = field(default=None, repr=False, compare=False)
 
     def probability(self, strength: Floats) -> Floats:
         """Return the probability that the limit is exceeded at some strengths."""
@@ -79,20 +143,17 @@ class Curve:
         return np.asarray(ndtr(np.log(strength / self.median) / self.dispersion), dtype=np.float64)
 
     def within(self, strength: Floats) -> tuple[Floats, Floats] | None:
-        """Return what the probability lies within at some strengths, to first order; None where that is not known."""
-        from scipy import stats
-
-        if self.covariance is None or self.median is None or self.dispersion is None:
+        """Return what the probability lies within at some strengths, each by itself; None where that is not known."""
+        if self.knowledge is None:
             return None
-        middle, both, spread = self.covariance
-        at = np.log(strength / self.median) / self.dispersion
-        variance = (middle / self.dispersion + 2.0 * at * both) / self.dispersion + at**2 * spread
-        reach = float(stats.t.ppf(0.5 + self.confidence / 2.0, self.events - 1)) * np.sqrt(np.maximum(variance, 0.0))
-        return np.asarray(ndtr(at - reach)), np.asarray(ndtr(at + reach))
+        intercept, slope = self.knowledge.region(self.confidence).T[:, :, None]
+        chance = ndtr(intercept + slope * np.log(strength))
+        return np.asarray(chance.min(axis=0)), np.asarray(chance.max(axis=0))
 
     def to_json(self) -> dict[str, Any]:
         """Return it as a result has it."""
-        return asdict(self)
+        shown = asdict(replace(self, knowledge=None))
+        return {name: value for name, value in shown.items() if name != "knowledge"}
 
 
 def not_met(walk: Walk) -> dict[str, dict[str, int]]:
@@ -108,7 +169,9 @@ def not_met(walk: Walk) -> dict[str, dict[str, int]]:
     return counts
 
 
-def curve(limit: str, value: float, measure: str, seen: Tally, *, confidence: float) -> Curve:
+def curve(
+    limit: str, value: float, measure: str, seen: Tally, *, confidence: float, not_standing: NotStanding | None = None
+) -> Curve:
     """Fit a curve.
 
     Parameters
@@ -116,109 +179,138 @@ def curve(limit: str, value: float, measure: str, seen: Tally, *, confidence: fl
     limit, value, measure
         What is fitted.
     seen
-        Which runs exceed the limit, and how strong the motion of each is.
+        Which runs of dams that stand exceed the limit, and how strong the motion of each is.
     confidence
         Probability of the intervals.
+    not_standing
+        The dams that do not stand.
     """
+    known = seen.witnesses
     empty = Curve(
         *(limit, value, measure, confidence, None, None, None, None, None, None),
         runs=seen.runs,
         exceeding=seen.exceeding,
-        events=seen.witnesses.events,
+        events=known.events,
         unknown=seen.unknown,
+        shares=_shares(known, confidence),
+        gap=_gap(known),
+        not_standing=not_standing,
     )
-    if not 0 < empty.exceeding < empty.runs:
-        return replace(empty, why="every run exceeds it" if empty.exceeding else "no run exceeds it")
-    known = seen.witnesses
+    why = _no_curve(known, not_standing)
+    if why:
+        return replace(empty, why=why)
     logarithm, dispersion = fit(known, np.ones((1, known.runs.size)))[0].tolist()
     if not np.isfinite(dispersion):
         return replace(empty, why="stronger motions exceed it no more often")
     reached = bool(seen.lowest <= np.exp(logarithm) <= seen.highest)
-    curve = replace(empty, median=float(np.exp(logarithm)), dispersion=dispersion, reached=reached)
-    if known.events < 2:
-        return curve
-    other = within(known, dispersion)
-    left = _left_out(known)
-    median, spread = (None, None) if left is None else _intervals(left, (logarithm, np.log(dispersion)), confidence)
+    curve = _with_intervals(
+        replace(empty, median=float(np.exp(logarithm)), dispersion=dispersion, reached=reached), known
+    )
+    test = fit_test(known, logarithm, dispersion, curve.record, curve.other)
+    return replace(curve, fit=test, shares=_fitted(curve))
+
+
+def _no_curve(known: Witnesses, not_standing: NotStanding | None) -> str:
+    """Say why no curve can be; empty where one may."""
+    runs, hits = float(known.runs.sum()), float(known.exceeding.sum())
+    if not runs:
+        return "no dam stands" if not_standing and not_standing.count else "no run has a result"
+    if not 0.0 < hits < runs:
+        return "every run exceeds it" if hits else "no run exceeds it"
+    strengths = np.unique(np.rint(known.logarithm / SAME)).size
+    if strengths < _STRENGTHS:
+        return f"a curve needs motions of three strengths, here there {'is one' if strengths == 1 else 'are two'}"
+    if not overlap(known):
+        return "the runs that exceed it and those that do not do not overlap: the estimate of the dispersion is zero"
+    return ""
+
+
+def _with_intervals(curve: Curve, known: Witnesses) -> Curve:
+    """Return a curve with what its numbers lie within, and the parts of its dispersion."""
+    assert curve.median is not None
+    assert curve.dispersion is not None
+    knowledge = knowledge_of(known, float(np.log(curve.median)), curve.dispersion)
+    if knowledge is None:
+        return replace(curve, interval_why="one event does not show how events differ")
+    region, other = knowledge.region(curve.confidence), within(known, curve.dispersion)
+    median, dispersion = median_ends(region), dispersion_ends(region)
+    open_end = None in (*median, *dispersion)
     return replace(
         curve,
         median_interval=median,
-        dispersion_interval=spread,
-        covariance=None if left is None else _covariance(left),
-        record=float(np.sqrt(max(dispersion**2 - other**2, 0.0))),
+        dispersion_interval=dispersion,
+        record=float(np.sqrt(max(curve.dispersion**2 - other**2, 0.0))),
         other=other,
+        interval_why="these runs do not show that stronger motions exceed it more often" if open_end else "",
+        knowledge=knowledge,
     )
 
 
+def _shares(known: Witnesses, confidence: float) -> tuple[Share, ...]:
+    """Return which part of the runs exceeds, the weakest motions first."""
+    group = groups_of(known)
+    columns = (np.exp(group.logarithm).tolist(), group.runs.tolist(), group.exceeding.tolist())
+    return tuple(
+        Share(strength, int(runs), int(hits), hits / runs, exact_bounds(hits, runs, confidence))
+        for strength, runs, hits in zip(*columns, strict=True)
+    )
+
+
+def _fitted(curve: Curve) -> tuple[Share, ...]:
+    """Return the shares of a curve with what it makes of them."""
+    strength = np.array([share.strength for share in curve.shares])
+    probability, ends = curve.probability(strength).tolist(), curve.within(strength)
+    within = [None] * strength.size if ends is None else list(zip(ends[0].tolist(), ends[1].tolist(), strict=True))
+    return tuple(
+        replace(share, fitted=fitted, fitted_interval=interval)
+        for share, fitted, interval in zip(curve.shares, probability, within, strict=True)
+    )
+
+
+def _gap(known: Witnesses) -> Ends:
+    """Return the strongest motion up to which no run exceeds, and the weakest from which every run does."""
+    over, under = known.exceeding > 0.0, known.exceeding < known.runs
+    none = known.logarithm[known.logarithm < known.logarithm[over].min(initial=np.inf) - SAME]
+    every = known.logarithm[known.logarithm > known.logarithm[under].max(initial=-np.inf) + SAME]
+    return (float(np.exp(none.max())) if none.size else None, float(np.exp(every.min())) if every.size else None)
+
+
 def counted(walk: Walk, request: Mapping[str, Any]) -> dict[tuple[str, str, float], Tally]:
-    """Count which runs exceed the limits that a study asks about, by model, limit and value."""
+    """Count which runs of dams that stand exceed the limits that a study asks about, by model, limit and value."""
     limits = walk.asked
     tallies = {(model, *limit): Tally() for model in walk.models for limit in limits}
-    measure = walk.measure(request["measure"], request["period"])
+    measure, ran = walk.measure(request["measure"], request["period"]), set[str]()
     names = dict(limits)
     for runs in walk("model", "event", *SHAKEN, *walk.judging(names)):
         strength, model, event = runs.strength(measure), runs.model, runs.event
         # The crack that exceeds a limit first is the one that counts.
         judgement = runs.judged(walk, names)
+        standing = judgement.outcome != Outcome.UNSTABLE
+        ran |= {name for place, name in enumerate(walk.models) if (model == place).any()}
         for limit, value in limits:
             exceeds = judgement.exceeds(limit, value)
             for place, name in enumerate(walk.models):
-                here = model == place
+                here = (model == place) & standing
                 tallies[name, limit, value].add(strength[here], exceeds[here], event[here])
-    return {key: tally for key, tally in tallies.items() if tally.runs or tally.unknown}
+    return {key: tally for key, tally in tallies.items() if key[0] in ran}
 
 
-def observed(seen: Tally) -> tuple[list[float], list[float]]:
-    """Return which share of the runs exceeds a limit at each strength, or over groups of about the same."""
-    known = seen.witnesses
-    strength = np.exp(known.logarithm)
-    levels, place = np.unique(np.rint(known.logarithm / _SAME), return_inverse=True)
-    if levels.size > 2 * _GROUPS:
-        order = np.argsort(strength)
-        before = np.empty(strength.size)
-        before[order] = np.cumsum(known.runs[order]) - known.runs[order]
-        place = np.minimum((before * _GROUPS / known.runs.sum()).astype(np.int64), _GROUPS - 1)
-    runs = np.bincount(place, known.runs)
-    ran = runs > 0.0
-    middle, hits = (np.bincount(place, counts)[ran] for counts in (known.logarithm * known.runs, known.exceeding))
-    return np.exp(middle / runs[ran]).tolist(), (hits / runs[ran]).tolist()
-
-
-def _left_out(seen: Witnesses) -> Floats | None:
-    """Return the logarithms of median and dispersion with each event left out in turn; None where one of them decides
-    whether there is a curve."""
-    events = seen.events
-    fits = [
-        fit(seen, (np.arange(start, min(start + _TOGETHER, events))[:, None] != seen.event).astype(np.float64))
-        for start in range(0, events, _TOGETHER)
-    ]
-    left = np.concatenate(fits)
-    if not np.isfinite(left).all():
-        return None
-    left[:, 1] = np.log(left[:, 1])
-    return left
-
-
-def _covariance(left: Floats) -> tuple[float, float, float]:
-    about = left - left.mean(axis=0)
-    covariance = (len(left) - 1.0) / len(left) * about.T @ about
-    return float(covariance[0, 0]), float(covariance[0, 1]), float(covariance[1, 1])
-
-
-def _intervals(
-    left: Floats, estimate: tuple[float, float], confidence: float
-) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return what median and dispersion lie within, from their logarithms with each event left out in turn.
-
-    The jackknife over events (Efron and Stein 1981): their deviation, on either side of the value without its bias, as
-    far as Student's distribution has it. Of intervals that ought to hold in 90 % of all cases, those of 21 and of 42
-    events hold in 87 to 89 % for the dispersion; a bootstrap of events, without its bias or not, in 75 to 86 %.
-    """
-    from scipy import stats
-
-    events, mean = len(left), left.mean(axis=0)
-    deviation = np.sqrt((events - 1.0) / events * np.sum((left - mean) ** 2, axis=0))
-    middle = np.array(estimate) - (events - 1.0) * (mean - estimate)
-    reach = float(stats.t.ppf(0.5 + confidence / 2.0, events - 1)) * deviation
-    low, high = np.exp(middle - reach).tolist(), np.exp(middle + reach).tolist()
-    return (low[0], high[0]), (low[1], high[1])
+def not_standing(walk: Walk, confidence: float) -> dict[str, NotStanding]:
+    """Count for each model the dams that do not stand before they are shaken."""
+    models, count = walk.models, walk.dams
+    falls, ran = (np.zeros((len(models), count), dtype=bool) for _ in range(2))
+    lost = np.zeros(len(models), dtype=np.int64)
+    for runs in walk("model", "outcome", "sample"):
+        model, sample = runs.model, runs.whole("sample")
+        words, code = runs.words("outcome")
+        here = np.array(words)[code] == Outcome.UNSTABLE
+        ran[model, sample] = True
+        falls[model[here], sample[here]] = True
+        lost += np.bincount(model[here], minlength=len(models))
+    counts = {}
+    for place, name in enumerate(models):
+        fallen, dams = int(falls[place].sum()), int(ran[place].sum())
+        share = fallen / dams if dams else 0.0
+        bounds = exact_bounds(fallen, dams, confidence) if fallen and walk.drawn else None
+        counts[name] = NotStanding(fallen, dams, int(lost[place]), share, bounds)
+    return counts

@@ -1,12 +1,17 @@
 """How often a year a limit is exceeded: a fragility curve over a hazard curve.
 
-The annual rate is the integral of the fragility P over the hazard H [1/year],
+The annual rate is the integral of the fragility P over the hazard H [1/year], straight on double logarithmic axes,
+from its weakest motion x1 to its strongest xn, and what stronger motions make at least:
 
-    rate = int P(x) |dH(x)|,
+    rate = int_x1^xn P(x) |dH(x)| + P(xn) H(xn).
 
-P = Phi(ln(x / median) / dispersion), H straight on double logarithmic axes. Of each stretch H = a x^-k it is known in
-closed form (with u = ln x, by parts); of a power law altogether it is H(median) exp(k^2 dispersion^2 / 2) (Cornell et
-al. 2002, J. Struct. Eng. 128, 526-533).
+Nothing is known of the hazard beyond its ends, so that what motions from there may add is bounded and not counted: all
+of the stronger ones may exceed the limit, H(xn) at most; the weaker ones make what a hazard curve that goes on as it
+begins would give, if that keeps the whole below H(x1), and have no bound otherwise. For a power law altogether the rate
+is H(median) exp(k^2 dispersion^2 / 2) (Cornell et al. 2002, J. Struct. Eng. 128, 526-533).
+
+Dams that do not stand, a share p0, exceed every limit in every motion: of all dams the rate is
+p0 H(x1) + (1 - p0) rate.
 
 Which events make it: were all motions like those of one event, the rate would be that of a fragility of its own median,
 with the part of the dispersion that is not from event to event. The share of the event is that rate over the sum of
@@ -17,13 +22,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.special import ndtr
+from scipy.special import log_ndtr, ndtr
 
-from heeltoe.base.arrays import Floats
+from heeltoe.base.arrays import Floats, Integers
 from heeltoe.study.answers.fragility import Curve
 from heeltoe.study.answers.likelihood import Witnesses, offsets
 
@@ -34,8 +40,89 @@ FRACTILES = {"5%": 0.05, "16%": 0.16, "50%": 0.50, "84%": 0.84, "95%": 0.95}
 #: Of the dispersion, each of its parts is at least about this much where events are told apart; between so many medians
 #: of an event its rate is interpolated.
 _LEAST_PART, _OFFSETS = 0.1, 41
-#: By how much median and dispersion are moved for the slope of the rate.
-_MOVED = 1e-4
+#: Nodes of Gauss and Legendre in a piece of the hazard curve; pieces are so short that the hazard falls by no more than
+#: a factor of e in one.
+_NODES = 10
+#: No logarithm is taken of less.
+_LEAST = 1e-300
+
+
+@dataclass(frozen=True, eq=False)
+class Motions:
+    """The motions that a hazard curve has, as nodes of an integral.
+
+    Attributes
+    ----------
+    logarithm, rate
+        (n,) strengths, and how many motions a year each stands for.
+    group
+        (n,) of :data:`_GROUPS` in which it lies.
+    edges
+        Of the groups, SI.
+    ends, rates
+        Logarithms of the weakest and the strongest motion, and how often a year they are exceeded.
+    slope
+        Of the first stretch.
+    """
+
+    logarithm: Floats
+    rate: Floats
+    group: Integers
+    edges: Floats
+    ends: tuple[float, float]
+    rates: tuple[float, float]
+    slope: float
+
+    def counted(self, intercept: Floats, slope: Floats) -> Floats:
+        """Return the rate of some curves ``Phi(intercept + slope ln x)``, (r,) [1/year]; of motions beyond the
+        strongest as many exceed as at that."""
+        inside = ndtr(intercept[:, None] + slope[:, None] * self.logarithm) @ self.rate
+        return np.asarray(inside + ndtr(intercept + slope * self.ends[1]) * self.rates[1], dtype=np.float64)
+
+    def weaker(self, intercept: float, slope: float) -> float:
+        """Return the rate of a curve in weaker motions [1/year] if the hazard went on as it begins; it may be
+        infinite."""
+        # By parts, with the integral of a power law times the density of a normal distribution.
+        at = intercept + slope * self.ends[0]
+        steep = self.slope / slope
+        logarithm = steep * at + steep**2 / 2.0 + float(log_ndtr(at + steep))
+        moved = math.exp(logarithm) if logarithm < 700.0 else math.inf
+        return max(moved - float(ndtr(at)), 0.0) * self.rates[0]
+
+
+def motions_of(strength: Floats, rate: Floats, width: float) -> Motions:
+    """Return the motions of a hazard curve.
+
+    Parameters
+    ----------
+    strength, rate
+        The hazard curve, SI and 1/year.
+    width
+        In how much of the logarithm of the strength a fragility curve rises.
+    """
+    known, hazard = np.log(strength), np.log(rate)
+    edges = np.geomspace(strength[0], strength[-1], _GROUPS + 1)
+    cuts = np.unique(np.concatenate([known, np.log(edges[1:-1])]))
+    node, weight = np.polynomial.legendre.leggauss(_NODES)
+    nodes, rates = list[Floats](), list[Floats]()
+    for start, stop in pairwise(cuts.tolist()):
+        stretch = int(np.searchsorted(known, start, side="right")) - 1
+        length, fall = known[stretch + 1] - known[stretch], hazard[stretch] - hazard[stretch + 1]
+        # Parts of the stretch, by which even one that is all but upright has the rate of its ends.
+        first, last = (start - known[stretch]) / length, (stop - known[stretch]) / length
+        ends = np.linspace(first, last, math.ceil((last - first) * max(fall, length / width)) + 1)
+        half = (ends[1:] - ends[:-1]) / 2.0
+        at = (ends[:-1] + half)[:, None] + half[:, None] * node
+        nodes.append((known[stretch] + at * length).ravel())
+        rates.append((half[:, None] * weight * fall * np.exp(hazard[stretch] - fall * at)).ravel())
+    logarithm = np.concatenate(nodes)
+    group = np.clip(np.searchsorted(np.log(edges), logarithm, side="right") - 1, 0, _GROUPS - 1)
+    return Motions(
+        *(logarithm, np.concatenate(rates), group, edges),
+        ends=(float(known[0]), float(known[-1])),
+        rates=(float(rate[0]), float(rate[-1])),
+        slope=float((hazard[0] - hazard[1]) / (known[1] - known[0])),
+    )
 
 
 def annual(
@@ -55,44 +142,50 @@ def annual(
     Returns
     -------
     dict
-        ``annual_rate`` [1/year] with its interval, from the uncertainty of the curve to first order and not of the
-        hazard; ``annual_probability`` with its ``annual_probability_fractiles``; ``return_period_years``;
-        ``extrapolated``, the share of the rate from beyond the ends of the hazard curve; ``contribution``, the share
-        from each group of strengths; ``by_event``, the median of each event, its share and its part of the rate, the
-        largest first; ``at``, the probability of the limit at each strength of the hazard curve, and at
-        those that are asked of. None of them where there is no fragility curve.
+        ``annual_rate`` [1/year] of all dams in the motions of the hazard curve, with its interval from the uncertainty
+        of the curve and of the share of dams that do not stand, not of the hazard; ``annual_rate_bounds``, what it may
+        be with motions beyond the ends, None without an upper bound, and ``bounds_why``; ``extrapolated``, the share of
+        the rate of standing dams from beyond the ends if the hazard went on as its first stretch; ``standing_rate``,
+        of the dams that stand, and ``not_standing_rate``, the part of the others; ``annual_probability`` with its
+        ``annual_probability_fractiles``; ``return_period_years``; ``contribution``, the share from each group of
+        strengths; ``by_event``, the median of each event, its share and its part of the rate of standing dams, the
+        largest first; ``at``, the probability of the limit at each strength of the hazard curve, and at those that are
+        asked of. None of them where there is no fragility curve.
     """
     strength, rate = np.array(hazard["strength"]), np.array(hazard["annual_rate"])
     document: dict[str, Any] = {"limit": curve.limit, "value": curve.value, "measure": curve.measure, "why": curve.why}
     if curve.median is None or curve.dispersion is None:
-        names = ("annual_rate", "annual_rate_interval", "annual_probability", "return_period_years", "extrapolated")
-        return {
-            **document,
-            **dict.fromkeys(names),
-            "annual_probability_fractiles": None,
-            "contribution": [],
-            "by_event": [],
-            "at": [],
-        }
-    total = _total(curve, strength, rate)
-    edges = np.geomspace(strength[0], strength[-1], _GROUPS + 1)
-    parts = np.diff(_up_to(curve, strength, rate, np.array([0.0, *edges, np.inf])))
-    spread = _deviation(curve, strength, rate, total)
+        return {**document, **dict.fromkeys(_NUMBERS), "bounds_why": "", "contribution": [], "by_event": [], "at": []}
+    motions = motions_of(strength, rate, curve.dispersion)
+    slope = 1.0 / curve.dispersion
+    intercept = -math.log(curve.median) * slope
+    fallen = 0.0 if curve.not_standing is None else curve.not_standing.share
+    standing = float(motions.counted(np.array([intercept]), np.array([slope]))[0])
+    total = fallen * motions.rates[0] + (1.0 - fallen) * standing
+    low, high = _share_ends(curve)
+    chance = fallen + (1.0 - fallen) * ndtr(intercept + slope * motions.logarithm)
+    parts = np.bincount(motions.group, chance * motions.rate, _GROUPS)
     points = np.unique([*strength.tolist(), *hazard.get("at", ())])
-    probabilities = curve.probability(points).tolist()
+    probabilities = (fallen + (1.0 - fallen) * curve.probability(points)).tolist()
+    most, why, beyond = _beyond(motions, intercept, slope, standing)
+    first = motions.rates[0]
     return {
         **document,
         "annual_rate": total,
-        "annual_rate_interval": _interval(curve, total, spread),
+        "annual_rate_bounds": [total, None if most is None else fallen * first + (1.0 - fallen) * most],
+        "bounds_why": why,
+        "annual_rate_interval": _interval(curve, motions, (low, high), curve.confidence),
+        "extrapolated": beyond,
+        "standing_rate": standing,
+        "not_standing_rate": fallen * first,
         "annual_probability": -math.expm1(-total),
-        "annual_probability_fractiles": _fractiles(curve, total, spread),
+        "annual_probability_fractiles": _fractiles(curve, motions, total),
         "return_period_years": 1.0 / total if total > 0.0 else None,
-        "extrapolated": float(parts[0] + parts[-1]) / total if total > 0.0 else 0.0,
         "contribution": [
-            {"from": low, "to": high, "share": float(part) / total if total > 0.0 else 0.0}
-            for low, high, part in zip(edges[:-1].tolist(), edges[1:].tolist(), parts[1:-1], strict=True)
+            {"from": start, "to": stop, "share": float(part) / total if total > 0.0 else 0.0}
+            for start, stop, part in zip(motions.edges[:-1].tolist(), motions.edges[1:].tolist(), parts, strict=True)
         ],
-        "by_event": [] if seen is None else _by_event(curve, strength, rate, total, seen, events),
+        "by_event": [] if seen is None else _by_event(curve, (strength, rate), standing, seen, events),
         "at": [
             {"strength": at, "annual_rate": exceeded, "probability": probability}
             for at, exceeded, probability in zip(
@@ -102,8 +195,72 @@ def annual(
     }
 
 
+_NUMBERS = (
+    *("annual_rate", "annual_rate_bounds", "annual_rate_interval", "extrapolated", "standing_rate"),
+    *("not_standing_rate", "annual_probability", "annual_probability_fractiles", "return_period_years"),
+)
+
+
+def _beyond(motions: Motions, intercept: float, slope: float, counted: float) -> tuple[float | None, str, float]:
+    """Return what the rate of standing dams may be at most with motions beyond the ends, None where that has no bound
+    and why, and the share from beyond the ends."""
+    first, last = motions.rates
+    stronger = float(ndtr(intercept + slope * motions.ends[1])) * last
+    weaker = motions.weaker(intercept, slope)
+    inside = counted - stronger
+    beyond = stronger + weaker
+    share = 1.0 if math.isinf(beyond) else beyond / (inside + beyond) if inside + beyond > 0.0 else 0.0
+    most = inside + last + weaker
+    if most <= first:
+        return most, "", share
+    why = (
+        "weaker motions than the hazard curve has exceed the limit, too, and it does not say how many a year there are"
+    )
+    return None, why, share
+
+
+def _share_ends(curve: Curve) -> tuple[float, float]:
+    """Return what the share of dams that do not stand lies within."""
+    fallen = curve.not_standing
+    if fallen is None:
+        return 0.0, 0.0
+    return fallen.interval or (fallen.share, fallen.share)
+
+
+def _of_region(curve: Curve, motions: Motions, confidence: float) -> tuple[float, float] | None:
+    """Return between which rates of standing dams the curves of a region lie; None where none is known."""
+    if curve.knowledge is None:
+        return None
+    rates = motions.counted(*curve.knowledge.region(confidence).T)
+    return float(rates.min()), float(rates.max())
+
+
+def _interval(curve: Curve, motions: Motions, fallen: tuple[float, float], confidence: float) -> list[float] | None:
+    """Return what the rate of all dams lies within; None of a single event."""
+    rates = _of_region(curve, motions, confidence)
+    if rates is None:
+        return None
+    return [share * motions.rates[0] + (1.0 - share) * rate for share, rate in zip(fallen, rates, strict=True)]
+
+
+def _fractiles(curve: Curve, motions: Motions, total: float) -> dict[str, float] | None:
+    """Return the fractiles of the annual probability; None of a single event."""
+    if curve.knowledge is None:
+        return None
+    share = 0.0 if curve.not_standing is None else curve.not_standing.share
+    found = {}
+    for name, part in FRACTILES.items():
+        rate = total
+        if part != 0.5:
+            ends = _interval(curve, motions, (share, share), round(abs(2.0 * part - 1.0), 9))
+            assert ends is not None
+            rate = ends[int(part > 0.5)]
+        found[name] = -math.expm1(-rate)
+    return found
+
+
 def _by_event(
-    curve: Curve, strength: Floats, rate: Floats, total: float, seen: Witnesses, events: Sequence[str]
+    curve: Curve, hazard: tuple[Floats, Floats], total: float, seen: Witnesses, events: Sequence[str]
 ) -> list[dict[str, Any]]:
     """Return how much of the rate each event makes; nothing of a single one."""
     from scipy.interpolate import CubicSpline
@@ -116,8 +273,10 @@ def _by_event(
     other = float(np.clip(curve.other, _LEAST_PART * curve.dispersion, (1.0 - _LEAST_PART**2) * curve.dispersion))
     places, chance = offsets(seen, curve.median, math.sqrt(curve.dispersion**2 - other**2), other)
     known = np.linspace(places.min(), places.max(), _OFFSETS)
-    alone = [replace(curve, median=curve.median * math.exp(offset), dispersion=other) for offset in known.tolist()]
-    rates = np.exp(CubicSpline(known, np.log([_total(event, strength, rate) for event in alone]))(places))
+    alone = motions_of(*hazard, other).counted(
+        -(math.log(curve.median) + known) / other, np.full(known.size, 1.0 / other)
+    )
+    rates = np.exp(CubicSpline(known, np.log(np.maximum(alone, _LEAST)))(places))
     made = np.sum(chance * rates, axis=1)
     shares = (made / made.sum()).tolist()
     medians = (curve.median * np.exp(np.sum(chance * places, axis=1))).tolist()
@@ -128,86 +287,13 @@ def _by_event(
     return sorted(rows, key=lambda row: -row["share"])
 
 
-def _total(curve: Curve, strength: Floats, rate: Floats) -> float:
-    return float(_up_to(curve, strength, rate, np.array([0.0, np.inf]))[-1])
-
-
-def _up_to(curve: Curve, strength: Floats, rate: Floats, edges: Floats) -> Floats:
-    """Return the rate that motions up to some strengths make [1/year], (n,); the edges ascend from zero."""
-    logarithm, hazard = np.log(strength), np.log(rate)
-    slopes = -np.diff(hazard) / np.diff(logarithm)
-    # The first and the last stretch go on beyond the ends.
-    ends = np.concatenate([[-np.inf], logarithm[1:-1], [np.inf]])
-    with np.errstate(divide="ignore"):
-        at = np.log(edges)
-    made = np.zeros(edges.size)
-    for k, start, stop, log_x, log_h in zip(slopes, ends[:-1], ends[1:], logarithm[:-1], hazard[:-1], strict=True):
-        inside = np.clip(at, start, stop)
-        made += _stretch(curve, inside, float(k), float(log_h + k * log_x)) - _stretch(
-            curve, np.array([start]), float(k), float(log_h + k * log_x)
-        )
-    return made
-
-
-def _stretch(curve: Curve, at: Floats, slope: float, level: float) -> Floats:
-    """Return the integral of the fragility over ``H = exp(level - slope u)``, up to logarithms of the strength."""
-    assert curve.median is not None
-    assert curve.dispersion is not None
-    middle, spread = math.log(curve.median), curve.dispersion
-    below = np.isneginf(at)
-    place = np.where(below, 0.0, at)
-    # Far above, the hazard is nothing and the fragility one.
-    falling = np.where(np.isposinf(at), 0.0, np.exp(level - slope * np.where(np.isfinite(at), at, 0.0)))
-    moved = np.exp(level - slope * middle + (slope * spread) ** 2 / 2.0) * ndtr(
-        (place - middle) / spread + slope * spread
-    )
-    return np.where(below, 0.0, moved - ndtr((place - middle) / spread) * falling)
-
-
-def _rates(points: Floats, strength: Floats, rate: Floats) -> list[float]:
-    """Return how often a year some strengths are exceeded: straight on double logarithmic axes, beyond the ends too."""
-    at, known, hazard = np.log(points), np.log(strength), np.log(rate)
-    stretch = np.clip(np.searchsorted(known, at, side="right") - 1, 0, known.size - 2)
-    slope = (hazard[stretch + 1] - hazard[stretch]) / (known[stretch + 1] - known[stretch])
-    on_curve = {float(x): float(h) for x, h in zip(strength, rate, strict=True)}
-    made = np.exp(hazard[stretch] + slope * (at - known[stretch])).tolist()
-    return [on_curve.get(point, value) for point, value in zip(points.tolist(), made, strict=True)]
-
-
-def _deviation(curve: Curve, strength: Floats, rate: Floats, total: float) -> float | None:
-    """Return the standard deviation of the logarithm of the rate, by the covariance of the fragility curve to first
-    order; None without one."""
-    if curve.covariance is None or total <= 0.0:
-        return None
-    assert curve.median is not None
-    assert curve.dispersion is not None
-    moved = [
-        replace(curve, median=curve.median * math.exp(_MOVED)),
-        replace(curve, dispersion=curve.dispersion * math.exp(_MOVED)),
+def _rates(points: Floats, strength: Floats, rate: Floats) -> list[float | None]:
+    """Return how often a year some strengths are exceeded: straight on double logarithmic axes; None beyond its
+    ends."""
+    made = np.exp(np.interp(np.log(points), np.log(strength), np.log(rate))).tolist()
+    on_curve = dict(zip(strength.tolist(), rate.tolist(), strict=True))
+    within = (points >= strength[0]) & (points <= strength[-1])
+    return [
+        on_curve.get(point, value) if inside else None
+        for point, value, inside in zip(points.tolist(), made, within.tolist(), strict=True)
     ]
-    slopes = np.array([math.log(_total(other, strength, rate) / total) / _MOVED for other in moved])
-    middle, both, spread = curve.covariance
-    variance = float(slopes @ np.array([[middle, both], [both, spread]]) @ slopes)
-    return math.sqrt(max(variance, 0.0))
-
-
-def _interval(curve: Curve, total: float, deviation: float | None) -> list[float] | None:
-    """Return what the rate lies within; None without a deviation of its logarithm."""
-    if deviation is None:
-        return None
-    reach = _reach(curve, 0.5 + curve.confidence / 2.0) * deviation
-    return [total * math.exp(-reach), total * math.exp(reach)]
-
-
-def _fractiles(curve: Curve, total: float, deviation: float | None) -> dict[str, float] | None:
-    """Return the fractiles of the annual probability; None without a deviation of the logarithm of the rate."""
-    if deviation is None:
-        return None
-    return {name: -math.expm1(-total * math.exp(_reach(curve, share) * deviation)) for name, share in FRACTILES.items()}
-
-
-def _reach(curve: Curve, share: float) -> float:
-    """Return how many standard deviations up a share lies: Student's, since the events are few."""
-    from scipy import stats
-
-    return float(stats.t.ppf(share, curve.events - 1))

@@ -10,6 +10,8 @@ from scipy.special import log_ndtr, ndtri
 
 from heeltoe.base.arrays import Floats, Integers
 
+#: Strengths that differ by rounding are one.
+SAME = 1e-9
 # Strengths within this part of each other are one for the fit.
 _ALIKE = 0.002
 #: More than this many different strengths are put together.
@@ -145,18 +147,33 @@ def fit(seen: Witnesses, weight: Floats) -> Floats:
         return np.asarray(np.bincount(level, values, labels.size), dtype=np.float64)
 
     logarithm = summed(seen.runs * seen.logarithm) / summed(seen.runs)
-    exceeding, under = at_levels(seen.exceeding), at_levels(seen.runs - seen.exceeding)
     middle, scale = np.average(seen.logarithm, weights=seen.runs), max(float(seen.logarithm.std()), 1e-9)
-    z = (logarithm - middle) / scale
+    at = greatest((logarithm - middle) / scale, at_levels(seen.exceeding), at_levels(seen.runs - seen.exceeding), scale)
+    slope = np.where(at[:, 1] > scale / _MOST, at[:, 1], np.nan)
+    return np.column_stack([middle - scale * at[:, 0] / slope, scale / slope])
+
+
+def greatest(z: Floats, exceeding: Floats, under: Floats, scale: float) -> Floats:
+    """Return a and b of the curves ``P = Phi(a + b z)`` of greatest likelihood, (r, 2).
+
+    Parameters
+    ----------
+    z
+        (k,) standard variable of the strength.
+    exceeding, under
+        (r, k) how many runs exceed there, and how many do not, in r fits side by side.
+    scale
+        Of the logarithm of the strength over z, by which b has its limits.
+    """
     share = exceeding.sum(axis=1) / (exceeding + under).sum(axis=1)
-    at = np.column_stack([ndtri(np.clip(share, 1e-3, 1.0 - 1e-3)), np.ones(len(weight))])
-    value = _likelihood(at, z, exceeding, under)
+    at = np.column_stack([ndtri(np.clip(share, 1e-3, 1.0 - 1e-3)), np.ones(len(share))])
+    value = likelihood(at, z, exceeding, under)
     for _ in range(_ITERATIONS):
         step = _newton(at, z, exceeding, under)
         length = np.ones(len(at))
         for _ in range(30):
             tried = at + length[:, None] * step
-            new = _likelihood(tried, z, exceeding, under)
+            new = likelihood(tried, z, exceeding, under)
             worse = ~(new >= value - 1e-9 * np.abs(value))
             if not worse.any():
                 break
@@ -166,16 +183,16 @@ def fit(seen: Witnesses, weight: Floats) -> Floats:
         if (np.abs(length[:, None] * step).max(axis=1) < _CLOSE * (1.0 + np.abs(at).max(axis=1))).all():
             break
         at[:, 1] = np.clip(at[:, 1], -scale / _LEAST, scale / _LEAST)
-    slope = np.where(at[:, 1] > scale / _MOST, at[:, 1], np.nan)
-    return np.column_stack([middle - scale * at[:, 0] / slope, scale / slope])
+    return at
 
 
-def _likelihood(at: Floats, z: Floats, exceeding: Floats, under: Floats) -> Floats:
+def likelihood(at: Floats, z: Floats, exceeding: Floats, under: Floats) -> Floats:
+    """Return the logarithm of the likelihood of curves ``P = Phi(a + b z)``, (r,); `at` is (r, 2)."""
     linear = at[:, :1] + at[:, 1:] * z
     return np.asarray(np.sum(exceeding * log_ndtr(linear) + under * log_ndtr(-linear), axis=1))
 
 
-def _rise(linear: Floats, exceeding: Floats, under: Floats) -> tuple[Floats, Floats]:
+def rise(linear: Floats, exceeding: Floats, under: Floats) -> tuple[Floats, Floats]:
     """Return how the logarithm of the likelihood of some runs rises with the argument of their normal distribution, and
     how that falls."""
     density = -0.5 * linear**2 - 0.5 * np.log(2.0 * np.pi)
@@ -184,7 +201,7 @@ def _rise(linear: Floats, exceeding: Floats, under: Floats) -> tuple[Floats, Flo
 
 
 def _newton(at: Floats, z: Floats, exceeding: Floats, under: Floats) -> Floats:
-    first, second = _rise(at[:, :1] + at[:, 1:] * z, exceeding, under)
+    first, second = rise(at[:, :1] + at[:, 1:] * z, exceeding, under)
     gradient = np.column_stack([first.sum(axis=1), (first * z).sum(axis=1)])
     s0, s1, s2 = (np.sum(second * z**power, axis=1) for power in range(3))
     # A trace of the diagonal keeps a flat likelihood from steps without end.
@@ -196,6 +213,16 @@ def _newton(at: Floats, z: Floats, exceeding: Floats, under: Floats) -> Floats:
             (s0 * gradient[:, 1] - s1 * gradient[:, 0]) / determinant,
         ]
     )
+
+
+def overlap(seen: Witnesses) -> bool:
+    """Return whether some run exceeds at less than a strength at which another does not.
+
+    Without that every curve has a steeper one that is as likely or more: the dispersion of greatest likelihood is
+    zero (Albert and Anderson 1984, Biometrika 71)."""
+    over, under = seen.exceeding > 0.0, seen.exceeding < seen.runs
+    highest = float(seen.logarithm[under].max(initial=-np.inf))
+    return bool(seen.logarithm[over].min(initial=np.inf) < highest - SAME)
 
 
 def within(seen: Witnesses, dispersion: float) -> float:
@@ -232,7 +259,7 @@ def _middles(start: Floats, width: float, x: Floats, event: Integers, runs: Floa
     """Return the median of each event that is most likely where its dispersion is `width`."""
     middle = start.copy()
     for _ in range(_ITERATIONS):
-        slope, bend = _rise((x - middle[event]) / width, exceeding, runs - exceeding)
+        slope, bend = rise((x - middle[event]) / width, exceeding, runs - exceeding)
         first, second = np.bincount(event, slope), np.bincount(event, bend)
         step = -np.clip(first / np.maximum(second, 1e-12), -1.0, 1.0) * width
         middle += step
@@ -256,7 +283,7 @@ def offsets(seen: Witnesses, median: float, record: float, other: float) -> tupl
 
     offset, width = np.zeros(seen.events), np.zeros(seen.events)
     for _ in range(_ITERATIONS):
-        first, second = _rise((z - offset[seen.event]) / other, seen.exceeding, under)
+        first, second = rise((z - offset[seen.event]) / other, seen.exceeding, under)
         slope = -counted(first) / other - offset / record**2
         bend = counted(second) / other**2 + record**-2
         width = bend**-0.5

@@ -8,6 +8,7 @@ import numpy as np
 import pyarrow as pa
 
 from heeltoe.base.arrays import Floats, finite
+from heeltoe.study.answers.confidence import exact_bounds
 from heeltoe.study.answers.suite import below
 from heeltoe.study.run.aggregate import Walk
 
@@ -25,8 +26,8 @@ def portfolio_of(walk: Walk) -> list[dict[str, Any]] | None:
     list
         Of each model the count of its ``motions``, each at each of its strengths, and its ``dams``, the worst first:
         ``name``, ``rank`` from one, ``exceeds`` with the share of the motions in which each limit is exceeded, by
-        ``limit value``, and mean, median, 84 % and largest of the residual slip [m], None where they are not finite.
-        One motion has a largest alone.
+        ``limit value``, with its exact bounds for independent motions, ``exceeds_interval``, and mean, median, 84 % and
+        largest of the residual slip [m], None where they are not finite. One motion has a largest alone.
     """
     names: list[str] | None = walk.manifest.get("dams")
     if names is None:
@@ -44,6 +45,7 @@ def portfolio_of(walk: Walk) -> list[dict[str, Any]] | None:
                 names,
                 slips[..., place],
                 [np.mean(demands[limit][..., place] > value, axis=1) for limit, value in limits],
+                walk.confidence,
             ),
         }
         for place, model in enumerate(walk.models)
@@ -61,7 +63,7 @@ def _by_motion(walk: Walk, cube: Floats) -> Floats:
     return size.reshape(size.shape[0], -1, size.shape[-1])
 
 
-def _ranked(names: list[str], slips: Floats, exceeds: list[Floats]) -> list[dict[str, Any]]:
+def _ranked(names: list[str], slips: Floats, exceeds: list[Floats], confidence: float) -> list[dict[str, Any]]:
     """Return the dams of a model in the order of their ranks; `slips` is (dams, motions) [m]."""
     ordered = np.sort(slips, axis=1)
     with np.errstate(invalid="ignore"):
@@ -78,6 +80,7 @@ def _ranked(names: list[str], slips: Floats, exceeds: list[Floats]) -> list[dict
             "name": names[dam],
             "dam": dam,
             "exceeds": [float(share[dam]) for share in exceeds],
+            "exceeds_interval": [_bounds(float(share[dam]), slips.shape[1], confidence) for share in exceeds],
             "residual_slip_m": {
                 name: None if slips.shape[1] == 1 and name != "largest" else finite(float(column[dam]))
                 for name, column in numbers.items()
@@ -85,6 +88,10 @@ def _ranked(names: list[str], slips: Floats, exceeds: list[Floats]) -> list[dict
         }
         for rank, dam in enumerate(order.tolist())
     ]
+
+
+def _bounds(share: float, motions: int, confidence: float) -> list[float]:
+    return list(exact_bounds(round(share * motions), motions, confidence))
 
 
 def ranks_table(portfolio: list[dict[str, Any]]) -> pa.Table:

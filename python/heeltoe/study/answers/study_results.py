@@ -21,7 +21,7 @@ from heeltoe.errors.error import InputError
 from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.answers import bands, summary
 from heeltoe.study.answers.comparison import compared
-from heeltoe.study.answers.fragility import Curve, counted, curve
+from heeltoe.study.answers.fragility import Curve, NotStanding, counted, curve, not_standing
 from heeltoe.study.answers.hazard import annual
 from heeltoe.study.answers.likelihood import Tally
 from heeltoe.study.answers.portfolio import portfolio_of, ranks_table
@@ -231,9 +231,21 @@ class StudyResults(Shown):
         """
         settings = self.manifest["study"]["fragility"]
         return [
-            (model, curve(limit, value, settings["measure"], tally, confidence=settings["confidence"]))
+            (
+                model,
+                curve(
+                    *(limit, value, settings["measure"], tally),
+                    confidence=self.walk.confidence,
+                    not_standing=self.not_standing[model],
+                ),
+            )
             for (model, limit, value), tally in self.counted.items()
         ]
+
+    @cached_property
+    def not_standing(self) -> dict[str, NotStanding]:
+        """The dams that do not stand before they are shaken, by model; they are behind no curve."""
+        return not_standing(self.walk, self.walk.confidence)
 
     @cached_property
     def counted(self) -> dict[tuple[str, str, float], Tally]:

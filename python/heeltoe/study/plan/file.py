@@ -21,7 +21,7 @@ from pydantic import (
 
 from heeltoe.base.display import Shown
 from heeltoe.case.fields import Count, Fields, TimeSpan, Truth
-from heeltoe.case.quantities import AccelerationField, DimensionlessNumber, Duration, Length, Rotation
+from heeltoe.case.quantities import AccelerationField, DimensionlessNumber, Duration, Length, Rotation, Slip
 from heeltoe.case.read import read_fields
 from heeltoe.case.sentences import collected, first_error, gathered
 from heeltoe.case.suite import PeriodField, SuiteRule
@@ -190,17 +190,17 @@ class Motions(Fields):
 class FragilityLimits(Fields):
     """What a dam is said to have failed beyond, each a list of limits."""
 
-    residual_slip: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
+    residual_slip: Annotated[tuple[Slip, ...], BeforeValidator(_listed)] = ()
     """Of the slip that remains, either way."""
-    peak_slip: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
+    peak_slip: Annotated[tuple[Slip, ...], BeforeValidator(_listed)] = ()
     """Of the largest slip, either way."""
-    opening: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
+    opening: Annotated[tuple[Slip, ...], BeforeValidator(_listed)] = ()
     """Of the largest opening at either face."""
     rotation: Annotated[tuple[Rotation, ...], BeforeValidator(_listed)] = ()
     """Of the largest rotation: plain numbers in rad, or with their unit."""
     cracked_length: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
     """Of the length of a bonded joint that cracks; a little less than its width stands for a joint cracked through."""
-    crest_displacement: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
+    crest_displacement: Annotated[tuple[Slip, ...], BeforeValidator(_listed)] = ()
     """Of the horizontal displacement of the crest, either way, relative to the ground."""
     crest_acceleration: Annotated[tuple[AccelerationField, ...], BeforeValidator(_listed)] = ()
     """Of the horizontal acceleration of the crest with that of the ground, either way."""

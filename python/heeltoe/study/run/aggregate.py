@@ -22,6 +22,8 @@ from heeltoe.units.parse import parse
 
 #: Runs that are looked at together; bytes of columns that are kept once they have been read.
 _TOGETHER, _KEPT = 65_536, 1 << 27
+#: Of intervals where the study file has no fragility, which would say it.
+_CONFIDENCE = 0.9
 
 
 @dataclass(frozen=True)
@@ -149,6 +151,23 @@ class Walk:
         if not scale:
             return 1
         return len(scale["values"]) if isinstance(scale["values"], list) else None
+
+    @property
+    def confidence(self) -> float:
+        """The probability of the intervals of curves and of shares."""
+        settings = self.manifest["study"]["fragility"]
+        return float(settings["confidence"]) if settings else _CONFIDENCE
+
+    @property
+    def dams(self) -> int:
+        """How many dams the study has."""
+        motions = len(self.manifest["motions"]) if self.every else 1
+        return self.store.count // (motions * (self.strengths or 1) * len(self.models))
+
+    @property
+    def drawn(self) -> bool:
+        """Whether the dams are drawn from those that there may be, one independent of the other."""
+        return self.manifest["study"]["method"] in ("latin hypercube", "sobol")
 
     def cube(self, name: str) -> Floats:
         """Return a number of all runs in an array of dams, motions of each, strengths of each motion, and models; not a

@@ -55,7 +55,8 @@ _CAPTIONS = {
     "section": "Section of the base case with its crack, water levels and the pressure in the crack.",
     "bands": "What 16, 50 and 84 % of the runs stay below, by the strength of the motion; runs without a result count "
     "as infinitely far. Thin lines, if any, are single dams in single motions.",
-    "fragility": "Fragility curves, what they lie within (shaded), and the shares of the runs that exceed (points).",
+    "fragility": "Shares of the runs that exceed (points, with exact bounds), and fragility curves with what they lie "
+    "within (shaded); dotted, where there is no curve, between which strengths half of the dams come to exceed.",
     "slips": "Share of the runs that slide farther than so much.",
     "modes": "Which mode of motion makes most of the slip, in shares of the runs that slide; above the bars how many.",
     "sobol": "Sobol’s indices of the residual slip with their intervals.",
@@ -63,13 +64,18 @@ _CAPTIONS = {
 }
 _CAPTIONS |= {
     "suite": "Residual slip of each record, by its worse sign (bar) and the other (mark), with the numbers over all.",
-    "hazard": "The hazard curve (left), and how much of each annual rate motions of each strength make (right); below, "
-    "if there are several events, the fractiles of the annual probabilities and the shares that events make.",
+    "hazard": "The hazard curve with the annual rates, dotted what they are at most (left), and how much of each "
+    "annual rate motions of each strength make (right); below, if there are several events, the fractiles of the "
+    "annual probabilities and the shares that events make.",
     "ranks": "The worst dams of the table: residual slip over the motions, from the median to the 84 % (bar) and the "
     "largest (mark), and the share of the motions in which the first limit is exceeded.",
     "suite-spectra": "Response spectra of the records as they shake the dam, with mean and any target.",
 }
-_SOURCES = {"fragility": ("fragility", "likelihood", "jackknife"), "measures": ("measures",), "sensitivity": ("sobol",)}
+_SOURCES = {
+    "fragility": ("fragility", "likelihood", "bounds", "clusters"),
+    "measures": ("measures",),
+    "sensitivity": ("sobol",),
+}
 
 
 def study_subject(
@@ -196,8 +202,8 @@ def _lost(study: StudyResults) -> Block | None:
     ended = ", ".join(f"{name} {count:,}" for name, count in lost.items())
     items = (
         f"{sum(lost.values()):,} of {sum(study.outcomes.values()):,} runs ended without a result: {ended}.",
-        "Failed runs are kept: they exceed every limit. Other runs without a result are left out of fragility curves "
-        "and count as infinite slip in bands.",
+        "Failed runs are kept: they exceed every limit. Dams that do not stand are counted beside the fragility "
+        "curves; other runs without a result are left out of them and count as infinite slip in bands.",
     )
     return Notes("failure", "Runs without a result", tuple((item,) for item in items))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from heeltoe.result.judge import LIMITS
 from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.answers import MODES
 from heeltoe.study.answers.hazard import FRACTILES
+from heeltoe.units.sentences import counted
 from heeltoe.units.write import NOTHING, digits, measured, scaled
 from heeltoe.views.content.study_subject import StudySubject
 from heeltoe.views.content.tree import Block, Code, Inline, Section, Strong, Table, paragraph
@@ -39,8 +40,10 @@ def answer(subject: StudySubject) -> list[Block]:
             of = " of the crack that leads" if subject.results.walk.cracks > 1 else ""
             sentence += f"; the residual slip{of}, positive downstream, has the median {amounts[0]}, 84 % stay below "
             sentence += f"{amounts[1]}, and the farthest run ends at {amounts[2]}"
-        sentence = f"{sentence}. " + " ".join(
+        sentence = " ".join(
             (
+                *_do_not_stand(subject, row["model"]),
+                f"{sentence}.",
                 *_not_kept(subject, row),
                 *_exceeded(subject, row["model"]),
                 *_probabilities_of_a_year(subject, row["model"]),
@@ -79,20 +82,65 @@ def _not_kept(subject: StudySubject, summary: dict[str, Any]) -> list[str]:
     ]
 
 
+def _do_not_stand(subject: StudySubject, model: str) -> list[str]:
+    """Say how many dams do not stand before they are shaken."""
+    study = subject.results
+    if not subject.study["fragility"] or not study.not_standing[model].count:
+        return []
+    fallen = study.not_standing[model]
+    bounds = "" if fallen.interval is None else f"; {_percents(fallen.interval)}"
+    do = "does" if fallen.count == 1 else "do"
+    return [
+        f"{fallen.count:,} of {counted(fallen.dams, 'dam')} ({_percent(fallen.share)}{bounds}) {do} not stand before "
+        "the earthquake; the curves are of the others."
+    ]
+
+
 def _exceeded(subject: StudySubject, model: str) -> list[str]:
     sentences = []
     for row in subject.results.fragility if subject.study["fragility"] else ():
         if row["model"] != model:
             continue
         what = _article(limit_of(row["limit"], row["value"], subject.units, " of"))
+        where = " at any crack" if subject.results.walk.cracks > 1 else ""
         if row["median"] is None:
-            sentences.append(f"Of {what}: {row['why']}.")
+            sentences += [f"{_upper(what)}{where}: {text}." for text in _without_curve(row, subject.units)]
             continue
         middle, ends = _median(row, subject.units)
         guess = "" if row["reached"] else ", which no motion here has"
-        where = " at any crack" if subject.results.walk.cracks > 1 else ""
         sentences.append(f"Half of the dams exceed {what}{where} at {_article(_named(row))} of {middle}{ends}{guess}.")
+        sentences += _misfit(row, subject.units)
     return sentences
+
+
+def _without_curve(row: Mapping[str, Any], units: str) -> list[str]:
+    """Say what is known of a limit that has no curve: the share of the runs, and between which strengths half of the
+    dams come to exceed it."""
+    scale, shares = strength_scale(row["measure"], units), row["shares"]
+    if not shares:
+        return [row["why"]]
+    at = f" at {_article(_named(row))} of {scaled(shares[0]['strength'], scale)}"
+    runs = f"{row['exceeding']:,} of {row['runs']:,} runs exceed it"
+    if len(shares) == 1:
+        part = _percent(shares[0]["share"])
+        return [f"{runs}{at}, {part} ({_percents(shares[0]['interval'])}); no curve: {row['why']}"]
+    low, high = row["gap"]
+    if low is None or high is None:
+        return [f"{runs}; no curve: {row['why']}"]
+    between = f"no run exceeds it up to {scaled(low, scale)}, every run does from {scaled(high, scale)}"
+    return [f"{between}, and half of the dams somewhere between; no curve: {row['why']}"]
+
+
+def _misfit(row: Mapping[str, Any], units: str) -> list[str]:
+    """Say where a curve does not fit the runs."""
+    fit = row["fit"]
+    if fit is None or fit["fits"]:
+        return []
+    at = scaled(fit["strength"], strength_scale(row["measure"], units))
+    return [
+        f"This curve does not fit the runs (p = {fit['p']:.2g}): at {at} {_percent(fit['share'])} of them exceed, "
+        f"{_percent(fit['fitted'])} by the curve."
+    ]
 
 
 def results(subject: StudySubject) -> Section:
@@ -171,28 +219,80 @@ def fragility(subject: StudySubject) -> Section | None:
     for curve, label in zip(curves, _labels(subject, curves), strict=True):
         exceeding = f"{curve['exceeding']:,} of {curve['runs']:,}"
         if curve["median"] is None:
-            rows.append((label, curve["why"], "", "", "", exceeding))
+            rows.append((label, "no curve", "", "", "", "", exceeding))
             continue
         median, within = _median(curve, subject.units)
         median += ("" if curve["reached"] else " *") + within
-        spread = f"{curve['dispersion']:.2f}"
-        about = curve["dispersion_interval"]
-        if about:
-            spread += f" ({about[0]:.2f} to {about[1]:.2f})"
-        rows.append((label, median, spread, *(_part(curve[name]) for name in ("record", "other")), exceeding))
-    head = ("exceeded", f"median {_named(asked)}", "dispersion", "from event to event", "other", "runs that exceed")
-    text = (
-        f"Lognormal curves of greatest likelihood over {_named(asked)}. In brackets what median and dispersion lie "
-        f"within with {asked['confidence']:.0%}, from leaving out one event at a time. Dams that overturn, do not "
-        "stand or turn too far for small rotations exceed every limit."
+        spread = f"{curve['dispersion']:.2f}{_ends(curve['dispersion_interval'], '{:.2f}'.format)}"
+        parts = (_part(curve[name]) for name in ("record", "other"))
+        fit = f"{'yes' if curve['fit']['fits'] else 'no'}, p = {curve['fit']['p']:.2g}"
+        rows.append((label, median, spread, *parts, fit, exceeding))
+    head = (
+        "exceeded",
+        f"median {_named(asked)}",
+        "dispersion",
+        "from event to event",
+        "other",
+        "fits",
+        "runs that exceed",
     )
+    table = Table(head, tuple(rows), "Fragility.", "lllllrr", (3.0, 3.0, 2.6, 1.3, 1.0, 1.5, 2.0))
+    blocks = (paragraph(_about_curves(subject, curves)), table, *_shares(subject, curves))
+    return Section("Fragility", (*blocks, *subject.figure("fragility")))
+
+
+def _about_curves(subject: StudySubject, curves: Sequence[Mapping[str, Any]]) -> str:
+    """Return what fragility curves are, and which of them is less than that."""
+    asked, labels = subject.study["fragility"], _labels(subject, curves)
+    text = " ".join(text for model in subject.results.walk.models for text in _do_not_stand(subject, model))
+    text += (
+        f" Lognormal curves of greatest likelihood over {_named(asked)}. In brackets what median and dispersion lie "
+        f"within with {asked['confidence']:.0%}, by profile likelihood, as far as events differ. Dams that overturn or "
+        "turn too far for small rotations exceed every limit."
+    )
+    whys: dict[str, list[str]] = {}
+    for curve, label in zip(curves, labels, strict=True):
+        if curve["median"] is None:
+            whys.setdefault(f"no curve: {curve['why']}", []).append(label)
+        elif curve["interval_why"]:
+            whys.setdefault(f"not all ends of the intervals are known: {curve['interval_why']}", []).append(label)
+    text += "".join(f" {_upper(', '.join(those))}: {why}." for why, those in whys.items())
     if any(curve["median"] is not None and not curve["reached"] for curve in curves):
         text += " * stronger or weaker than any motion here: a guess."
+    if any(curve["fit"] and not curve["fit"]["fits"] for curve in curves):
+        text += " A curve that does not fit says less than the shares of the runs below."
     unknown = max((curve["unknown"] for curve in curves), default=0)
     if unknown:
         text += f" {unknown:,} runs without a result are behind no curve."
-    table = Table(head, tuple(rows), "Fragility.", "llllrr", (3.0, 3.0, 2.6, 1.3, 1.0, 2.0))
-    return Section("Fragility", (paragraph(text), table, *subject.figure("fragility")))
+    return text.strip()
+
+
+def _shares(subject: StudySubject, curves: Sequence[Mapping[str, Any]]) -> list[Block]:
+    """Return for each model which share of the runs exceeds each limit, strength by strength."""
+    tables: list[Block] = []
+    asked, labels = subject.study["fragility"], _labels(subject, curves)
+    for model in subject.results.walk.models:
+        own = {label: curve for curve, label in zip(curves, labels, strict=True) if curve["model"] == model}
+        if not any(curve["shares"] for curve in own.values()):
+            continue
+        scale = strength_scale(asked["measure"], subject.units)
+        rows: list[tuple[Inline, ...]] = []
+        for column in zip(*(curve["shares"] for curve in own.values()), strict=True):
+            cells = [
+                f"{_percent(share['share'])} ({_percents(share['interval'])}){_by_curve(share)}" for share in column
+            ]
+            rows.append((scaled(column[0]["strength"], scale), f"{column[0]['runs']:,}", *cells))
+        of = f", {model} model" if len(subject.results.walk.models) > 1 else ""
+        caption = (
+            f"Shares of the runs that exceed{of}, with the bounds that independent runs have with "
+            f"{asked['confidence']:.0%} (Clopper and Pearson); behind them, what the curve has."
+        )
+        tables.append(Table((_named(asked), "runs", *own), tuple(rows), caption, "rr" + "r" * len(own)))
+    return tables
+
+
+def _by_curve(share: Mapping[str, Any]) -> str:
+    return "" if share["fitted"] is None else f"; {_percent(share['fitted'])}"
 
 
 def hazard_section(subject: StudySubject) -> Section | None:
@@ -204,28 +304,36 @@ def hazard_section(subject: StudySubject) -> Section | None:
     rows: list[tuple[Inline, ...]] = []
     for row, label in zip(annual, labels, strict=True):
         if row["annual_rate"] is None:
-            rows.append((label, row["why"], "", "", ""))
+            rows.append((label, "no rate", "", "", "", ""))
             continue
         scale = strength_scale(row["measure"], subject.units)
         most = max(row["contribution"], key=lambda part: part["share"])
         around = f"{scaled(most['from'], scale)} to {scaled(most['to'], scale)}"
-        interval = row["annual_rate_interval"]
+        interval, least = row["annual_rate_interval"], "" if _bounded(row) else "at least "
         within = NOTHING if interval is None else f"{interval[0]:.1e} to {interval[1]:.1e}"
-        years = _years(row)
-        rows.append((label, f"{row['annual_probability']:.2e}", within, years, around))
+        rows.append((label, f"{least}{row['annual_probability']:.2e}", within, _at_most(row), _years(row), around))
     study = subject.study["fragility"]
     text = (
-        "The annual rate is the fragility curve over the hazard curve, which is straight on double logarithmic axes. "
-        f"The interval is that of the fragility curve with {study['confidence']:.0%}, to first order; the hazard is "
-        "taken as known."
+        "The annual rate is the fragility curve over the hazard curve, which is straight on double logarithmic axes; "
+        "of motions stronger than its last as many count as exceed the limit at that, of weaker ones none. “At most” "
+        "has those, too. "
+        f"The interval is that of the fragility curve with {study['confidence']:.0%}, by profile likelihood; the "
+        "hazard is taken as known."
     )
-    far = max((row["extrapolated"] or 0.0 for row in annual), default=0.0)
-    if far > FAR:
-        text += f" Up to {_percent(far)} of a rate come from beyond the ends of the hazard curve: extend it."
-    head = ("exceeded", "probability a year", "rate within", "return period", f"most at a {_named(study)} of")
-    table = Table(head, tuple(rows), "How often a year the limits are exceeded.", "lrrrr")
+    known = [(row, label) for row, label in zip(annual, labels, strict=True) if row["annual_rate"] is not None]
+    text += "".join(f" {_upper(label)}: {_beyond(row)}." for row, label in known if not _bounded(row))
+    parts = [part for model in subject.results.walk.models for part in _with_fallen(subject, model)]
+    head = (
+        "exceeded",
+        "probability a year",
+        "rate within",
+        "at most",
+        "return period",
+        f"most at a {_named(study)} of",
+    )
+    table = Table(head, tuple(rows), "How often a year the limits are exceeded.", "lrrrrr")
     blocks = (
-        paragraph(text),
+        paragraph(" ".join([text, *parts])),
         table,
         *_fractiles(annual, labels),
         *_by_event(subject, annual, labels),
@@ -233,6 +341,44 @@ def hazard_section(subject: StudySubject) -> Section | None:
         *subject.figure("hazard"),
     )
     return Section("Annual probability", blocks)
+
+
+#: Bounds of a rate that lie no further apart than this part are one number.
+_CLOSE = 0.1
+
+
+def _bounded(row: Mapping[str, Any]) -> bool:
+    """Return whether what motions beyond the hazard curve add to a rate hardly matters."""
+    low, high = row["annual_rate_bounds"]
+    return high is not None and high <= (1.0 + _CLOSE) * low
+
+
+def _at_most(row: Mapping[str, Any]) -> str:
+    high = row["annual_rate_bounds"][1]
+    return "no bound" if high is None else f"{high:.1e}"
+
+
+def _beyond(row: Mapping[str, Any]) -> str:
+    """Say what part of a rate would be made by motions beyond the ends of the hazard curve, and what to do."""
+    bound = row["bounds_why"] or f"with motions beyond the hazard curve it is up to {_at_most(row)} a year"
+    share = row["extrapolated"]
+    part = "nearly all" if share > 0.995 else _percent(share)
+    return f"{bound}; if the curve went on as it begins, {part} would come from beyond its ends: extend it"
+
+
+def _with_fallen(subject: StudySubject, model: str) -> list[str]:
+    """Say how dams that do not stand enter the annual rates."""
+    if not subject.results.not_standing[model].count:
+        return []
+    rates = [row for row in subject.results.hazard or () if row["model"] == model and row["annual_rate"] is not None]
+    if not rates:
+        return []
+    fallen = rates[0]["not_standing_rate"]
+    alone = " and ".join(f"{row['standing_rate']:.1e}" for row in rates)
+    return [
+        "Dams that do not stand exceed every limit in every motion of the hazard curve, which makes "
+        f"{fallen:.1e} a year of each rate; dams that stand by themselves have {alone} a year."
+    ]
 
 
 def _labels(subject: StudySubject, rows: Sequence[Mapping[str, Any]]) -> list[str]:
@@ -288,12 +434,12 @@ def _at_strengths(
     scale = strength_scale(annual[0]["measure"], subject.units)
     rows: list[tuple[Inline, ...]] = []
     for place, point in enumerate(next(iter(known.values()))["at"]):
-        years = 1.0 / point["annual_rate"]
+        years = NOTHING if point["annual_rate"] is None else f"{digits(1.0 / point['annual_rate'], 3)} years"
         cells = [
             f"{_percent(row['at'][place]['probability'])}; {_percent(_made_up_to(row, point['strength']))}"
             for row in known.values()
         ]
-        rows.append((scaled(point["strength"], scale), f"{digits(years, 3)} years", *cells))
+        rows.append((scaled(point["strength"], scale), years, *cells))
     caption = (
         "Probability that a limit is exceeded in a motion of this strength; behind it, the share of the annual rate "
         "that motions up to there make."
@@ -308,10 +454,6 @@ def _made_up_to(row: Mapping[str, Any], strength: float) -> float:
     edges = [parts[0]["from"], *(part["to"] for part in parts)]
     made = np.concatenate([[0.0], np.cumsum([part["share"] for part in parts])])
     return float(np.interp(math.log(strength), np.log(edges), made))
-
-
-#: More of a rate than this from beyond the ends of a hazard curve is said.
-FAR = 0.1
 
 
 def _years(row: dict[str, Any]) -> str:
@@ -333,10 +475,15 @@ def _probabilities_of_a_year(subject: StudySubject, model: str) -> list[str]:
         interval = row["annual_rate_interval"]
         within = "" if interval is None else f" ({interval[0]:.1e} to {interval[1]:.1e})"
         years = "" if _years(row) == NOTHING else f", once in {_years(row)}"
-        sentences.append(
-            f"With the hazard of the site {what} is exceeded with {row['annual_rate']:.1e} a year{within}{years}."
-        )
-    return sentences
+        low, high = row["annual_rate_bounds"]
+        rate = f"with {low:.1e} a year{within}{years}"
+        if not _bounded(row):
+            rate = (
+                f"at least {low:.1e} times a year{within}" if high is None else f"{low:.1e} to {high:.1e} times a year"
+            )
+            rate += f": {_beyond(row)}"
+        sentences.append(f"With the hazard of the site {what} is exceeded {rate}.")
+    return [*sentences, *(_with_fallen(subject, model) if sentences else ())]
 
 
 #: Events that a table shows.
@@ -355,7 +502,15 @@ def portfolio(subject: StudySubject) -> list[Block]:
         shown = ("largest",) if one else ("median", "84%", "largest")
         cells = [[Amount(dam["residual_slip_m"][name], zero="0") for name in shown] for dam in worst]
         rows: list[tuple[Inline, ...]] = [
-            (str(dam["rank"]), dam["name"], *(_exceeds(share, one=one) for share in dam["exceeds"]), *texts)
+            (
+                str(dam["rank"]),
+                dam["name"],
+                *(
+                    _exceeds(share, ends, one=one)
+                    for share, ends in zip(dam["exceeds"], dam["exceeds_interval"], strict=True)
+                ),
+                *texts,
+            )
             for dam, texts in zip(worst, in_one_unit(cells, subject.units), strict=True)
         ]
         heads = [limit if one else f"P({limit})" for limit in limits]
@@ -371,9 +526,9 @@ def portfolio(subject: StudySubject) -> list[Block]:
     return blocks
 
 
-def _exceeds(share: float, *, one: bool) -> str:
+def _exceeds(share: float, ends: Sequence[float], *, one: bool) -> str:
     """Write the share of the motions in which a limit is exceeded; of one motion whether it is."""
-    return _percent(share) if not one else "exceeded" if share else "kept"
+    return f"{_percent(share)} ({_percents(ends)})" if not one else "exceeded" if share else "kept"
 
 
 def portfolio_section(subject: StudySubject) -> Section | None:
@@ -480,7 +635,7 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:.1f} %"
 
 
-def _named(asked: dict[str, Any]) -> str:
+def _named(asked: Mapping[str, Any]) -> str:
     period = asked.get("period")
     name = _NAMES.get(asked["measure"], str(asked["measure"]))
     return f"{name} at {period}" if period else name
@@ -490,8 +645,33 @@ def _article(name: str) -> str:
     return f"{'an' if name.startswith(('A', 'SA', 'o')) else 'a'} {name}"
 
 
-def _median(row: dict[str, Any], units: str) -> tuple[str, str]:
+def _median(row: Mapping[str, Any], units: str) -> tuple[str, str]:
     """Write the median strength of a curve, and what it lies within."""
-    scale, ends = strength_scale(row["measure"], units), row["median_interval"]
-    within = f" ({scaled(ends[0], scale)} to {scaled(ends[1], scale)})" if ends else ""
-    return scaled(row["median"], scale), within
+    scale = strength_scale(row["measure"], units)
+    return scaled(row["median"], scale), _ends(row["median_interval"], lambda value: scaled(value, scale))
+
+
+def _ends(ends: Sequence[float | None] | None, write: Callable[[float], str]) -> str:
+    """Write what a number lies within, in brackets; a side without an end as one."""
+    if ends is None:
+        return ""
+    low, high = ends
+    if low is None or high is None:
+        return (
+            " (no bounds)"
+            if low is high
+            else f" (above {write(low)})"
+            if low is not None
+            else f" (below {write(high or 0.0)})"
+        )
+    return f" ({write(low)} to {write(high)})"
+
+
+def _percents(ends: Sequence[float]) -> str:
+    """Write between which shares something lies."""
+    low, high = (f"{100.0 * end:.2g}" if 0.0 < end < 0.995 else f"{100.0 * end:.3g}" for end in ends)
+    return f"{low} to {high} %"
+
+
+def _upper(text: str) -> str:
+    return text[:1].upper() + text[1:]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,7 +12,7 @@ from matplotlib.figure import Figure
 
 from heeltoe.base.arrays import Floats
 from heeltoe.result.contract import JOINT_METER_M
-from heeltoe.study.answers.fragility import Curve, observed
+from heeltoe.study.answers.fragility import Curve
 from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.run.aggregate import SHAKEN
 from heeltoe.units.write import length
@@ -103,45 +104,71 @@ def _band(axes: Axes, band: dict[str, list[float]], scale: float, seen: Callable
 
 @styled
 def fragility_figure(study: StudyResults, units: str = "si") -> Figure | None:
-    """Draw the fragility curves with what they lie within, and the shares of the runs that exceed; None without runs
-    on which one could stand."""
+    """Draw the shares of the runs that exceed each limit with their bounds, and the fragility curves with what they lie
+    within; where there is no curve, the strengths between which half of the dams come to exceed. None without runs."""
     asked = study.manifest["study"]["fragility"]
-    fitted = [pair for pair in study.curves if pair[1].median is not None]
-    if not fitted:
+    known = [pair for pair in study.curves if pair[1].shares]
+    if not known:
         return None
     strength = measured(asked["measure"], asked["period"], units)
-    models = list(dict.fromkeys(name for name, _ in fitted))
+    models = list(dict.fromkeys(name for name, _ in known))
     limits = list(dict.fromkeys((limit, value) for _, limit, value in study.counted))
     labels = limits_of(limits, units)
     figure = Figure(figsize=(WIDTH, 4.4), layout="constrained")
     panels = figure.subplots(1, len(models), sharex=True, sharey=True, squeeze=False)[0]
-    strongest = max(tally.highest for tally in study.counted.values()) / strength.scale
-    x = np.linspace(0.0, strongest, 241)[1:]
+    strongest = max(curve.shares[-1].strength for _, curve in known) / strength.scale
+    x = np.linspace(0.0, 1.03 * strongest, 241)[1:]
     for name, axes in zip(models, panels, strict=True):
-        for curve in (curve for of, curve in fitted if of == name):
+        for curve in (curve for of, curve in known if of == name):
             look = LINES[limits.index((curve.limit, curve.value)) % len(LINES)]
-            middle, shares = observed(study.counted[name, curve.limit, curve.value])
-            points = (np.array(middle) / strength.scale, np.array(shares))
-            label = labels[curve.limit, curve.value]
-            _curve(axes, curve, (x, strength.scale), points, (*look, label))
+            _curve(axes, curve, (x, strength.scale), (*look, labels[curve.limit, curve.value]))
         axes.set_title(f"{name} model", fontsize=9, loc="left")
         axes.set_xlabel(strength.label)
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), fontsize=8, ncols=3 if len(models) == 1 else 1)
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), fontsize=8, ncols=2 if len(models) == 1 else 1)
     panels[0].set_ylim(0.0, 1.0)
-    panels[0].set_xlim(0.0, None)
+    panels[0].set_xlim(0.0, 1.03 * strongest)
     panels[0].set_ylabel("probability that it is exceeded")
-    within = any(curve.covariance is not None for _, curve in fitted)
-    band = f"; shaded: {asked['confidence']:.0%} confidence, event by event" if within else ""
-    return headed(figure, study, f"points: shares of the runs{band}")
+    within = any(curve.knowledge is not None for _, curve in known)
+    sure = f"{asked['confidence']:.0%}"
+    band = f"; shaded: {sure}, event by event" if within else ""
+    return headed(figure, study, *_do_not_stand(study), f"points: shares of the runs with exact bounds, {sure}{band}")
 
 
-def _curve(
-    axes: Axes, curve: Curve, along: tuple[Floats, float], points: tuple[Floats, Floats], look: tuple[str, str, str]
-) -> None:
+def _do_not_stand(study: StudyResults) -> list[str]:
+    several = len(study.not_standing) > 1
+    return [
+        f"{100.0 * one.share:.1f} % of the dams do not stand" + (f", {name}" if several else "")
+        for name, one in study.not_standing.items()
+        if one.count
+    ]
+
+
+def _curve(axes: Axes, curve: Curve, along: tuple[Floats, float], look: tuple[str, str, str]) -> None:
     (x, scale), (colour, dash, label) = along, look
     strength = x * scale
-    axes.plot(x, curve.probability(strength), color=colour, linestyle=dash, linewidth=1.8, label=label)
-    within = curve.within(strength)
-    if within is not None:
-        axes.fill_between(x, *within, color=colour, alpha=0.15, linewidth=0.0)
-    axes.plot(*points, linestyle="", marker="o", markersize=4, color=colour, markerfacecolor="white", clip_on=False)
+    style: dict[str, Any] = {"color": colour, "linestyle": dash, "linewidth": 1.8}
+    if curve.median is not None:
+        misfit = f" (does not fit, p = {curve.fit.p:.2g})" if curve.fit and not curve.fit.fits else ""
+        axes.plot(x, curve.probability(strength), **style, label=label + misfit)
+        within = curve.within(strength)
+        if within is not None:
+            axes.fill_between(x, *within, color=colour, alpha=0.15, linewidth=0.0)
+    else:
+        axes.plot([], [], color=colour, linestyle="", marker="o", markerfacecolor="white", label=f"{label}: no curve")
+        low, high = curve.gap
+        if low is not None and high is not None:
+            # Half of the dams come to exceed it somewhere here.
+            axes.plot([low / scale, high / scale], [0.5, 0.5], color=colour, linestyle=":", linewidth=1.4, marker="|")
+    shares = np.array([share.share for share in curve.shares])
+    ends = np.abs(np.array([share.interval for share in curve.shares]).T - shares)
+    at = np.array([share.strength for share in curve.shares]) / scale
+    axes.errorbar(
+        *(at, shares, ends),
+        linestyle="",
+        marker="o",
+        markersize=4,
+        color=colour,
+        markerfacecolor="white",
+        elinewidth=0.8,
+        clip_on=False,
+    )

@@ -20,6 +20,8 @@ from heeltoe.views.words.studies import limits_of
 
 #: Events of a hazard that figure and table show, and the letters of a name.
 _SHOWN, _LONGEST = 12, 28
+#: An axis of probabilities that ends at less than so many times its beginning has two numbers in each decade.
+_NARROW = 300.0
 
 
 @styled
@@ -33,7 +35,9 @@ def hazard_figure(study: StudyResults, units: str = "si") -> Figure | None:
     strength = measured(settings["measure"], settings["period"], units)
     limits = limits_of([(row["limit"], row["value"]) for row in rows], units)
     several = len({row["model"] for row in rows}) > 1
-    names = [limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "") for row in rows]
+    names = [
+        limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "") + _least(row) for row in rows
+    ]
     known = any(row["by_event"] for row in rows)
     events = _events(rows)
     below = 1.3 + 0.2 * max(len(events), 2 * len(rows))
@@ -48,6 +52,9 @@ def hazard_figure(study: StudyResults, units: str = "si") -> Figure | None:
     for place, (row, label) in enumerate(zip(rows, names, strict=True)):
         colour, dash = LINES[place % len(LINES)]
         left.axhline(row["annual_rate"], color=colour, linestyle=dash, linewidth=1.3)
+        high = row["annual_rate_bounds"][1]
+        if high is not None and high > row["annual_rate"]:
+            left.axhline(high, color=colour, linestyle=":", linewidth=1.0)
         if row["annual_rate_interval"] is not None:
             left.axhspan(*row["annual_rate_interval"], color=colour, alpha=0.12, linewidth=0.0)
         edges = np.array([row["contribution"][0]["from"], *(part["to"] for part in row["contribution"])])
@@ -67,7 +74,11 @@ def hazard_figure(study: StudyResults, units: str = "si") -> Figure | None:
         _fractiles(fractiles, rows)
         _shares(shares, rows, events)
     figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8)
-    return headed(figure, study, "fragility over hazard")
+    return headed(figure, study, "fragility over hazard; dotted: at most, with motions beyond the hazard curve")
+
+
+def _least(row: Mapping[str, Any]) -> str:
+    return " (at least)" if row["annual_rate_bounds"][1] is None else ""
 
 
 def _events(rows: Sequence[Mapping[str, Any]]) -> list[str]:
@@ -87,7 +98,8 @@ def _fractiles(axes: Axes, rows: Sequence[Mapping[str, Any]]) -> None:
             axes.plot([known["16%"], known["84%"]], [-place] * 2, color=colour, linewidth=5.0, solid_capstyle="butt")
         axes.plot(row["annual_probability"], -place, "o", color="#000000", markersize=4.5, zorder=3)
     axes.set_xscale("log")
-    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
+    low, high = axes.get_xlim()
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0) if high < _NARROW * low else (1.0,), numticks=6))
     axes.xaxis.set_major_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_ylim(0.6 - len(rows), 0.6)
