@@ -124,8 +124,8 @@ def results(subject: Subject) -> Section:
         Table(
             ("", "value"),
             tuple(static),
-            f"Before the earthquake, {subject.per_width}; accelerations at which a rigid part above the crack starts "
-            "to move.",
+            f"Before the earthquake, with the uplift of the case, {subject.per_width}; accelerations at which a rigid "
+            "part above the crack starts to move.",
             "lr",
         ),
         *subject.figure("comparison", "response"),
