@@ -146,6 +146,9 @@ def _check(name: str, limit: float, crack: CrackResponse, *, failed: bool) -> Li
     }
     key, evidence = keys[name], numbers.get("evidence")
     uncertainty = 0.0 if evidence is None else evidence[key].uncertainty
+    if uncertainty is None:
+        # Without a bound it may be off by as much as it is.
+        uncertainty = abs(numbers[key])
     return LimitCheck(
         name=name,
         value=abs(numbers[key]),

@@ -25,7 +25,7 @@ from heeltoe.models.flexible.evidence.trials import SCALES, SOFTENING, Level, Tr
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import FEWEST_ACROSS
 from heeltoe.result.contract import CRACKED, HEADLINES
-from heeltoe.result.numbers import EvidenceNumbers, HeadlineWorth
+from heeltoe.result.numbers import EvidenceNumbers, HeadlineWorth, RotationWorth
 
 # Two meshes may agree by chance. Twice the elements of quadratic shape make what they leave a quarter at best, so of
 # what moves a number from the third mesh to the second at least this part is left; coarser meshes say nothing.
@@ -154,6 +154,10 @@ def _worth(
     deviation = None if varied is None else max(float(runs.std(ddof=1)) for runs in varied)
     least = FLOOR_M if key.endswith("_m") else 0.0
     return worth_of(value, run, abs(run - other), mesh, deviation, surroundings, least=least)
+
+
+def _rotation(worth: HeadlineWorth, *, bounded: bool) -> RotationWorth:
+    return RotationWorth(**dict(worth) | ({} if bounded else {"uncertainty": None}))
 
 
 def _moved_by_mesh(
@@ -285,6 +289,7 @@ class _Stand:
             moved = (length.step, length.mesh, length.shaking, length.surroundings)
             cracked = worth_of(length.run, length.run, *moved, least=least)
         slip = worth("residual_slip_m")
+        on_rock = dam.rock is not None and crack == len(dam.lines) - 1
         no_limit = may_have_no_limit(trials.dam_of(0).case, dam)
         failed = 0 if varied is None else trials.failed(self._own if mean else self._cheap, SCALES)
         slips = [] if ensembles is None else ensembles[0]["residual_slip_m"].tolist()
@@ -308,5 +313,10 @@ class _Stand:
             budget=BUDGET,
             budget_spent=spent,
             cracked_length_m=cracked,
-            **{item.key: worth(item.key) for item in HEADLINES},
+            **{
+                item.key: _rotation(worth(item.key), bounded=not on_rock)
+                if item.kind == "rotation"
+                else worth(item.key)
+                for item in HEADLINES
+            },
         )
