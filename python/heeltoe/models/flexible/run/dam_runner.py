@@ -107,10 +107,11 @@ class ShakenDam:
         count, step, ground = self._ground(step)
         if pauses is not None:
             ground = np.vstack([ground, np.zeros((pauses.times * pauses.steps, 2))])
-        stride, rows = 0, None
+        stride, rows, crest = 0, None, None
         if frame_step is not None:
             stride = max(1, min(count, round(frame_step / step)))
             often = max(1, round(min(_STRESS_STEP, frame_step) / step))
+            crest = self._crest_row
             rows = StressRows(tuple(item.rows for item in self.dam.stress_places), often) if stresses else None
         return self._shaken_dam.run(
             factor * ground,
@@ -118,6 +119,7 @@ class ShakenDam:
             self.case.flexible.theta,
             stride=stride,
             stresses=rows,
+            crest=crest,
             penalty=self._penalty(),
             ending=ending,
             until_rest=None if pauses is None else (count, pauses.steps, LAST_S, JOINT_METER_M),
@@ -154,6 +156,12 @@ class ShakenDam:
             penalty=self._penalty(),
             ending=ending,
         )
+
+    @cached_property
+    def _crest_row(self) -> Floats:
+        """How far each mode of the part at the crest moves its upstream edge downstream."""
+        row = 2 * int(self.dam.bodies[0].mesh.upstream[-1])
+        return np.ascontiguousarray(self.dam.modes[0].shapes[row])
 
     @cached_property
     def _shaken_dam(self) -> CrackedDam:
