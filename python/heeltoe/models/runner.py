@@ -42,8 +42,9 @@ Table = dict[str, Floats]
 Words = NDArray[Any]
 
 
-def outcome_of(outcome: str, rotation: float, *, finite: bool = False) -> str:
-    """Return how a run ended: a rotation that is taken for small and is not leaves no result.
+def outcome_of(outcome: str, rotation: float, *, finite: bool = False, off: bool = False) -> str:
+    """Return how a run ended: a rotation that is taken for small and is not leaves no result, nor does a part that has
+    left what it stood on.
 
     Parameters
     ----------
@@ -53,15 +54,34 @@ def outcome_of(outcome: str, rotation: float, *, finite: bool = False) -> str:
         Largest rotation, either way [rad].
     finite
         Whether the model follows rotations of any size.
+    off
+        Whether a part has slid farther than its crack is wide.
     """
-    return TOO_FAR if outcome == "ok" and rotation > LARGEST_ROTATION and not finite else outcome
+    if outcome != "ok":
+        return outcome
+    if rotation > LARGEST_ROTATION and not finite:
+        return TOO_FAR
+    return "lost" if off else outcome
 
 
-def outcomes_of(outcomes: Sequence[str] | Words, tables: Sequence[Mapping[str, Floats]], *, finite: bool) -> Words:
-    """Return the same of many runs, (n,): `tables` have what the kernel says of each of their cracks."""
+def outcomes_of(
+    outcomes: Sequence[str] | Words,
+    tables: Sequence[Mapping[str, Floats]],
+    widths: Sequence[Floats | float],
+    *,
+    finite: bool,
+) -> Words:
+    """Return the same of many runs, (n,): `tables` have what the kernel says of each of their cracks, which are so wide
+    [m]."""
     turned = np.max([largest_rotation(table) for table in tables], axis=0)
-    words = [outcome_of(word, turn, finite=finite) for word, turn in zip(outcomes, turned.tolist(), strict=True)]
-    return np.array(words, dtype=object)
+    off = np.any([largest_slip(table) > width for table, width in zip(tables, widths, strict=True)], axis=0)
+    ends = zip(outcomes, turned.tolist(), off.tolist(), strict=True)
+    return np.array([outcome_of(word, turn, finite=finite, off=left) for word, turn, left in ends], dtype=object)
+
+
+def largest_slip(table: Mapping[str, Floats] | Mapping[str, float]) -> Floats:
+    """Return the largest slip of runs either way [m]."""
+    return np.maximum(table["slip_max"], np.negative(table["slip_min"]))
 
 
 def largest_rotation(table: Mapping[str, Floats] | Mapping[str, float]) -> Floats:
@@ -94,7 +114,7 @@ def slid_off(outcome: str, peak_slip: float, width: float) -> bool:
 
     Where it tips over the edge it turns too far for small rotations.
     """
-    return outcome in ("ok", TOO_FAR) and peak_slip > width
+    return outcome in ("ok", "lost", TOO_FAR) and peak_slip > width
 
 
 def until_rest(
@@ -226,10 +246,24 @@ def where_of(case: Case, alone: Case) -> Sentence | str:
 
 
 def about_the_anchors(anchors: Sequence[AnchorForce]) -> Iterator[Notice]:
-    """Say which anchors bear more than they are good for, and of which nothing says what that is."""
+    """Say which anchors go slack or bear more than they are good for, and of which nothing says what that is."""
     for number, anchor in enumerate(anchors, start=1):
-        if anchor.capacity_n is not None and anchor.peak_force_n > anchor.capacity_n:
-            yield Notice("anchor-overloaded", number=number, force_n=anchor.peak_force_n, capacity_n=anchor.capacity_n)
+        if anchor.slack_s is not None:
+            at_end = Sentence.of("pulls with {tension_n:.4g MN/m} at the end", tension_n=anchor.final_tension_n)
+            yield Notice(
+                "anchor-slack",
+                number=number,
+                time_s=anchor.slack_s,
+                then=at_end if anchor.final_tension_n else Sentence("is slack at the end"),
+            )
+        if anchor.yields_s is not None:
+            yield Notice(
+                "anchor-overloaded",
+                number=number,
+                time_s=anchor.yields_s,
+                force_n=anchor.peak_force_n,
+                capacity_n=anchor.capacity_n,
+            )
     unlimited = [anchor.peak_force_n for anchor in anchors if anchor.capacity_n is None]
     if unlimited:
         yield Notice("anchor-unlimited", force_n=max(unlimited))

@@ -31,7 +31,7 @@ from heeltoe.models.flexible.warnings import judge_outcome, stands, warnings_of
 from heeltoe.models.runner import STEP, severity, until_rest, where_of
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import CRACKED, leading_crack
-from heeltoe.result.crest import CrestMotion, crest_motion
+from heeltoe.result.crest import CrestMotion
 from heeltoe.result.limits import allowed_of
 from heeltoe.result.numbers import SelfExcitation, SignNumbers
 from heeltoe.result.rest import LAST_S, last_change, still_since
@@ -92,7 +92,8 @@ def run_flexible(
     histories, envelope = histories_of_cracks(case, dam, run), envelope_of(dam, run)
     worn = [worn_of(alone, place, dam, run) for place, alone in enumerate(case.single_crack_cases)]
     tension = None if outcome == "unstable" else tension_of(result, envelope)
-    cracks = tuple(crack_responses(result, histories, static_state(block)))
+    crest = crest_of(shaken, run)
+    cracks = tuple(crack_responses(result, histories, static_state(block), crest))
     leads = leading_crack([crack.residual_slip_m for crack in cracks])
     is_first = run is first.run and leads == first.leads
     growth = at_first.result() if is_first else _growth(shaken, run, outcome, leads)
@@ -104,7 +105,7 @@ def run_flexible(
         advice=advice,
         warnings=(
             *water_warnings(numbers.water_pressure),
-            *warnings_of(shaken, run, histories, result.evidences, growth, block.sliding_safety_factor, outcome, leads),
+            *warnings_of(shaken, run, histories, result.evidences, growth, block, outcome, leads),
             *tension_warnings(tension),
             *_about_the_laws(case, worn),
         ),
@@ -118,6 +119,7 @@ def run_flexible(
         references=_references(case, dam),
         silence_s=earthquake.silence,
         envelope=envelope,
+        crest=crest.motion(case.gravity),
     )
 
 
@@ -163,10 +165,9 @@ class Rested(NamedTuple):
         """Which of its cracks slips most."""
         return leading_crack([summary.slip for summary in self.run.summaries])
 
-    def crest(self, case: Case) -> CrestMotion | None:
+    def crest(self, case: Case) -> CrestMotion:
         """Return how the crest moves."""
-        peak = float(abs(self.shaken.shaking.horizontal).max())
-        return crest_motion(crest_of(self.shaken, self.run), case.gravity, peak)
+        return crest_of(self.shaken, self.run).motion(case.gravity)
 
     def limits_not_met(self, case: Case) -> int:
         """Return how many of the limits of the case it does not meet."""
@@ -181,8 +182,7 @@ class Rested(NamedTuple):
             for row, line, section in lengths
         )
         crest = self.crest(case)
-        if crest is not None:
-            worst |= {"crest_displacement": crest.displacement_m, "crest_acceleration": crest.acceleration_g}
+        worst |= {"crest_displacement": crest.displacement_m, "crest_acceleration": crest.acceleration_g}
         limits = {name: allowed_of(case.limits, name, case.gravity) for name in worst}
         return sum(limit is not None and worst[name] > limit for name, limit in limits.items())
 

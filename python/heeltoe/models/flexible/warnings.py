@@ -9,7 +9,9 @@ from heeltoe.case.dam import Rock
 from heeltoe.case.model import Case
 from heeltoe.case.warnings import concrete_warnings
 from heeltoe.kernel.dam import DamRun, DamSummary
-from heeltoe.mechanics.block import Block, instability
+from heeltoe.mechanics.anchors import anchors_hold
+from heeltoe.mechanics.beam import band_of
+from heeltoe.mechanics.block import Block, build_block, instability
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.flexible.body.bond import zone_mesh
 from heeltoe.models.flexible.body.modes import ENOUGH
@@ -20,7 +22,6 @@ from heeltoe.models.flexible.result.tables import anchors_of
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.surroundings.left_out import left_out
 from heeltoe.models.flexible.surroundings.rock import ENOUGH as ENOUGH_OF_ROCK
-from heeltoe.models.flexible.surroundings.rock import HIGHEST
 from heeltoe.models.runner import about_the_anchors, largest_rotation, outcome_of
 from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
 from heeltoe.result.numbers import AnchorForce, EvidenceNumbers, SelfExcitation
@@ -31,9 +32,20 @@ from heeltoe.warnings.notice import Notice
 _MISSED = 1e-3
 # What to do about it.
 _STAND = "give the dam more friction, less uplift or less water until it stands before the earthquake"
+_UNREST = {
+    "moves away": ("nothing holds a part above a crack of the elastic dam under the static loads alone", _STAND),
+    "not found": (
+        "the search for a state of rest before the earthquake ended after 3,000 steps without one, which shows neither "
+        "that the dam stands nor that it does not",
+        "see its static safety, and try another flexible.elements_across, flexible.contactors or a weaker bond",
+    ),
+    "not sought": ("a part starts off the crack below it", _STAND),
+}
 _REMEDIES = {
-    "unstable": f"the dam slides under its static loads alone, and goes on for as long as the run lasts; {_STAND}",
-    "lost": "the part above the crack has gone over 100 crack widths away: the dam has failed; see its static safety",
+    "lost": (
+        "the part above a crack has slid or lifted farther than the crack is wide and left what it stood on: the dam "
+        "has failed; see its static safety"
+    ),
     "blown up": (
         'energy came from nothing, as penalties can make it; use flexible.contact = "coulomb" or a smaller time_step'
     ),
@@ -41,23 +53,44 @@ _REMEDIES = {
 
 
 def stands(dam: FlexibleDam, block: Block) -> bool:
-    """Whether a dam stands before the earthquake, or anchors with stiffness may hold it."""
-    return bool(dam.anchors) or (instability(block) is None and dam.start.stands)
+    """Whether a dam stands before the earthquake by static equilibrium: with what anchors bear before it moves, or with
+    what they come to bear as it slides or turns."""
+    return (instability(block) is None and dam.start.stands) or _held(block) is not None
+
+
+def _held(block: Block) -> Block | None:
+    """Return the block above a crack that friction, weight and prestress do not hold, where anchors hold all of these;
+    None where there is none, or one that nothing holds."""
+    if not any(anchor.yields for anchor in block.case.anchors):
+        return None
+    blocks = [build_block(alone) for alone in block.case.single_crack_cases]
+    loose = [alone for alone in blocks if instability(alone) is not None]
+    return loose[0] if loose and all(map(anchors_hold, loose)) else None
+
+
+def _unrest(dam: FlexibleDam) -> tuple[str, str]:
+    """Say why no state of rest before the earthquake is known, and what to do."""
+    return _UNREST[dam.start.unrest or "not sought"]
 
 
 def judge_outcome(dam: FlexibleDam, block: Block, run: DamRun) -> tuple[str, Sentence | None]:
     """Return how a run ended, and what to do about it; none where there is a result to trust.
 
-    A dam that slides, overturns or floats under its static loads is none that an earthquake moves; anchors with
-    stiffness hold what friction and weight do not. Rotations that are not small are none of this model.
+    A dam that slides, overturns or floats under its static loads is none that an earthquake moves. A part that slides
+    farther than its crack is wide has left what it stood on. Rotations that are not small are none of this model.
     """
     raw = run.summary
     if run.outcome in ("ok", "lost") and not stands(dam, block):
-        why = instability(block)
-        remedied = None if why is None else Sentence.of("{why}: {remedy}", why=why, remedy=_STAND)
-        return "unstable", remedied or _stopped("unstable", raw)
+        why, remedy = instability(block), _STAND
+        if why is None:
+            text, remedy = _unrest(dam)
+            why = Sentence(text)
+        return "unstable", Sentence.of("{why}: {remedy}", why=why, remedy=remedy)
     largest = max(float(largest_rotation(summary.by_name())) for summary in run.summaries)
-    outcome = outcome_of(run.outcome, largest)
+    widths = [section.crack_width for section in dam.sections]
+    slips = [max(summary.slip_max, -summary.slip_min) for summary in run.summaries]
+    off = any(slip > width for slip, width in zip(slips, widths, strict=True))
+    outcome = outcome_of(run.outcome, largest, off=off)
     if outcome == TOO_FAR:
         text = (
             "it rotates by {rotation_rad:.3g rad}; beyond {largest_rad:g rad} a rotation is not small, and the "
@@ -84,18 +117,18 @@ def warnings_of(
     histories: Sequence[CrackHistory],
     evidences: Sequence[EvidenceNumbers],
     growth: SelfExcitation | None,
-    safety: float | None,
+    block: Block,
     outcome: str,
     leads: int = 0,
 ) -> list[Notice]:
-    """Return what a reader of a flexible run must know; `safety` is that against sliding under the static loads,
-    `outcome` that of :func:`judge_outcome`, and `leads` the place of the crack that leads."""
+    """Return what a reader of a flexible run must know; `block` is the part above the crack asked of, `outcome` that of
+    :func:`judge_outcome`, and `leads` the place of the crack that leads."""
     case, dam = shaken.case, shaken.dam
     peak = float(abs(shaken.shaking.horizontal).max())
     return [
         # What does not stand has no result that evidence could be of.
         *(_about_the_evidences(evidences, dam, leads) if outcome != "unstable" else ()),
-        *_about_the_start(case, dam, safety),
+        *_about_the_start(case, dam, block),
         *_about_the_growth(growth, run.summaries[leads]),
         *_about_the_mesh(dam),
         *_about_the_rock(case, dam),
@@ -115,7 +148,7 @@ def _most_loaded(case: Case, run: DamRun) -> list[AnchorForce]:
 
 def _about_the_rock(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
     if dam.rock_error > ENOUGH_OF_ROCK:
-        yield Notice("rock-coarse", error=dam.rock_error, highest_hz=HIGHEST)
+        yield Notice("rock-coarse", error=dam.rock_error, highest_hz=band_of(case))
     if case.rock is not None and may_have_no_limit(case, dam):
         yield Notice("rock-undamped", damping=case.rock.damping, usual=Rock.model_fields["damping"].default)
     if case.rock is not None and case.rock.massless:
@@ -150,12 +183,15 @@ def _about_the_joints(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
         )
 
 
-def _about_the_start(case: Case, dam: FlexibleDam, safety: float | None) -> Iterator[Notice]:
-    if safety is not None and safety < 1.0:
+def _about_the_start(case: Case, dam: FlexibleDam, block: Block) -> Iterator[Notice]:
+    safety, held = block.sliding_safety_factor, _held(block)
+    if held is not None:
+        yield Notice("anchors-hold", why=instability(held))
+    elif safety is not None and safety < 1.0:
         steps = climbs(case.crack.kinks) and dam.start.stands
-        yield Notice("anchors-hold" if dam.anchors else "steps-hold" if steps else "slides-by-itself", factor=safety)
-    elif not (dam.start.stands or dam.anchors):
-        yield Notice("no-rest")
+        yield Notice("steps-hold" if steps else "slides-by-itself", factor=safety)
+    elif not dam.start.stands:
+        yield Notice("no-rest", why=_unrest(dam)[0])
 
 
 def _about_the_evidences(evidences: Sequence[EvidenceNumbers], dam: FlexibleDam, leads: int) -> Iterator[Notice]:

@@ -6,6 +6,7 @@ import math
 
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import BlockRun
+from heeltoe.mechanics.anchors import anchors_hold
 from heeltoe.mechanics.block import Block, instability
 from heeltoe.mechanics.friction import range_of
 from heeltoe.models.rigid.tables import anchors_of
@@ -23,6 +24,10 @@ ADVICE = {
     "paradox": (
         'no motion agrees with Coulomb friction here (Painlevé); set analysis.paradox = "tangential impact" to let the '
         "sliding corner jam, or use the flexible model"
+    ),
+    "lost": (
+        "the part above the crack slides farther than the crack is wide and leaves what it stood on: the dam has "
+        "failed; see its static safety"
     ),
     "event limit": "lower crack.restitution, shorten motion.duration or raise analysis.event_limit",
     "cycling": "report this case: events followed each other without time passing, which should not happen",
@@ -88,6 +93,9 @@ def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:
     # Integration is exact to a part of the crack's width, of which tiny motions are a tiny part.
     if raw.energy_residual > (1e-9 if run.exact else 1e-6):
         notices.append(Notice("energy-open", residual=raw.energy_residual))
+    why = instability(block)
+    if why is not None and anchors_hold(block):
+        notices.append(Notice("anchors-hold", why=why))
     notices += about_the_anchors(anchors_of(case, run))
     if case.analysis.rotation == "small":
         notices += _about_the_rotation(block, run)
