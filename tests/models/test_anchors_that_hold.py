@@ -12,7 +12,10 @@ import numpy as np
 import pytest
 
 from heeltoe import GroundMotion, flexible, read_case, rigid, run
+from heeltoe.views.report.html import html
+from heeltoe.views.report.write import build_report
 from shared.command import command
+from shared.report_reader import Reader
 
 G = 9.80665
 WEIGHT = 2400.0 * 4.0 * G
@@ -114,6 +117,16 @@ def test_a_tendon_bears_more_than_its_capacity_from_a_known_slip_on(model):
     assert borne.slack_s is None
     (warning,) = [warning for warning in response.warnings if warning.code == "anchor-overloaded"]
     assert f"{borne.yields_s:.3f} s" in warning.text()
+
+
+def test_the_report_has_the_time_at_which_a_tendon_goes_slack():
+    case = block(0.5, 20000, LEANS | {"prestress": "200 kN/m", "capacity": "1 MN/m"})
+    push = GroundMotion.from_points([0.0, 0.3, 0.3, 0.8], [-1.5 * G, -1.5 * G, 0.0, 0.0])
+    response = rigid(case, push)
+    text = Reader(html(build_report(case, response))).text
+    assert "slack from, rigid" in text
+    assert "above its capacity from" not in text
+    assert f"{response.anchors[0].slack_s:.3g}"[:4] in text
 
 
 OLD_MILL = """

@@ -42,7 +42,7 @@ def similar(length: float, **changes: Any) -> dict[str, Any]:
         "rock": {"modulus": modulus, "damping": 0.0, "massless": False},
         "uplift": {"pattern": "triangular"},
         "motion": {"points": [[f"{t * slow} s", f"{a} g"] for t, a in zip(MOMENTS, SHAKES, strict=True)]},
-        "flexible": {"elements_across": 4, "evidence": "none", "time_step": f"{1e-4 * slow} s"},
+        "flexible": {"elements_across": 4, "evidence": "none"},
         "analysis": {"silence": f"{0.1 * slow} s"},
     } | copy.deepcopy(changes)
 

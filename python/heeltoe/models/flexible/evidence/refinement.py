@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -293,6 +294,10 @@ class _Stand:
         no_limit = may_have_no_limit(trials.dam_of(0).case, dam)
         failed = 0 if varied is None else trials.failed(self._own if mean else self._cheap, SCALES)
         slips = [] if ensembles is None else ensembles[0]["residual_slip_m"].tolist()
+        headline_worths: dict[str, Any] = {item.key: worth(item.key) for item in HEADLINES}
+        for item in HEADLINES:
+            if item.kind == "rotation":
+                headline_worths[item.key] = _rotation(worth(item.key), bounded=not on_rock)
         return EvidenceNumbers(
             asked="full" if self._full else "step",
             converged=slip.uncertainty <= allowed(slip.value) and not (failed or no_limit),
@@ -313,10 +318,5 @@ class _Stand:
             budget=BUDGET,
             budget_spent=spent,
             cracked_length_m=cracked,
-            **{
-                item.key: _rotation(worth(item.key), bounded=not on_rock)
-                if item.kind == "rotation"
-                else worth(item.key)
-                for item in HEADLINES
-            },
+            **headline_worths,
         )
