@@ -187,6 +187,21 @@ def test_uplift_patterns(uplift, tail, points):
     assert force.horizontal == 0.0
 
 
+@pytest.mark.parametrize(
+    ("waters", "density"),
+    [
+        ({"tailwater": {"depth": "6 m", "density": "1200 kg/m^3"}}, 1200.0),
+        ({"reservoir": deep(10.0), "tailwater": {"depth": "6 m", "density": "1200 kg/m^3"}}, 1000.0),
+        ({"reservoir": {"depth": "10 m", "density": "1100 kg/m^3"}}, 1100.0),
+    ],
+)
+def test_heads_of_a_profile_are_of_the_water_that_is_there(waters, density):
+    """A mean head of 3 m over a crack 8 m wide, by hand."""
+    points = [[0, "4 m"], [1, "2 m"]]
+    case = solved(RECTANGLE, 2.0, uplift={"pattern": "profile", "points": points}, **waters)
+    assert loads.uplift(case).vertical == pytest.approx(density * G * 3.0 * 8.0, rel=1e-12)
+
+
 def test_water_below_the_crack_does_nothing():
     case = solved(RECTANGLE, 6.0, reservoir=deep(6.0), tailwater=deep(5.0))
     assert all(force.moment == force.vertical == force.horizontal == 0.0 for force in loads.static_forces(case)[1:])

@@ -10,6 +10,7 @@ import pytest
 import heeltoe
 from heeltoe import run
 from heeltoe.case.warnings import case_warnings
+from heeltoe.mechanics.block import build_block, instability
 from heeltoe.models.decoupled import model as decoupled
 from heeltoe.models.flexible import warnings as flexible
 from heeltoe.models.rigid.walk import walk
@@ -86,3 +87,23 @@ def test_a_dam_without_a_state_of_rest():
     assert "no-rest" in codes(response.warnings)
     standing = heeltoe.flexible(example("typical-base", *FAST, "motion.duration=1s", "crack.friction=1.9"))
     assert "no-rest" not in codes(standing.warnings)
+
+
+@pytest.mark.parametrize(
+    ("unrest", "said"),
+    [
+        ("not found", "shows neither that the dam stands nor that it does not"),
+        ("moves away", "nothing holds a part above a crack"),
+    ],
+)
+def test_a_search_that_finds_no_rest_says_why_and_nothing_of_sliding(typical_both, unrest, said):
+    """Static equilibrium of the block holds this dam: that it slides is not known."""
+    dam = typical_both.crack.dam
+    assert dam.kernel.unrest() is None
+    restless = replace(dam, start=replace(dam.start, stands=False, unrest=unrest))
+    block = build_block(example("typical-base"))
+    assert instability(block) is None
+    outcome, advice = flexible.judge_outcome(restless, block, SimpleNamespace(outcome="ok", summary=None))
+    assert outcome == "unstable"
+    assert said in str(advice)
+    assert "slides" not in str(advice)

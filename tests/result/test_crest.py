@@ -4,21 +4,56 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.signal import butter, sosfiltfilt
 
 from heeltoe import GroundMotion, flexible, read_case, rigid
-from heeltoe.result.crest import ACCELERATION, DISPLACEMENT, crest_histories
-from shared.dams import BASE
+from heeltoe.result.crest import ACCELERATION, DISPLACEMENT, crest_series, in_band
+from shared.dams import BASE, COARSE
 
 TIME = np.arange(0.0, 3.0 + 1e-9, 0.005)
 SHAKES = GroundMotion.from_points(TIME, 6.0 * np.sin(2.0 * np.pi * 2.0 * TIME))
 
 
 def test_a_parabola_has_its_own_acceleration_and_the_ground():
-    time = np.array([0.0, 0.1, 0.15, 0.3, 0.4])
-    result = crest_histories(time, 7.0 + 1.5 * time**2, np.full(5, 2.0))
-    assert result[DISPLACEMENT][0] == 0.0
-    assert result[ACCELERATION][1:-1] == pytest.approx(5.0)
-    assert result[ACCELERATION][[0, -1]] == pytest.approx(2.0)
+    time = np.arange(4001) * 1e-4
+    series = crest_series(1e-4, 7.0 + 1.5 * time**2, np.full(4001, 2.0))
+    assert series.displacement[0] == 0.0
+    # Far from its ends, which have no acceleration of their own.
+    assert series.acceleration[2000] == pytest.approx(5.0, rel=1e-6)
+    assert series.ground == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("step", [1e-3, 2e-4])
+@pytest.mark.parametrize("frequency", [2.0, 20.0, 40.0, 50.0, 70.0, 120.0])
+def test_the_band_is_that_of_a_butterworth_filter_forward_and_backward(step, frequency):
+    """1 / (1 + (f/50)^8), but for the tangents by which a filter of steps bends frequencies."""
+    time = np.arange(0.0, 2.0, step)
+    passed = in_band(np.sin(2.0 * np.pi * frequency * time), step)
+    inner = np.abs(time - 1.0) < 0.5
+    ratio = np.tan(np.pi * frequency * step) / np.tan(np.pi * 50.0 * step)
+    assert np.abs(passed[inner]).max() == pytest.approx(1.0 / (1.0 + ratio**8), rel=0.02)
+
+
+def test_a_blow_comes_through_as_scipy_filters_it():
+    blow = np.zeros(1001)
+    blow[500] = 1.0
+    reference = sosfiltfilt(butter(4, 50.0, fs=1000.0, output="sos"), blow)
+    assert in_band(blow, 1e-3) == pytest.approx(reference, abs=1e-5 * reference.max())
+
+
+@pytest.mark.parametrize("model", [rigid, flexible])
+def test_the_peak_is_the_same_for_every_output_step(model):
+    """The peak of the fine histories that a filter of scipy leaves, whatever is shown."""
+    case = read_case(BASE, [*COARSE, "analysis.silence=0s"])
+    shown = {step: model(case, SHAKES, output_step=step) for step in (0.02, 0.005, 0.001)}
+    peaks = [response.crest for response in shown.values()]
+    assert len({peak.to_json()["acceleration_g"] for peak in peaks}) == 1
+    assert len({peak.to_json()["displacement_m"] for peak in peaks}) == 1
+    fine = shown[0.001].histories
+    own = np.gradient(np.gradient(fine[DISPLACEMENT], 0.001), 0.001)
+    both = sosfiltfilt(butter(4, 50.0, fs=1000.0, output="sos"), own + fine["ground_acceleration_m_s2"])
+    # Of moments a millisecond apart the differences blur what is faster than 50 Hz.
+    assert peaks[0].acceleration_g == pytest.approx(np.abs(both[50:-50]).max() / 9.80665, rel=0.05)
 
 
 def test_the_crest_of_a_block_goes_with_its_slip_and_turn():

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use heeltoe::flexible::{
-    many, rest, simulate, BondLaw, Crossing, Dam, FaceAnchor, Inside, Line, Modes, Penalty, Point,
-    RisingWater, RockingThresholds, Scheme, Shaking, Span, Stressed, Stresses, Summary, UntilRest, Wanted,
+    find_rest, many, simulate, BondLaw, Crossing, Dam, FaceAnchor, Inside, Line, Modes, Penalty, Point,
+    RisingWater, RockingThresholds, Scheme, Shaking, Span, Stressed, Stresses, Summary, Unrest, UntilRest,
+    Wanted,
 };
 use heeltoe::inside::Law;
 use numpy::{PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
@@ -135,6 +136,7 @@ pub struct CrackAnchor {
     prestress: f64,
     axial_stiffness: f64,
     shear_stiffness: f64,
+    capacity: f64,
 }
 
 impl CrackAnchor {
@@ -149,6 +151,7 @@ impl CrackAnchor {
             prestress: self.prestress,
             axial_stiffness: self.axial_stiffness,
             shear_stiffness: self.shear_stiffness,
+            capacity: self.capacity,
         }
     }
 }
@@ -224,6 +227,8 @@ pub struct CrackedDam {
     /// The crack that is asked of.
     asked: usize,
     rising: Vec<RisingWater>,
+    /// Why there is no state of rest.
+    unrest: Option<Unrest>,
 }
 
 impl CrackedDam {
@@ -302,7 +307,7 @@ impl CrackedDam {
             None => rows.iter().map(|rows| rows.to_vec()).collect(),
         };
         let bodies = parts.iter().zip(&ties).map(|(part, ties)| part.body(ties));
-        let dam = Dam {
+        let mut dam = Dam {
             bodies: bodies.collect::<PyResult<_>>()?,
             cracks: cracks.iter().map(CrackLine::line).collect::<PyResult<_>>()?,
             contactors,
@@ -310,11 +315,14 @@ impl CrackedDam {
             still: None,
         };
         dam.check().map_err(wrong)?;
-        let dam = watched(py, None, |_| None, |stop| rest(dam, stop))?;
+        let found = watched(py, None, |_| None, |stop| find_rest(&dam, stop))?;
+        let unrest = found.as_ref().err().copied();
+        dam.still = found.ok();
         Ok(CrackedDam {
             dam: Arc::new(dam),
             asked,
             rising: Vec::new(),
+            unrest,
         })
     }
 
@@ -333,6 +341,7 @@ impl CrackedDam {
             dam: Arc::clone(&self.dam),
             asked: self.asked,
             rising,
+            unrest: self.unrest,
         })
     }
 
@@ -343,7 +352,12 @@ impl CrackedDam {
     }
 
     /// See `_kernel.pyi`.
-    #[pyo3(signature = (ground, step, theta, *, stride=0, stresses=None, penalty=None, ending=None, until_rest=None))]
+    fn unrest(&self) -> Option<&'static str> {
+        self.unrest.map(|why| Unrest::NAMES[why as usize])
+    }
+
+    /// See `_kernel.pyi`.
+    #[pyo3(signature = (ground, step, theta, *, stride=0, stresses=None, crest=None, penalty=None, ending=None, until_rest=None))]
     #[allow(clippy::too_many_arguments)]
     fn run<'py>(
         &self,
@@ -353,6 +367,7 @@ impl CrackedDam {
         theta: f64,
         stride: usize,
         stresses: Option<StressRows<'py>>,
+        crest: Option<Numbers<'py>>,
         penalty: Option<[f64; 3]>,
         ending: Option<Bound<'py, Ending>>,
         until_rest: Option<(usize, usize, f64, f64)>,
@@ -367,6 +382,12 @@ impl CrackedDam {
             parts,
             stride: *stride,
         });
+        let crest = crest.as_ref().map(|row| row.as_slice()).transpose()?;
+        if crest.is_some_and(|row| row.len() != self.dam.bodies[0].count()) {
+            return Err(wrong(
+                "a point of the crest needs a number for each mode of its part",
+            ));
+        }
         let until_rest = until_rest.map(|(first, every, seconds, moved)| UntilRest {
             first,
             every: every.max(1),
@@ -379,6 +400,7 @@ impl CrackedDam {
                 stride,
                 modes: stride > 0,
                 stresses,
+                crest,
                 rest: until_rest,
                 stop,
             };

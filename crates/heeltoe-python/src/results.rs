@@ -1,6 +1,7 @@
 //! What runs return, as classes with a field for each number; see `_kernel.pyi`.
 
 use heeltoe::flexible::{self as elastic, Frames};
+use heeltoe::inside::Borne;
 use heeltoe::rigid::stack::StackRun as TwoBlocks;
 use heeltoe::rigid::{Event, EventKind, Mode, Moment, Outcome, Run, Summary};
 use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
@@ -274,7 +275,7 @@ impl BlockRun {
             histories: Py::new(py, BlockHistories::of(py, run.moments.iter().map(Moment::row))?)?,
             mode: array(py, modes),
             events: Py::new(py, BlockEvents::of(py, run.events.iter().map(Event::row))?)?,
-            anchors: (!exact).then(|| table(py, run.anchors.into_iter()).unbind()),
+            anchors: (!exact).then(|| table(py, run.anchors.iter().map(Borne::row)).unbind()),
             worn: worn.map(|worn| Py::new(py, worn)).transpose()?,
             rough: rough.map(|rough| Py::new(py, rough)).transpose()?,
         })
@@ -318,7 +319,16 @@ impl BlockRun {
                 let (first, later) = (first.bind(py), later.bind(py));
                 let (above, below) = (first.readonly(), later.readonly());
                 let pairs = above.as_slice()?.iter().zip(below.as_slice()?);
-                Some(shaped(py, pairs.map(|(a, b)| a.max(*b)).collect(), first.shape()[0])?.unbind())
+                let columns = Borne::FIELDS.iter().cycle();
+                let both = pairs
+                    .zip(columns)
+                    .map(|((&first, &later), column)| match *column {
+                        "last" => later,
+                        // The first time; below zero where there is none.
+                        "slack" | "yields" if first >= 0.0 => first,
+                        _ => first.max(later),
+                    });
+                Some(shaped(py, both.collect(), first.shape()[0])?.unbind())
             }
             _ => None,
         };
@@ -426,6 +436,7 @@ pub struct DamRun {
     water: Table,
     extremes: Py<PyTuple>,
     worked: Py<WornContacts>,
+    crest: Column,
 }
 
 impl DamRun {
@@ -455,7 +466,7 @@ impl DamRun {
         let anchors = run
             .cracks
             .iter()
-            .map(|crack| table(py, crack.anchors.iter().copied()));
+            .map(|crack| table(py, crack.anchors.iter().map(Borne::row)));
         let anchors: Vec<_> = anchors.collect();
         Ok(DamRun {
             summary: summaries[asked].clone_ref(py),
@@ -471,6 +482,7 @@ impl DamRun {
             modes: tables(py, frames.modes, count)?,
             water: shaped(py, frames.water, count)?.unbind(),
             extremes: PyTuple::new(py, extremes)?.unbind(),
+            crest: array(py, run.crest),
             worked: Py::new(
                 py,
                 WornContacts::of(py, run.worked.iter().map(elastic::Worked::row))?,

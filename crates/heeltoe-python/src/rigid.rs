@@ -149,13 +149,16 @@ fn asperities(numbers: &Numbers) -> PyResult<Asperities> {
     Ok(Asperities::new(&numbers))
 }
 
-fn anchor(&[place, along, across, prestress, axial_stiffness, shear_stiffness]: &[f64; 6]) -> Anchor<f64> {
+fn anchor(
+    &[place, along, across, prestress, axial_stiffness, shear_stiffness, capacity]: &[f64; 7],
+) -> Anchor<f64> {
     Anchor {
         place,
         axis: [along, across],
         prestress,
         axial_stiffness,
         shear_stiffness,
+        capacity,
     }
 }
 
@@ -173,7 +176,7 @@ pub fn run_rigid_many<'py>(
     event_limit: u64,
     jam: bool,
     threads: usize,
-    crest: Option<(PyReadonlyArray2<'py, f64>, Vec<Numbers<'py>>)>,
+    crest: Option<(PyReadonlyArray2<'py, f64>, Vec<Numbers<'py>>, Numbers<'py>)>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (blocks, scales) = (blocks.as_slice()?, scales.as_slice()?);
     let (blocks, scales) = (rows(blocks, "blocks")?, rows(scales, "scales")?);
@@ -196,12 +199,15 @@ pub fn run_rigid_many<'py>(
         event_limit,
         jam,
     };
-    let moves = crest.as_ref().map(|(moves, _)| moves.as_slice()).transpose()?;
+    let moves = crest.as_ref().map(|(moves, ..)| moves.as_slice()).transpose()?;
     let moves = moves.map(|moves| rows::<3>(moves, "crest")).transpose()?;
-    let times = crest.iter().flat_map(|(_, times)| times);
+    let times = crest.iter().flat_map(|(_, times, _)| times);
     let times = times
         .map(|times| times.as_slice())
         .collect::<Result<Vec<_>, _>>()?;
+    let weights = crest
+        .as_ref()
+        .map_or(Ok(&[][..]), |(.., weights)| weights.as_slice())?;
     if moves.is_some_and(|moves| moves.len() != count || times.len() != shakings.len()) {
         return Err(wrong(
             "a crest must be said of each block, its moments of each motion",
@@ -212,6 +218,7 @@ pub fn run_rigid_many<'py>(
         let crest = moves.map(|moves| Crest {
             times: times[motion],
             moves: moves[k],
+            weights,
         });
         (
             BlockNumbers::from_row(&blocks[k]),

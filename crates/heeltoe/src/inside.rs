@@ -12,7 +12,7 @@
 //! with the opening w over which it changes. An anchor pulls with max(0, P + k e), e its elongation along its axis, and
 //! resists slip as a dowel.
 
-use crate::table::named;
+use crate::table::{columns, named};
 
 named! {
     /// What the pressure in the crack does as it opens.
@@ -67,6 +67,65 @@ pub struct Anchor<Place> {
     pub axial_stiffness: f64,
     /// Resistance per slip.
     pub shear_stiffness: f64,
+    /// Force that it is good for; infinite where nothing says so. It bears more all the same.
+    pub capacity: f64,
+}
+
+/// What an anchor has borne in a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Borne {
+    /// Largest tension.
+    pub tension: f64,
+    /// Largest force, tension and resistance to slip together.
+    pub force: f64,
+    /// When its prestress was gone for the first time (s); below zero where it never was.
+    pub slack: f64,
+    /// When its force was more than its capacity for the first time (s); below zero where it never was.
+    pub yields: f64,
+    /// Tension at the end.
+    pub last: f64,
+    /// The moment noted last, and the force then.
+    before: [f64; 2],
+}
+
+columns!(Borne, borne => {
+    "tension": borne.tension,
+    "force": borne.force,
+    "slack": borne.slack,
+    "yields": borne.yields,
+    "last": borne.last,
+});
+
+impl Borne {
+    /// Before anything has moved, at a moment.
+    pub(crate) fn new<Place>(anchor: &Anchor<Place>, time: f64) -> Self {
+        let mut borne = Borne {
+            tension: 0.0,
+            force: 0.0,
+            slack: -1.0,
+            yields: -1.0,
+            last: 0.0,
+            before: [time, 0.0],
+        };
+        borne.note(anchor, [anchor.prestress; 2], time);
+        borne
+    }
+
+    /// Take tension and force of a moment into account.
+    pub(crate) fn note<Place>(&mut self, anchor: &Anchor<Place>, [tension, force]: [f64; 2], time: f64) {
+        self.tension = self.tension.max(tension);
+        self.force = self.force.max(force);
+        self.last = tension;
+        // Without prestress there is nothing to lose.
+        if tension == 0.0 && anchor.prestress > 0.0 && self.slack < 0.0 {
+            self.slack = time;
+        }
+        let [then, less] = std::mem::replace(&mut self.before, [time, force]);
+        if force > anchor.capacity && self.yields < 0.0 {
+            // Somewhere between both moments.
+            self.yields = then + (time - then) * (anchor.capacity - less) / (force - less);
+        }
+    }
 }
 
 impl<Place> Anchor<Place> {
@@ -132,6 +191,7 @@ mod tests {
         prestress: 10.0,
         axial_stiffness: 100.0,
         shear_stiffness: 50.0,
+        capacity: 30.0,
     };
 
     #[test]
@@ -160,6 +220,34 @@ mod tests {
         assert!((tension - 28.0).abs() < 1e-12);
         assert!((force - 28_f64.hypot(15.0)).abs() < 1e-12);
         assert_eq!(ANCHOR.borne([-0.5, 0.0], -0.3), [0.0, 25.0]);
+    }
+
+    #[test]
+    fn the_first_moments_of_slack_and_of_too_much_are_kept() {
+        let mut borne = Borne::new(&ANCHOR, 0.0);
+        // Elongations by hand: 10 + 100 e is 0 at e = -0.1, and 30 at e = 0.2.
+        for (time, e) in [
+            (1.0, -0.09),
+            (2.0, -0.11),
+            (3.0, -0.2),
+            (4.0, 0.19),
+            (5.0, 0.21),
+            (6.0, 0.3),
+        ] {
+            let tension = ANCHOR.tension(e);
+            borne.note(&ANCHOR, [tension; 2], time);
+        }
+        assert_eq!(borne.slack, 2.0);
+        // Half way from 29 to 31.
+        assert!((borne.yields - 4.5).abs() < 1e-12, "{}", borne.yields);
+        assert!((borne.tension - 40.0).abs() < 1e-12 && borne.last == borne.tension);
+        let passive = Anchor {
+            prestress: 0.0,
+            ..ANCHOR
+        };
+        let mut borne = Borne::new(&passive, 0.0);
+        borne.note(&passive, [0.0; 2], 1.0);
+        assert_eq!([borne.slack, borne.yields], [-1.0; 2]);
     }
 
     #[test]

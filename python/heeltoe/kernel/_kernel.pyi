@@ -185,8 +185,9 @@ class BlockRun:
     mode
         At the moments of the histories, counting ``MODES``.
     anchors
-        (n, 2) largest tension, and largest force with the resistance to slip, of each anchor of what varies [N/m]; None
-        where the walk was exact and nothing does.
+        (n, 5) of each anchor of what varies: largest tension, and largest force with the resistance to slip [N/m]; when
+        its prestress was gone and when its force was more than its capacity for the first time [s], below zero where
+        never; tension at the end. None where the walk was exact and nothing varies.
     worn
         What the crack has been through, where its friction goes by a law.
     rough
@@ -331,7 +332,8 @@ def run_rigid_varying(
     pressure
         (k, 2) distance from the heel [m] and pressure while the crack is closed [Pa]; straight in between.
     anchors
-        (n, 6) distance from the heel [m], axis along and across, prestress [N/m], axial and shear stiffness [N/m2].
+        (n, 7) distance from the heel [m], axis along and across, prestress [N/m], axial and shear stiffness [N/m2],
+        capacity [N/m], infinite where there is none.
     friction
         Along the crack, or along the flanks of its asperities.
     asperities
@@ -355,13 +357,14 @@ def run_rigid_many(
     event_limit: int,
     jam: bool,
     threads: int,
-    crest: tuple[Floats, Sequence[Floats]] | None = None,
+    crest: tuple[Floats, Sequence[Floats], Floats] | None = None,
 ) -> dict[str, Floats]:
     """Run (n, 21) blocks, each through the motion ``motion_of`` names with the accelerations times ``scales`` (n, 2).
 
     ``threads`` of 0 means all cores. Returns (n,) arrays by the names of ``SUMMARY_FIELDS``, the same bits for
-    any number of threads. ``crest`` says how far slip and gaps of each block move its crest (n, 3), and at which
-    moments of each motion that is looked at; then ``crest_displacement`` and ``crest_acceleration`` are among them.
+    any number of threads. ``crest`` says how far slip and gaps of each block move its crest (n, 3), at which moments of
+    each motion that is looked at, and the weights of the filter of its acceleration for the distances 0, 1, 2, ...
+    between them; then ``crest_displacement`` and ``crest_acceleration`` are among them.
     """
 
 def spectrum(time: Floats, ground: Floats, periods: Floats, damping: float) -> Floats:
@@ -454,6 +457,8 @@ class CrackAnchor(Protocol):
     def axial_stiffness(self) -> float: ...
     @property
     def shear_stiffness(self) -> float: ...
+    @property
+    def capacity(self) -> float: ...
 
 class CrackLine(Protocol):
     """A crack; see :class:`heeltoe.kernel.dam.CrackLine`."""
@@ -632,8 +637,9 @@ class DamRun:
     summaries, all_frames
         Of all cracks, from the crest down.
     anchors
-        (n, 2) largest tension, and largest force with the resistance to slip, of each anchor with stiffness [N], crack
-        by crack.
+        (n, 5) of each anchor with stiffness, crack by crack: largest tension, and largest force with the resistance to
+        slip [N]; when its prestress was gone and when its force was more than its capacity for the first time [s],
+        below zero where never; tension at the end [N].
     upper, lower
         (f, 2 k) where the nodes of either face are, all along the crack, then all across it [m], crack by crack; (f, 0)
         for a rigid plane.
@@ -651,6 +657,9 @@ class DamRun:
         Of the stresses of each part, from the crest down. Empty where none are wanted.
     worked
         Empty without a law.
+    crest
+        (s + 1,) where the point of the first part is that was wanted, at the start and after each step, from anywhere
+        [m]; empty where none was.
     outcome, final_state
         By name.
     """
@@ -669,6 +678,7 @@ class DamRun:
     water: Final[Floats]
     extremes: Final[tuple[StressExtremes, ...]]
     worked: Final[WornContacts]
+    crest: Final[Floats]
 
     @property
     def outcome(self) -> str: ...
@@ -730,6 +740,10 @@ class CrackedDam:
     def still(self) -> AtRest | None:
         """Return the state before the earthquake with the crack let go; None where friction does not hold the dam."""
 
+    def unrest(self) -> str | None:
+        """Return why there is no such state: "not sought" where a part starts off the plane below it, "moves away"
+        where nothing holds a part, "not found" where the search ended before; None where there is one."""
+
     def run(
         self,
         ground: Floats,
@@ -738,6 +752,7 @@ class CrackedDam:
         *,
         stride: int = 0,
         stresses: StressRows | None = None,
+        crest: Floats | None = None,
         penalty: tuple[float, float, float] | None = None,
         ending: Ending | None = None,
         until_rest: tuple[int, int, float, float] | None = None,
@@ -757,6 +772,8 @@ class CrackedDam:
             Steps from frame to frame; 0 for no frames.
         stresses
             Those whose extremes are wanted.
+        crest
+            (m,) how far each mode of the first part moves the point of it whose way is wanted.
         penalty
             Stiffness of the springs [N/m] and Newmark's gamma and beta.
         ending

@@ -170,13 +170,14 @@ def run_blocks(
     scales: Floats,
     limits: Limits = USUAL,
     threads: int = 0,
-    crest: tuple[Floats, Sequence[Floats]] | None = None,
+    crest: tuple[Floats, Sequence[Floats], Floats] | None = None,
 ) -> dict[str, Floats]:
     """Run (n, 21) blocks, each through the motion that `which` names, times `scales` (n, 2), horizontal and vertical.
 
     `threads` of 0 means all cores; the numbers, (n,) by name, are the same bits for any number of them. Where `crest`
-    says how far slip, heel gap and toe gap of each block move a crest (n, 3), and at which moments of each motion it is
-    looked at [s], they are those of :data:`SUMMARY` and of :data:`CREST`.
+    says how far slip, heel gap and toe gap of each block move a crest (n, 3), at which moments of each motion it is
+    looked at [s], and the weights of the filter of its acceleration, they are those of :data:`SUMMARY` and of
+    :data:`CREST`.
     """
     motions = [(shaking.time, shaking.horizontal, shaking.up) for shaking in shakings]
     settle, most, jam = limits.settle, limits.event_limit, limits.jam

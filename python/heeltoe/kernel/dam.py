@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -62,6 +63,8 @@ class CrackAnchor:
         Direction along and across the crack.
     prestress, axial_stiffness, shear_stiffness
         Tension at the start [N], what it gains by opening along its axis and resistance by slip [N/m].
+    capacity
+        Force that it is good for [N], infinite where nothing says so; it bears more all the same.
     """
 
     anchor: int
@@ -70,6 +73,7 @@ class CrackAnchor:
     prestress: float
     axial_stiffness: float
     shear_stiffness: float
+    capacity: float = math.inf
 
 
 @dataclass(frozen=True)

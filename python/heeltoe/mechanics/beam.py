@@ -25,6 +25,8 @@ _SHEAR = 5.0 / 6.0
 _MODES = 3
 #: No earthquake shakes what swings faster than this [s].
 STIFF_S = 0.02
+# What surrounds a dam answers well up to so many times the frequency of the last of its modes that matter.
+_BEYOND_MODES = 4.0 / 3.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,6 +144,18 @@ def beam(case: Case) -> Beam:
     shares = shapes[::2].T @ mass[2::2]
     swing = np.vstack([np.zeros(_MODES), shapes[::2] * shares])
     return Beam(2.0 * np.pi / np.sqrt(squares[:_MODES]), levels - base, swing)
+
+
+def band_of(case: Case) -> float:
+    """Return up to which frequency [Hz] the modes of a dam that matter answer an earthquake, and a third more: those of
+    the whole dam as a beam that carry its horizontal motion, three of them.
+
+    It goes with the dam: one of the same shape that is so many times as large, of concrete so many times as stiff,
+    swings by the root of that more slowly. No mesh has a part in it.
+    """
+    modulus = case.concrete.modulus
+    assert modulus is not None
+    return float(_BEYOND_MODES * np.sqrt(modulus) / beam(case).periods.min())
 
 
 def _widths(corners: Floats, levels: Floats) -> Floats:

@@ -190,7 +190,7 @@ def _uplift_points(case: Case) -> list[tuple[float, float]]:
         0.0 if option is None else option for option in (uplift.extent, uplift.drain_position, uplift.drain_efficiency)
     )
     drains = toe + (1.0 - efficiency) * (heel - toe)
-    own = case.gravity * (case.reservoir.density if case.reservoir else 1000.0)
+    own = case.gravity * crack_water_density(case)
     points: dict[str, list[tuple[float, float]]] = {
         "none": [(0.0, 0.0), (1.0, 0.0)],
         "uniform": [(0.0, heel), (1.0, heel)],
@@ -201,6 +201,13 @@ def _uplift_points(case: Case) -> list[tuple[float, float]]:
     }
     width = case.cut.crack_width
     return [(fraction * width, pressure * uplift.intensity) for fraction, pressure in points[uplift.pattern]]
+
+
+def crack_water_density(case: Case) -> float:
+    """Return the density of the water that heads in the crack count in [kg/m3]: that of the reservoir, without one that
+    of the tailwater."""
+    water = case.reservoir or case.tailwater
+    return 1000.0 if water is None else water.density
 
 
 def uplift(case: Case) -> Resultant:

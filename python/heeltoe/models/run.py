@@ -436,8 +436,11 @@ def _anchors_crossed(case: Case, response: Response) -> Iterator[Notice]:
     """Say where a slip crosses anchors that keep their prestress through it."""
     for crack, alone in zip(response.cracks, case.single_crack_cases, strict=True):
         slip = max(abs(crack.peak_slip_downstream_m), abs(crack.peak_slip_upstream_m))
-        if slip >= SHEARS_M and any(anchor.prestress for anchor in alone.anchors_at_crack):
-            yield Notice("anchors-cross-slip", slip_m=slip, where=where_of(case, alone))
+        anchors = [anchor for anchor in alone.anchors_at_crack if anchor.prestress]
+        if slip >= SHEARS_M and anchors:
+            constant = any(not anchor.axial_stiffness for anchor in anchors)
+            how = "whose prestress counts to the end of the run" if constant else "that stretch without end"
+            yield Notice("anchors-cross-slip", slip_m=slip, where=where_of(case, alone), how=how)
 
 
 def _slid_off(case: Case, response: Response) -> tuple[Notice, ...]:

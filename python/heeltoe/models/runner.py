@@ -20,6 +20,7 @@ from heeltoe.case.model import Case
 from heeltoe.case.options import Limits
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import JOINT_METER_M
+from heeltoe.result.judge import slides_off
 from heeltoe.result.limits import judge_response
 from heeltoe.result.numbers import AnchorForce, SignNumbers
 from heeltoe.result.outcome import Outcome, decide
@@ -47,14 +48,27 @@ Table = dict[str, Floats]
 Words = NDArray[Any]
 
 
-def outcomes_of(outcomes: Sequence[str] | Words, tables: Sequence[Mapping[str, Floats]], *, finite: bool) -> Words:
+def outcomes_of(
+    outcomes: Sequence[str] | Words,
+    tables: Sequence[Mapping[str, Floats]],
+    widths: Sequence[Floats | float],
+    *,
+    finite: bool,
+) -> Words:
     """Return the outcomes of many runs, (n,): `outcomes` are those of the kernel, `tables` have what it says of each of
-    their cracks."""
+    their cracks, which are so wide [m]."""
     turned = np.max([largest_rotation(table) for table in tables], axis=0)
     slides = tables[0].get("keeps_sliding", np.zeros_like(turned)) != 0.0
-    rows = zip(outcomes, turned.tolist(), slides.tolist(), strict=True)
-    words = [decide(word, rotation=turn, finite=finite, slows=not on) for word, turn, on in rows]
+    rows = zip(outcomes, turned.tolist(), leaves(tables, widths).tolist(), slides.tolist(), strict=True)
+    words = [decide(word, rotation=turn, finite=finite, off=off, slows=not on) for word, turn, off, on in rows]
     return np.array(words, dtype=object)
+
+
+def leaves(tables: Sequence[Mapping[str, Floats | float]], widths: Sequence[Floats | float]) -> NDArray[np.bool_]:
+    """Return in which runs a part slides farther than its crack is wide [m]; `tables` have what the kernel says of each
+    crack."""
+    off = [slides_off(table["slip_max"], table["slip_min"], width) for table, width in zip(tables, widths, strict=True)]
+    return np.asarray(np.any(off, axis=0))
 
 
 def largest_rotation(table: Mapping[str, Floats] | Mapping[str, float]) -> Floats:
@@ -67,6 +81,7 @@ def advice_of(
     *,
     rotation: float = 0.0,
     why: Sentence | None = None,
+    unless_it_stands: str = Outcome.UNSTABLE.remedy,
     stopped: Sentence | None = None,
     silence: float = 0.0,
 ) -> Sentence | None:
@@ -80,6 +95,8 @@ def advice_of(
         The largest, either way [rad].
     why
         Why the static loads move the dam, where they do.
+    unless_it_stands
+        What to do where they do, or may.
     stopped
         Where the run stopped.
     silence
@@ -89,8 +106,9 @@ def advice_of(
         return None
     if outcome is Outcome.KEEPS_SLIDING:
         why = Sentence.of("it does not slow down in {silence_s:g s} after the ground motion", silence_s=silence)
-    if outcome in (Outcome.UNSTABLE, Outcome.KEEPS_SLIDING) and why is not None:
         return Sentence.of("{why}: {remedy}", why=why, remedy=outcome.remedy)
+    if outcome is Outcome.UNSTABLE and why is not None:
+        return Sentence.of("{why}: {remedy}", why=why, remedy=unless_it_stands)
     if outcome is Outcome.LARGE_ROTATION:
         stopped = Sentence.of("it rotates by {rotation_rad:.3g rad}", rotation_rad=rotation)
     return Sentence.of(
@@ -290,10 +308,24 @@ def where_of(case: Case, alone: Case) -> Sentence | str:
 
 
 def about_the_anchors(anchors: Sequence[AnchorForce]) -> Iterator[Notice]:
-    """Say which anchors bear more than they are good for, and of which nothing says what that is."""
+    """Say which anchors go slack or bear more than they are good for, and of which nothing says what that is."""
     for number, anchor in enumerate(anchors, start=1):
-        if anchor.capacity_n is not None and anchor.peak_force_n > anchor.capacity_n:
-            yield Notice("anchor-overloaded", number=number, force_n=anchor.peak_force_n, capacity_n=anchor.capacity_n)
+        if anchor.slack_s is not None:
+            at_end = Sentence.of("pulls with {tension_n:.4g MN/m} at the end", tension_n=anchor.final_tension_n)
+            yield Notice(
+                "anchor-slack",
+                number=number,
+                time_s=anchor.slack_s,
+                then=at_end if anchor.final_tension_n else Sentence("is slack at the end"),
+            )
+        if anchor.yields_s is not None:
+            yield Notice(
+                "anchor-overloaded",
+                number=number,
+                time_s=anchor.yields_s,
+                force_n=anchor.peak_force_n,
+                capacity_n=anchor.capacity_n,
+            )
     unlimited = [anchor.peak_force_n for anchor in anchors if anchor.capacity_n is None]
     if unlimited:
         yield Notice("anchor-unlimited", force_n=max(unlimited))

@@ -1,9 +1,15 @@
-"""How the crest moves: what people, gates and instruments up there feel, from the histories of a run."""
+"""How the crest moves: what people, gates and instruments up there feel, from the motion as it is computed.
+
+A blow lasts as long as a program resolves it, and so its acceleration alone is no number of a dam. Accelerations are
+those up to :data:`BAND_HZ`: they pass a Butterworth filter of order 4 forward and backward, ``1 / (1 + (f/50 Hz)^8)``,
+without a shift in time. What comes out does not depend on the spacing of histories, and hardly on the time step.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
 from typing import Annotated
 
 import numpy as np
@@ -15,6 +21,13 @@ from heeltoe.base.blocks import Block, Number
 CREST_PEAKS = ("crest_displacement_m", "crest_acceleration_g")
 #: Its columns of the histories.
 DISPLACEMENT, ACCELERATION = "crest_displacement_m", "crest_acceleration_m_s2"
+#: Up to which frequency accelerations of the crest count [Hz].
+BAND_HZ = 50.0
+#: How often the crest of a block is looked at [s]; an elastic dam has a place of its crest at each step.
+LOOKS_S = 1e-3
+# The filter has forgotten after this time [s] all but a hundred-thousandth of a blow.
+_MEMORY_S = 0.1
+_ORDER = 4
 
 
 class CrestMotion(Block):
@@ -23,8 +36,8 @@ class CrestMotion(Block):
     displacement_m: Annotated[
         float,
         Number(
-            "Largest horizontal displacement from where it stands before the earthquake, relative to the ground, "
-            "at the moments of the histories.",
+            "Largest horizontal displacement from where it stands before the earthquake, relative to the ground, of "
+            "all computed steps (of a block: every millisecond).",
             "m",
         ),
     ]
@@ -34,23 +47,62 @@ class CrestMotion(Block):
     acceleration_g: Annotated[
         float,
         Number(
-            "Largest horizontal acceleration with that of the ground, its mean over two steps of the histories: "
-            "the blow of an impact is shorter.",
+            "Largest horizontal acceleration with that of the ground, of all computed steps (of a block: every "
+            "millisecond), in the band up to 50 Hz: Butterworth of order 4, forward and backward. It is the same for "
+            "every output step.",
             "g",
         ),
     ]
     amplification: Annotated[
-        float | None, Number("How many times the peak of the ground that is; null where the ground stands still.")
+        float | None,
+        Number("How many times the peak of the ground in the same band that is; null where the ground stands still."),
     ]
 
 
-def crest_histories(time: Floats, place: Floats, ground: Floats) -> dict[str, Floats]:
-    """Return the histories of the crest.
+@dataclass(frozen=True, eq=False)
+class CrestSeries:
+    """The way of the crest at even moments.
 
-    Parameters
+    Attributes
     ----------
     time
         (n,) moments [s].
+    displacement
+        (n,) from its first place, relative to the ground, positive downstream [m].
+    acceleration, ground
+        (n,) acceleration with that of the ground, and that of the ground alone, both up to :data:`BAND_HZ` [m/s2].
+    """
+
+    time: Floats
+    displacement: Floats
+    acceleration: Floats
+    ground: Floats
+
+    def motion(self, gravity: float, residual: float | None = None) -> CrestMotion:
+        """Return the largest numbers; `gravity` is one g [m/s2], `residual` where it is at the end, if that is not the
+        last of the moments [m]."""
+        largest, ground = (float(np.abs(values).max(initial=0.0)) for values in (self.acceleration, self.ground))
+        return CrestMotion(
+            displacement_m=float(np.abs(self.displacement).max(initial=0.0)),
+            residual_displacement_m=float(self.displacement[-1]) if residual is None else residual,
+            acceleration_g=largest / gravity,
+            amplification=largest / ground if ground else None,
+        )
+
+    def histories(self, moments: Floats, displacement: Floats | None = None) -> dict[str, Floats]:
+        """Return the columns of the histories at some moments [s]; with the `displacement` there, if it is known."""
+        if displacement is None:
+            displacement = np.interp(moments, self.time, self.displacement)
+        return {DISPLACEMENT: displacement, ACCELERATION: np.interp(moments, self.time, self.acceleration)}
+
+
+def crest_series(step: float, place: Floats, ground: Floats) -> CrestSeries:
+    """Return the way of the crest.
+
+    Parameters
+    ----------
+    step
+        Between the moments, the first of which is zero [s].
     place
         (n,) where it is relative to the ground, from anywhere, positive downstream [m].
     ground
@@ -58,34 +110,51 @@ def crest_histories(time: Floats, place: Floats, ground: Floats) -> dict[str, Fl
 
     Returns
     -------
-    dict
-        Displacement from its first place [m], and acceleration with that of the ground [m/s2]: its change of velocity
-        between the middles of the neighbouring intervals, which is exact in the mean, and the ground's at both ends.
+    CrestSeries
+        Its own acceleration is its change of velocity between the middles of the neighbouring steps, which is exact in
+        the mean, and none at both ends.
     """
-    displacement = place - place[0]
-    own = np.zeros_like(displacement)
-    if time.size > 2:
-        velocity = np.diff(displacement) / np.diff(time)
-        own[1:-1] = np.diff(velocity) / ((time[2:] - time[:-2]) / 2.0)
-    return {DISPLACEMENT: displacement, ACCELERATION: own + ground}
+    displacement: Floats = place - place[0]
+    own: Floats = np.zeros(place.size)
+    if place.size > 2:
+        own[1:-1] = np.diff(displacement, 2) / step**2
+    return CrestSeries(
+        step * np.arange(place.size, dtype=np.float64), displacement, in_band(own + ground, step), in_band(ground, step)
+    )
+
+
+def in_band(acceleration: Floats, step: float) -> Floats:
+    """Return what of an acceleration (n,), so many seconds from moment to moment, is within the band; beyond its ends
+    it goes on as it is there."""
+    from scipy.signal import oaconvolve
+
+    half = band_weights(step)
+    reach = half.size - 1
+    if not reach or not acceleration.size:
+        return acceleration
+    passed: Floats = oaconvolve(np.pad(acceleration, reach, mode="edge"), np.concatenate([half[:0:-1], half]), "valid")
+    return passed
+
+
+@lru_cache(maxsize=32)
+def band_weights(step: float) -> Floats:
+    """Return the weights of the filter for the distances 0, 1, 2, ... between moments so many seconds apart, the same
+    either way, together 1: how a blow goes forward and backward through it. Steps too long for the band pass all."""
+    from scipy.signal import butter, sosfilt
+
+    if step * BAND_HZ > 0.25:
+        return np.ones(1)
+    blow = np.zeros(math.ceil(_MEMORY_S / step) + 1)
+    blow[0] = 1.0
+    forward = sosfilt(butter(_ORDER, BAND_HZ, fs=1.0 / step, output="sos"), blow)
+    spectrum = np.abs(np.fft.rfft(forward, 2 * forward.size)) ** 2
+    half = np.fft.irfft(spectrum)[: forward.size]
+    weights: Floats = half / (2.0 * half.sum() - half[0])
+    weights.flags.writeable = False
+    return weights
 
 
 def crest_peaks(crest: CrestMotion | None) -> dict[str, float]:
     """Return the numbers of :data:`CREST_PEAKS`; not a number where there are none."""
     peaks = (math.nan, math.nan) if crest is None else (crest.displacement_m, crest.acceleration_g)
     return dict(zip(CREST_PEAKS, peaks, strict=True))
-
-
-def crest_motion(histories: Mapping[str, Floats], gravity: float, ground: float) -> CrestMotion | None:
-    """Return the largest of these histories; None where a model has none. `gravity` is one g, `ground` the peak of its
-    acceleration [m/s2], which the histories miss where it jumps."""
-    if DISPLACEMENT not in histories:
-        return None
-    displacement, acceleration = histories[DISPLACEMENT], histories[ACCELERATION]
-    largest = float(np.abs(acceleration).max(initial=0.0))
-    return CrestMotion(
-        displacement_m=float(np.abs(displacement).max(initial=0.0)),
-        residual_displacement_m=float(displacement[-1]),
-        acceleration_g=largest / gravity,
-        amplification=largest / ground if ground else None,
-    )

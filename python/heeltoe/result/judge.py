@@ -97,9 +97,9 @@ class Judgement:
         if _WIDTH not in self.columns or any(key not in self.columns for key in _PEAKS):
             return np.zeros(len(self), dtype=bool)
         # Where it tips over the edge it turns too far for small rotations.
-        known = self._by_outcome(lambda outcome: outcome in (Outcome.OK, Outcome.LARGE_ROTATION))
+        known = self._by_outcome(lambda outcome: outcome in (Outcome.OK, Outcome.LARGE_ROTATION, Outcome.LOST))
         down, up = (self.columns[key] for key in _PEAKS)
-        return np.asarray(known & (np.maximum(down, -up) > self.columns[_WIDTH]).any(axis=1))
+        return np.asarray(known & slides_off(down, up, self.columns[_WIDTH]).any(axis=1))
 
     @cached_property
     def failed(self) -> Flags:
@@ -184,6 +184,12 @@ def judge(columns: Mapping[str, Any], limits: Mapping[str, float]) -> Judgement:
         if name != "outcome"
     }
     return Judgement(outcome, numbers, limits)
+
+
+def slides_off(downstream: Floats | float, upstream: Floats | float, width: Floats | float) -> Flags:
+    """Return whether parts slide farther than their cracks are wide, so that nothing is left below them; the largest
+    slips downstream are positive, those upstream negative [m]."""
+    return np.asarray(np.maximum(downstream, np.negative(upstream)) > width)
 
 
 def leading_crack(slips_m: Sequence[float]) -> int:

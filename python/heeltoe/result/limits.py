@@ -159,4 +159,7 @@ def _uncertainty(name: str, crack: CrackResponse) -> float:
     keys = LIMITS[name].keys
     key = keys[0] if len(keys) == 1 else max(keys, key=lambda key: abs(numbers[key]))
     worth = evidence[key]
-    return 0.0 if worth is None else float(worth.uncertainty)
+    if worth is None:
+        return 0.0
+    # Without a bound it may be off by as much as it is.
+    return abs(float(numbers[key] if worth.uncertainty is None else worth.uncertainty))

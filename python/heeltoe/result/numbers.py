@@ -6,9 +6,14 @@ those of a metre of dam.
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated
 
 from heeltoe.base.blocks import Block, Number
+
+# Not at run time: the numbers of a result need no case.
+if TYPE_CHECKING:
+    from heeltoe.case.at_crack import AnchorAtCrack
 
 _JOULE, _NEWTON = "J per metre of dam", "N per metre of dam"
 
@@ -44,6 +49,40 @@ class AnchorForce(Block):
     capacity_n: Annotated[
         float | None, Number("What it is good for, as the case says; null where the case does not.", _NEWTON)
     ]
+    final_tension_n: Annotated[float, Number("Its tension at the end of the run.", _NEWTON)]
+    slack_s: Annotated[
+        float | None,
+        Number(
+            "When it goes slack for the first time: its prestress is gone. Null where it keeps some of it, or has "
+            "none.",
+            "s",
+        ),
+    ]
+    yields_s: Annotated[
+        float | None,
+        Number(
+            "When the force that it bears is more than its capacity for the first time: it would yield, which is not "
+            "computed. Null where it never is, or the case gives no capacity.",
+            "s",
+        ),
+    ]
+
+    @classmethod
+    def of(cls, anchor: AnchorAtCrack, borne: Sequence[float] | None = None) -> AnchorForce:
+        """Return what an anchor bears, `borne` in the order of a kernel; its prestress is all where that is nothing."""
+        constant = anchor.prestress
+        # It would be below zero before the run, too.
+        over = 0.0 if anchor.capacity is not None and constant > anchor.capacity else -1.0
+        tension, force, slack, yields, last = borne or (constant, constant, -1.0, over, constant)
+        return cls(
+            distance_m=anchor.distance,
+            peak_tension_n=tension,
+            peak_force_n=force,
+            capacity_n=anchor.capacity,
+            final_tension_n=last,
+            slack_s=slack if slack >= 0.0 else None,
+            yields_s=yields if yields >= 0.0 else None,
+        )
 
 
 class CrackEnergy(Block):
@@ -382,7 +421,34 @@ class HeadlineWorth(Block):
     ]
     surroundings: Annotated[
         float | None,
-        Number("By how much rock and water with sound that reach 1.5 times as far move it; null where there are none."),
+        Number(
+            "By how much rock and water with sound that reach 1.5 times as far, and answer well up to 1.5 times the "
+            "frequency, move it; null where there are none."
+        ),
+    ] = None
+
+
+class RotationWorth(Block):
+    """What a rotation is worth [rad]: as any headline number, but with a bound only where there is one."""
+
+    value: Annotated[float, Number("The number to trust: that of the run, or the mean where single runs scatter.")]
+    run: Annotated[float, Number("The number of the run itself.")]
+    uncertainty: Annotated[
+        float | None,
+        Number(
+            "How far it may be off: what step, mesh, shaking and surroundings move it by, together. Null on elastic "
+            "rock, into which heel and toe sink farther with every finer mesh: no two meshes bound it."
+        ),
+    ]
+    step: Annotated[float, Number("By how much another time step moves it.")]
+    mesh: Annotated[float | None, Number("By how much another mesh moves it; null where there is none beside it.")]
+    shaking: Annotated[
+        float | None,
+        Number("Standard deviation over runs with the shaking varied by up to 1 %; null where there are none."),
+    ]
+    surroundings: Annotated[
+        float | None,
+        Number("By how much rock and water with sound that reach farther move it; null where there are none."),
     ] = None
 
 
@@ -417,8 +483,8 @@ class EvidenceNumbers(Block):
     residual_slip_m: Annotated[HeadlineWorth, Number("What the residual slip is worth.", "m")]
     peak_slip_downstream_m: Annotated[HeadlineWorth, Number("What the peak slip downstream is worth.", "m")]
     peak_slip_upstream_m: Annotated[HeadlineWorth, Number("What the peak slip upstream is worth.", "m")]
-    rocking_downstream_rad: Annotated[HeadlineWorth, Number("What the rotation downstream is worth.", "rad")]
-    rocking_upstream_rad: Annotated[HeadlineWorth, Number("What the rotation upstream is worth.", "rad")]
+    rocking_downstream_rad: Annotated[RotationWorth, Number("What the rotation downstream is worth.", "rad")]
+    rocking_upstream_rad: Annotated[RotationWorth, Number("What the rotation upstream is worth.", "rad")]
     opening_upstream_m: Annotated[HeadlineWorth, Number("What the opening at the upstream face is worth.", "m")]
     opening_downstream_m: Annotated[HeadlineWorth, Number("What the opening at the downstream face is worth.", "m")]
     cracked_length_m: Annotated[

@@ -27,8 +27,8 @@ class Outcome(StrEnum):
     cycling        no     no     events follow each other without time passing
     blown up       no     no     the time stepping makes energy
     overturned     yes    yes    a block whose rotation may be of any size lies on its side
-    lost           no     yes    the part above the crack is over 100 crack widths away
     large rotation no     yes    a rotation that the model takes for small exceeds 0.1 rad
+    lost           no     yes    the part above slides or lifts farther than its crack is wide
     keeps sliding  no     yes    the free motion after the record does not slow down
     ok             yes    no     none of these
     ============== ====== ====== =====================================================================
@@ -79,13 +79,18 @@ class Outcome(StrEnum):
         'use flexible.contact = "coulomb" or a smaller time_step',
     )
     OVERTURNED = "overturned", True, True, "the dam overturns", ""
-    LOST = (
-        *("lost", False, True, "the part above the crack is over 100 crack widths away"),
-        "see its static safety",
-    )
     LARGE_ROTATION = (
         *("large rotation", False, True, f"the dam rotates by more than {LARGEST_ROTATION:g} rad, which is not small"),
         'the rigid model with analysis.rotation = "finite" says whether one block overturns',
+    )
+    LOST = (
+        *(
+            "lost",
+            False,
+            True,
+            "the part above slides or lifts farther than its crack is wide and leaves what it stood on",
+        ),
+        "see its static safety",
     )
     KEEPS_SLIDING = (
         *("keeps sliding", False, True, "the dam does not slow down on still ground"),
@@ -105,7 +110,13 @@ class Outcome(StrEnum):
 
 
 def decide(
-    word: str, *, rotation: float = 0.0, finite: bool = False, stands: bool = True, slows: bool = True
+    word: str,
+    *,
+    rotation: float = 0.0,
+    finite: bool = False,
+    stands: bool = True,
+    off: bool = False,
+    slows: bool = True,
 ) -> Outcome:
     """Return the outcome of a run.
 
@@ -119,13 +130,17 @@ def decide(
         Whether the model follows rotations of any size.
     stands
         Whether the dam stands under its static loads.
+    off
+        Whether a part slides farther than its crack is wide.
     slows
         Whether the free motion after the record slows down.
     """
     if word in (Outcome.OK, Outcome.LOST) and not stands:
         return Outcome.UNSTABLE
-    if word != Outcome.OK:
+    if word not in (Outcome.OK, Outcome.LOST):
         return Outcome(word)
     if rotation > LARGEST_ROTATION and not finite:
         return Outcome.LARGE_ROTATION
+    if off or word == Outcome.LOST:
+        return Outcome.LOST
     return Outcome.OK if slows else Outcome.KEEPS_SLIDING

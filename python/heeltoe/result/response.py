@@ -18,7 +18,7 @@ from heeltoe.errors.sanitize import plain
 from heeltoe.mechanics.block import StaticState
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.comparison import meaning, ratio
-from heeltoe.result.crest import CrestMotion, crest_motion
+from heeltoe.result.crest import CrestMotion
 from heeltoe.result.judge import leading_crack
 from heeltoe.result.limits import LimitCheck
 from heeltoe.result.numbers import (
@@ -254,6 +254,8 @@ class Response(Numbered, Shown):
         How long the run goes on after the ground motion has ended, until the dam is at rest [s].
     signs
         What the motion does as recorded and reversed, where both were run: the response is that of the worse way.
+    crest
+        How the crest moves; None where the model does not say.
     """
 
     model: str
@@ -276,6 +278,7 @@ class Response(Numbered, Shown):
     seconds: float = 0.0
     silence_s: float = 0.0
     signs: tuple[SignNumbers, ...] = ()
+    crest: CrestMotion | None = None
 
     #: Whether the parts of the dam are elastic, so that both ends of a crack shift with nothing happening to the dam.
     elastic: ClassVar[bool] = False
@@ -343,11 +346,6 @@ class Response(Numbered, Shown):
     def histories(self) -> Mapping[str, Floats]:
         """Columns of equal length, by name with unit; the first is ``time_s``."""
         return self.cracks[self.asked].histories
-
-    @property
-    def crest(self) -> CrestMotion | None:
-        """How the crest moves; None where the model does not say."""
-        return crest_motion(self.histories, self.gravity, self.motion.pga)
 
     @property
     def mode(self) -> tuple[str, ...]:
@@ -421,7 +419,7 @@ class Response(Numbered, Shown):
             "warnings": [notice.to_json() for notice in self.warnings],
             **plain_json(self.summary),
             **several,
-            **({} if (crest := self.crest) is None else {"crest": crest.to_json()}),
+            **({} if self.crest is None else {"crest": self.crest.to_json()}),
             "silence_s": self.silence_s,
             **static_json(self.static),
             "energy": None if self.energy is None else self.energy.to_json(),

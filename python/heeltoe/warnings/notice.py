@@ -163,7 +163,14 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "grave",
         "anchors",
         "anchor {number:d} bears {force_n:.4g MN/m}, tension and resistance to slip together, more than its capacity "
-        "of {capacity_n:.4g MN/m}: it would yield or break, and this result, which takes it to hold, is too favourable",
+        "of {capacity_n:.4g MN/m}, for the first time at {time_s:.3f s}: it would yield or break, and this result, "
+        "which takes it to hold, is too favourable",
+    ),
+    "anchor-slack": (
+        "grave",
+        "anchors",
+        "anchor {number:d} goes slack at {time_s:.3f s}, as the motion of the crack shortens it, and {then}: from then "
+        "on its prestress holds nothing, and static checks that count it do not apply to the dam after the earthquake",
     ),
     "anchor-unlimited": (
         "caution",
@@ -173,8 +180,8 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "anchors-cross-slip": (
         "caution",
         "anchors",
-        "a slip of {slip_m:.3g mm} crosses anchors{where} whose prestress counts to the end of the run, and few "
-        "tendons bear that: a run without {field} bounds what the dam does if they break",
+        "a slip of {slip_m:.3g mm} crosses anchors{where} {how}, and few tendons bear that: a run without {field} "
+        "bounds what the dam does if they break",
     ),
     "rotation-large": (
         "caution",
@@ -209,8 +216,8 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "anchors-hold": (
         "caution",
         "anchors",
-        "friction and prestress alone do not hold the dam before the earthquake (sliding safety factor {factor:.3f}): "
-        "it slides at first until its anchors hold it",
+        "friction, weight and prestress alone do not hold the dam before the earthquake: {why}; it moves at first "
+        "until its anchors hold it",
     ),
     "steps-hold": (
         "caution",
@@ -227,8 +234,7 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "no-rest": (
         "grave",
         "",
-        "no state of rest was found in which friction holds the crack before the earthquake; the run starts from the "
-        "dam with its crack bonded",
+        "{why}; the run starts from the dam with its crack bonded",
     ),
     "rock-keeps-waves": (
         "grave",

@@ -413,3 +413,26 @@ def test_what_results_say_of_rigid_rock_is_in_the_table_of_its_page():
         cells = [float(cell) for cell in row.split("|")[2:-1]]
         assert (cases, round(100 * share)) == tuple(map(round, cells[:2]))
         assert [first, third] == pytest.approx([cells[3], cells[5]], abs=0.005)
+
+
+def test_a_rotation_on_rock_carries_no_bound():
+    """Twice and four times the elements move it by more than its old bound of 3 % and two meshes, up to nine times."""
+    fields = dam(flexible={"elements_across": 4, "evidence": "full", "time_step": "2e-4 s"})
+    worth = flexible(read_case(fields)).evidence
+    assert worth["rocking_upstream_rad"]["uncertainty"] is None
+    assert worth["rocking_downstream_rad"]["uncertainty"] is None
+    assert worth["residual_slip_m"]["uncertainty"] > 0.0
+    on_rigid_rock = dam(flexible={"elements_across": 4, "evidence": "full", "time_step": "2e-4 s"})
+    del on_rigid_rock["rock"]
+    assert flexible(read_case(on_rigid_rock)).evidence["rocking_upstream_rad"]["uncertainty"] > 0.0
+
+
+def test_a_limit_on_a_number_without_a_bound_is_met_for_certain_by_half_of_it_alone():
+    fields = dam(flexible={"elements_across": 2, "evidence": "full", "time_step": "2e-4 s"})
+    turned = flexible(read_case(fields))
+    largest = max(turned.rocking_upstream_rad, turned.rocking_downstream_rad)
+    checks = {}
+    for factor in (1.5, 2.5):
+        (checks[factor],) = flexible(read_case(fields | {"limits": {"rotation": f"{factor * largest} rad"}})).limits
+    assert [check.met for check in checks.values()] == [True, True]
+    assert [check.certain for check in checks.values()] == [False, True]

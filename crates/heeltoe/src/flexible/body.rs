@@ -194,6 +194,11 @@ impl ReducedBody {
         &numbers.as_flattened()[..self.modes]
     }
 
+    /// Number of modes.
+    pub fn count(&self) -> usize {
+        self.modes
+    }
+
     /// Number of groups of modes.
     pub(super) fn groups(&self) -> usize {
         self.omega_squared.len()

@@ -18,13 +18,15 @@ use super::faces::{height, Face, Faces, Meeting};
 use super::inside::{FaceAnchor, Inside, Point, RisingWater};
 use super::place::Place;
 use super::scheme::TimeStep;
+use crate::inside::Borne;
 
 /// What acts in all cracks, under way.
 pub(super) struct CrackForces<'a> {
     /// Of the cracks in which something acts.
     cracks: Vec<Acting<'a>>,
-    /// Steps so far.
+    /// Steps so far, and when the last of them ends.
     steps: u32,
+    now: f64,
     /// Elongation of each anchor of the dam at all of its cracks.
     elongation: Vec<f64>,
     /// Energy in the anchors.
@@ -48,8 +50,8 @@ struct Acting<'a> {
     anchors: [Vec<f64>; 2],
     /// Where the nodes would be.
     ahead: [Vec<f64>; 2],
-    /// Largest tension and largest force of each anchor.
-    peaks: Vec<[f64; 2]>,
+    /// What each anchor has borne.
+    borne: Vec<Borne>,
 }
 
 impl<'a> CrackForces<'a> {
@@ -72,6 +74,7 @@ impl<'a> CrackForces<'a> {
         (!cracks.is_empty()).then_some(CrackForces {
             cracks,
             steps: 0,
+            now: 0.0,
             elongation: vec![0.0; count.unwrap_or(0)],
             stored: 0.0,
         })
@@ -86,6 +89,7 @@ impl<'a> CrackForces<'a> {
     ) {
         let time = (f64::from(self.steps) + step.theta) * step.dt;
         self.steps += 1;
+        self.now = f64::from(self.steps) * step.dt;
         for acting in &mut self.cracks {
             let [position, velocity] =
                 [position(acting.crack), velocity(acting.crack)].map(|faces| acting.place.of(faces));
@@ -162,7 +166,7 @@ impl<'a> CrackForces<'a> {
                 let (moved, which) = (acting.moved[k], anchor.place.anchor);
                 let elongation = self.elongation[which];
                 let borne = anchor.borne(moved, elongation);
-                acting.peaks[k] = [0, 1].map(|i| acting.peaks[k][i].max(borne[i]));
+                acting.borne[k].note(anchor, borne, self.now);
                 self.stored += anchor.dowel_energy(moved);
                 if !std::mem::replace(&mut stored[which], true) {
                     self.stored += anchor.axial_energy(elongation);
@@ -172,10 +176,10 @@ impl<'a> CrackForces<'a> {
         self.stored - before
     }
 
-    /// Largest tension and largest force of each anchor of a crack.
-    pub(super) fn peaks(&self, crack: usize) -> Vec<[f64; 2]> {
+    /// What each anchor of a crack has borne.
+    pub(super) fn borne(&self, crack: usize) -> Vec<Borne> {
         let own = self.cracks.iter().filter(|acting| acting.crack == crack);
-        own.flat_map(|acting| acting.peaks.iter().copied()).collect()
+        own.flat_map(|acting| acting.borne.iter().copied()).collect()
     }
 }
 
@@ -198,7 +202,7 @@ impl<'a> Acting<'a> {
                 gaps(start.upper, start.lower, 1.0),
                 gaps(start.lower, start.upper, -1.0),
             ],
-            peaks: inside.anchors.iter().map(|a| [a.prestress; 2]).collect(),
+            borne: inside.anchors.iter().map(|a| Borne::new(a, 0.0)).collect(),
             water: room(),
             anchors: room(),
             ahead: room(),

@@ -52,6 +52,7 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, penalty: &Penalty, wanted: 
     if newmark.walk.observed() {
         newmark.keep();
     }
+    newmark.follow();
     newmark.stress();
     for (step, ends) in ground.windows(2).enumerate() {
         let ends = [ends[0], ends[1]].map(|a| [scale[0] * a[0], scale[1] * a[1]]);
@@ -65,6 +66,7 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, penalty: &Penalty, wanted: 
             let around = |crack| Faces::around(crack, &impulses, |impulse| impulse);
             newmark.walk.gather(around, *dt);
         }
+        newmark.follow();
         if newmark.walk.due(step) {
             newmark.balance();
             newmark.keep();
@@ -188,6 +190,13 @@ impl<'a> Newmark<'a> {
     fn balance(&mut self) {
         self.ledger.stored = energy(&self.bodies);
         self.ledger.numerical = self.ledger.unexplained();
+    }
+
+    /// Follow the point that is wanted.
+    fn follow(&mut self) {
+        if let Some(track) = &mut self.walk.track {
+            track.add::<Plain>(&self.bodies[0].q);
+        }
     }
 
     /// Look at the stresses.

@@ -178,6 +178,12 @@ impl<'a> LinearDam<'a> {
         self.bodies.iter().map(ModalStepper::amplitudes).collect()
     }
 
+    /// Modes of the part at the crest since the start.
+    #[inline(always)]
+    pub(super) fn moved(&self) -> &[Group] {
+        &self.bodies[0].q
+    }
+
     /// Velocities of the water's modes.
     pub(super) fn water(&self) -> &[f64] {
         self.dampers.water()

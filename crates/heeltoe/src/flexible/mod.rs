@@ -45,6 +45,7 @@ mod summary;
 mod symmetric;
 #[cfg(test)]
 mod tests;
+mod track;
 mod walk;
 
 pub use body::{Modes, ReducedBody};
@@ -61,7 +62,7 @@ pub use reservoir::Reservoir;
 pub use result::Run;
 pub use scheme::{Penalty, Scheme};
 pub use simulate::simulate;
-pub use start::rest;
+pub use start::{find_rest, rest};
 pub use status::Status;
-pub use still::Still;
+pub use still::{Still, Unrest};
 pub use summary::{Outcome, Summary};

@@ -13,7 +13,7 @@
 //! cracks bend far more softly than the dam that they make up: held by that, they would answer to forces with motions
 //! whose rounding is more than what counts as rest. They are held by the dam's own frequency, from Rayleigh's quotient.
 
-use super::still::Still;
+use super::still::{Still, Unrest};
 use std::ops::Range;
 
 use super::body::ReducedBody;
@@ -110,12 +110,15 @@ impl<'a> Side<'a> {
 
 /// Put a dam into its state before the earthquake; a search that is stopped finds none.
 pub fn rest(mut dam: Dam, stop: Stop) -> Dam {
-    dam.still = find(&dam, stop);
+    dam.still = find_rest(&dam, stop).ok();
     dam
 }
 
-/// Find the dam at rest; none where friction does not hold it.
-fn find(dam: &Dam, stop: Stop) -> Option<Still> {
+/// Find the dam at rest.
+///
+/// # Errors
+/// Says why there is no state of rest.
+pub fn find_rest(dam: &Dam, stop: Stop) -> Result<Still, Unrest> {
     let own = |body: &ReducedBody| -> f64 {
         let groups = body.omega_squared.iter().enumerate();
         let squares = groups.flat_map(|(group, w)| w.iter().enumerate().map(move |(l, w)| (group, l, *w)));
@@ -125,7 +128,7 @@ fn find(dam: &Dam, stop: Stop) -> Option<Still> {
     };
     let lowest = dam.bodies.iter().map(own).fold(f64::INFINITY, f64::min);
     if !lowest.is_finite() {
-        return None;
+        return Err(Unrest::NotSought);
     }
     let whole = quotient(dam);
     let own = if THIN * lowest < whole { whole } else { lowest };
@@ -149,12 +152,12 @@ fn find(dam: &Dam, stop: Stop) -> Option<Still> {
         faces.lower.along.is_empty() && faces.upper.across.iter().any(|gap| gap.abs() > scale)
     };
     if places.iter().enumerate().any(off) {
-        return None;
+        return Err(Unrest::NotSought);
     }
     let mut settled = 0;
     for _ in 0..STEPS {
         if stop.asked() {
-            return None;
+            return Err(Unrest::NotSought);
         }
         step(dam, &mut crack, &mut sides);
         let mut moved = 0.0_f64;
@@ -166,14 +169,14 @@ fn find(dam: &Dam, stop: Stop) -> Option<Still> {
             moved < along[along.len() - 1] - along[0]
         };
         if !(moved.is_finite() && places.iter().enumerate().all(within)) {
-            return None;
+            return Err(Unrest::MovesAway);
         }
         settled = if moved <= NOTHING * scale { settled + 1 } else { 0 };
         if settled == 6 {
-            return Some(still(&places, sides, crack, &bonded));
+            return Ok(still(&places, sides, crack, &bonded));
         }
     }
-    None
+    Err(Unrest::NotFound)
 }
 
 /// Rayleigh's quotient of the deformation under the static loads, while the cracks are bonded.

@@ -61,6 +61,7 @@ fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
         let start = moreau.ledger;
         moreau.keep(&start);
     }
+    moreau.follow::<W>();
     moreau.stress::<W>();
     for step in 0..shaking.ground.len() {
         moreau.set_up::<W>();
@@ -76,6 +77,7 @@ fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
         // The modes follow, and begin the next step.
         let sticks = moreau.walk.crack.solver.status.contains(&Status::Stick);
         moreau.go_on::<W>(true, step + 1, usize::from(!sticks));
+        moreau.follow::<W>();
         if moreau.walk.due(step) {
             let now = moreau.balance();
             moreau.keep(&now);
@@ -95,7 +97,7 @@ fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
     let anchors = |crack| {
         acting
             .as_ref()
-            .map_or_else(Vec::new, |acting| acting.peaks(crack))
+            .map_or_else(Vec::new, |acting| acting.borne(crack))
     };
     moreau.walk.end(ledger, anchors)
 }
@@ -309,6 +311,14 @@ impl<'a> Moreau<'a> {
         ledger.numerical -= work[1] + taken_up;
         ledger.springs = acting.stored;
         ledger.turnover += work[0].abs() + work[1].abs();
+    }
+
+    /// Follow the point that is wanted.
+    #[inline(always)]
+    fn follow<W: Lanes>(&mut self) {
+        if let Some(track) = &mut self.walk.track {
+            track.add::<W>(self.linear.moved());
+        }
     }
 
     /// Look at the stresses.

@@ -8,6 +8,21 @@ use super::law::worked::Worked;
 use super::place::Place;
 use super::simd::Group;
 use super::status::Status;
+use crate::table::named;
+
+named! {
+    /// Why a dam has no state of rest.
+    #[derive(Default)]
+    Unrest {
+        /// It was not sought, or somebody has stopped the search.
+        #[default]
+        NotSought = "not sought",
+        /// A part moves on and on: nothing holds it.
+        MovesAway = "moves away",
+        /// The search has ended before it was at rest, which shows neither that the dam stands nor that it does not.
+        NotFound = "not found",
+    }
+}
 
 /// A dam at rest.
 #[derive(Clone, Debug)]

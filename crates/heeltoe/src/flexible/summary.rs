@@ -4,6 +4,7 @@ use super::bond::Cracked;
 use super::coulomb::Report;
 use super::ledger::Ledger;
 use super::observe::State;
+use crate::inside::Borne;
 use crate::table::{columns, named};
 
 named! {
@@ -77,8 +78,8 @@ pub struct Summary {
     pub residual: f64,
     /// State of the crack in the last step.
     pub final_state: State,
-    /// Largest tension of each anchor (N).
-    pub anchors: Vec<[f64; 2]>,
+    /// What each anchor with stiffness has borne (N, s).
+    pub anchors: Vec<Borne>,
 }
 
 columns!(Summary, s => {

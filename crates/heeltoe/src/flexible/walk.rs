@@ -22,6 +22,8 @@ use super::result::Run;
 use super::rocking_thresholds::Stance;
 use super::simd::{Group, Lanes};
 use super::summary::{Outcome, Summary};
+use super::track::Track;
+use crate::inside::Borne;
 
 /// A slip or opening of so many widths of the crack is off any scale.
 const REACH: f64 = 100.0;
@@ -132,6 +134,8 @@ pub(super) struct Walk<'a> {
     since: Since,
     frames: Frames,
     envelope: Option<Envelope<'a>>,
+    /// The way of a point of the part at the crest.
+    pub track: Option<Track>,
 }
 
 impl<'a> Walk<'a> {
@@ -166,6 +170,7 @@ impl<'a> Walk<'a> {
             since: Since::new(dam),
             frames: Frames::new(dam),
             envelope: wanted.stresses.map(Envelope::new),
+            track: wanted.crest.map(Track::new),
         }
     }
 
@@ -278,11 +283,15 @@ impl<'a> Walk<'a> {
     fn lost(&mut self) -> bool {
         let mut here = true;
         for Watch { motion, reach, .. } in &self.cracks {
-            if motion.slip.abs() < *reach && motion.opening_heel.abs() < *reach {
+            let openings = [motion.opening_heel, motion.opening_toe];
+            if motion.slip.abs() < *reach && openings.iter().all(|opening| opening.abs() < *reach) {
                 continue;
             }
             here = false;
-            self.steps.outcome = if motion.slip.is_finite() && self.steps.outcome != Outcome::BlownUp {
+            let finite = [motion.slip, openings[0], openings[1]]
+                .iter()
+                .all(|x| x.is_finite());
+            self.steps.outcome = if finite && self.steps.outcome != Outcome::BlownUp {
                 Outcome::Lost
             } else {
                 Outcome::BlownUp
@@ -292,7 +301,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Hand over what there is to tell; `anchors` has what those of a crack bore.
-    pub(super) fn end(self, ledger: Ledger, anchors: impl Fn(usize) -> Vec<[f64; 2]>) -> Run {
+    pub(super) fn end(self, ledger: Ledger, anchors: impl Fn(usize) -> Vec<Borne>) -> Run {
         let steps = &self.steps;
         let summary = |(crack, watch): (usize, Watch)| Summary {
             ledger,
@@ -310,6 +319,7 @@ impl<'a> Walk<'a> {
             frames: self.frames,
             worked: self.crack.laws.map_or_else(Vec::new, |laws| laws.contacts),
             extremes: self.envelope.map_or_else(Vec::new, Envelope::end),
+            crest: self.track.map_or_else(Vec::new, Track::end),
         }
     }
 }

@@ -4,6 +4,7 @@ use super::block::{Block, Vector, HEEL, SLIP, TOE};
 use super::ledger::Ledger;
 use super::mode::Mode;
 use crate::friction::Worn;
+use crate::inside::Borne;
 use crate::table::{columns, named};
 
 named! {
@@ -132,8 +133,8 @@ pub struct Run {
     pub moments: Vec<Moment>,
     /// What happened, if that was asked for.
     pub events: Vec<Event>,
-    /// Largest tension and largest force of each anchor that stretches (N/m); the exact walk knows none.
-    pub anchors: Vec<[f64; 2]>,
+    /// What each anchor has borne (N/m, s); the exact walk knows none.
+    pub anchors: Vec<Borne>,
     /// What the crack has been through, where its friction goes by a law.
     pub worn: Option<Wear>,
     /// What the asperities have been through, where the crack is rough.

@@ -17,6 +17,7 @@ use super::impact::{impact, jam, Impact};
 use super::mode::Mode;
 use super::result::{Event, EventKind, Moment, Outcome, Run, Summary};
 use super::shaking::Piece;
+use crate::inside::Borne;
 use crate::stop::Stop;
 
 /// A slip slower than this many times the bound of bounces may jam unasked; it would end within a nanometre or so.
@@ -114,7 +115,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Hand over what there is to tell.
-    pub(super) fn end(self, kinetic_energy: f64, anchors: Vec<[f64; 2]>) -> Run {
+    pub(super) fn end(self, kinetic_energy: f64, anchors: Vec<Borne>) -> Run {
         let summary = Summary {
             kinetic_energy,
             ..self.summary

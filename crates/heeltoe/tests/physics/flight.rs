@@ -21,6 +21,7 @@ const NOTHING: Anchor<f64> = Anchor {
     prestress: 0.0,
     axial_stiffness: 0.0,
     shear_stiffness: 0.0,
+    capacity: f64::INFINITY,
 };
 
 /// Some of the water moves with it, at a place of its own; loads push it downstream.

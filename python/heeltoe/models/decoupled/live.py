@@ -33,7 +33,8 @@ def run_live(case: Case, earthquake: Earthquake) -> DecoupledResponse:
         As :func:`run_decoupled`.
     """
     at_crack = _at_crack(chain(case), earthquake)
-    response = run_rigid(case, at_crack.felt(case, earthquake), step_of(earthquake))
+    # Where the crest is relative to the ground depends on the part below, too.
+    response = run_rigid(case, at_crack.felt(case, earthquake), step_of(earthquake), crest=False)
     return of_the_chain(response, earthquake)
 
 

@@ -25,7 +25,6 @@ from heeltoe.models.runner import block_until_rest, with_outcome
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.result.contract import JOINT_METER_M, ground_histories
-from heeltoe.result.crest import ACCELERATION, DISPLACEMENT
 from heeltoe.result.numbers import BondedMotion, Chain, CrackLevel, CrackMotionConvergence, CrackSpectrum
 from heeltoe.result.response import Response
 from heeltoe.warnings.notice import Notice
@@ -110,7 +109,9 @@ def _run_until_rest(case: Case, part: Part, block: Block, earthquake: Earthquake
         check_cost(case, Cost(0.0, _BYTES * through.end / FIRST_STEP), "motion.duration")
         at_crack, straightness = crack_motion(part, through)
         step = step_of(through) if output_step is None else output_step
-        return _Run(through, at_crack, straightness, run_rigid(case, at_crack.felt(case, through), step, block))
+        return _Run(
+            through, at_crack, straightness, run_rigid(case, at_crack.felt(case, through), step, block, crest=False)
+        )
 
     last, outcome = block_until_rest(
         run, lambda ran: of_the_chain(ran.response, ran.earthquake), earthquake, case.analysis.silence, swings=True
@@ -199,8 +200,7 @@ def _change(slip: float, coarser: float) -> float:
 
 def _histories(block: Response, felt: CrackMotion, earthquake: Earthquake) -> dict[str, Floats]:
     """Put the ground's own motion where the block has that of the crack, and the crack's beside it."""
-    # Where the crest is relative to the ground depends on the part below, too.
-    histories = {name: values for name, values in block.histories.items() if name not in (DISPLACEMENT, ACCELERATION)}
+    histories = dict(block.histories)
     moments = histories["time_s"]
     result = ground_histories(earthquake.shaking, moments)
     histories.pop("vertical_ground_acceleration_m_s2", None)

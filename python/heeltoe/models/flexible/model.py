@@ -33,7 +33,7 @@ from heeltoe.models.flexible.warnings import judge_outcome, stands, warnings_of
 from heeltoe.models.runner import STEP, until_rest, where_of
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import CRACKED, headlines
-from heeltoe.result.crest import CrestMotion, crest_motion, crest_peaks
+from heeltoe.result.crest import CrestMotion, crest_peaks
 from heeltoe.result.judge import Judgement, judge, leading_crack
 from heeltoe.result.limits import allowances
 from heeltoe.result.numbers import SelfExcitation, SignNumbers
@@ -88,7 +88,8 @@ def run_flexible(
     histories, envelope = histories_of_cracks(case, dam, run), envelope_of(dam, run)
     worn = [worn_of(alone, place, dam, run) for place, alone in enumerate(case.single_crack_cases)]
     tension = None if outcome is Outcome.UNSTABLE else tension_of(result, envelope)
-    cracks = tuple(crack_responses(result, histories, static_state(block)))
+    crest = crest_of(shaken, run)
+    cracks = tuple(crack_responses(result, histories, static_state(block), crest))
     leads = leading_crack([crack.residual_slip_m for crack in cracks])
     is_first = run is first.run and leads == first.leads
     growth = at_first.result() if is_first else _growth(shaken, run, outcome, leads)
@@ -100,7 +101,7 @@ def run_flexible(
         advice=advice,
         warnings=(
             *water_warnings(numbers.water_pressure),
-            *warnings_of(shaken, run, histories, result.evidences, growth, block.sliding_safety_factor, outcome, leads),
+            *warnings_of(shaken, run, histories, result.evidences, growth, block, outcome, leads),
             *tension_warnings(tension),
             *_about_the_laws(case, worn),
         ),
@@ -114,6 +115,7 @@ def run_flexible(
         references=_references(case, dam),
         silence_s=earthquake.silence,
         envelope=envelope,
+        crest=crest.motion(case.gravity),
     )
 
 
@@ -159,10 +161,9 @@ class Rested(NamedTuple):
         """Which of its cracks slips most."""
         return leading_crack([summary.slip for summary in self.run.summaries])
 
-    def crest(self, case: Case) -> CrestMotion | None:
+    def crest(self, case: Case) -> CrestMotion:
         """Return how the crest moves."""
-        peak = float(abs(self.shaken.shaking.horizontal).max())
-        return crest_motion(crest_of(self.shaken, self.run), case.gravity, peak)
+        return crest_of(self.shaken, self.run).motion(case.gravity)
 
     def judged(self, case: Case) -> Judgement:
         """Return its judgement by the limits of the case, one row."""
@@ -170,12 +171,11 @@ class Rested(NamedTuple):
         dam = self.shaken.dam
         width = np.array([[section.crack_width for section in dam.sections]])
         joint = [line.bond is not None for line in dam.lines]
-        crest = self.crest(case)
         columns = {
             **headlines({name: np.array([[row[name] for row in rows]]) for name in rows[0]}),
             "crack_width_m": width,
             CRACKED: np.where(joint, np.minimum([row["cracked_length"] for row in rows], width), width),
-            **({} if crest is None else {key: [[value]] for key, value in crest_peaks(crest).items()}),
+            **{key: [[value]] for key, value in crest_peaks(self.crest(case)).items()},
         }
         return judge({"outcome": [self.outcome], **columns}, allowances(case.limits, case.gravity))
 

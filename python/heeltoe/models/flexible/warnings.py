@@ -9,7 +9,9 @@ from heeltoe.case.dam import Rock
 from heeltoe.case.model import Case
 from heeltoe.case.warnings import concrete_warnings
 from heeltoe.kernel.dam import DamRun, DamSummary
-from heeltoe.mechanics.block import Block, instability
+from heeltoe.mechanics.anchors import anchors_hold
+from heeltoe.mechanics.beam import band_of
+from heeltoe.mechanics.block import Block, build_block, instability
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.flexible.body.bond import zone_mesh
 from heeltoe.models.flexible.body.modes import ENOUGH
@@ -20,8 +22,7 @@ from heeltoe.models.flexible.result.tables import anchors_of
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.surroundings.left_out import left_out
 from heeltoe.models.flexible.surroundings.rock import ENOUGH as ENOUGH_OF_ROCK
-from heeltoe.models.flexible.surroundings.rock import HIGHEST
-from heeltoe.models.runner import about_the_anchors, advice_of, largest_rotation, slides_on
+from heeltoe.models.runner import about_the_anchors, advice_of, largest_rotation, leaves, slides_on
 from heeltoe.result.numbers import AnchorForce, EvidenceNumbers, SelfExcitation
 from heeltoe.result.outcome import Outcome, decide
 from heeltoe.units.sentences import Sentence
@@ -29,30 +30,62 @@ from heeltoe.warnings.notice import Notice
 
 #: A mesh that misses corners of the section by more than this part of its height is told.
 _MISSED = 1e-3
+# Why no state of rest before the earthquake is known, and what to do.
+_UNREST = {
+    "moves away": (
+        "nothing holds a part above a crack of the elastic dam under the static loads alone",
+        Outcome.UNSTABLE.remedy,
+    ),
+    "not found": (
+        "the search for a state of rest before the earthquake ended after 3,000 steps without one, which shows neither "
+        "that the dam stands nor that it does not",
+        "see its static safety, and try another flexible.elements_across, flexible.contactors or a weaker bond",
+    ),
+    "not sought": ("a part starts off the crack below it", Outcome.UNSTABLE.remedy),
+}
 
 
 def stands(dam: FlexibleDam, block: Block) -> bool:
-    """Whether a dam stands before the earthquake, or anchors with stiffness may hold it."""
-    return bool(dam.anchors) or (instability(block) is None and dam.start.stands)
+    """Whether a dam stands before the earthquake by static equilibrium: with what anchors bear before it moves, or with
+    what they come to bear as it slides or turns."""
+    return (instability(block) is None and dam.start.stands) or _held(block) is not None
+
+
+def _held(block: Block) -> Block | None:
+    """Return the block above a crack that friction, weight and prestress do not hold, where anchors hold all of these;
+    None where there is none, or one that nothing holds."""
+    if not any(anchor.yields for anchor in block.case.anchors):
+        return None
+    blocks = [build_block(alone) for alone in block.case.single_crack_cases]
+    loose = [alone for alone in blocks if instability(alone) is not None]
+    return loose[0] if loose and all(map(anchors_hold, loose)) else None
+
+
+def _unrest(dam: FlexibleDam) -> tuple[str, str]:
+    """Say why no state of rest before the earthquake is known, and what to do."""
+    return _UNREST[dam.start.unrest or "not sought"]
 
 
 def judge_outcome(dam: FlexibleDam, block: Block, run: DamRun, silence: float = 0.0) -> tuple[Outcome, Sentence | None]:
     """Return how a run ended, and what to do about it; none where there is a result to trust.
 
-    A dam that slides, overturns or floats under its static loads is none that an earthquake moves; anchors with
-    stiffness hold what friction and weight do not. Rotations that are not small are none of this model. `silence` is
-    how long the run goes on after the ground motion [s].
+    A dam that slides, overturns or floats under its static loads is none that an earthquake moves. A part that slides
+    farther than its crack is wide has left what it stood on. Rotations that are not small are none of this model.
+    `silence` is how long the run goes on after the ground motion [s].
     """
     rotation = max(float(largest_rotation(summary.by_name())) for summary in run.summaries)
     slides = silence > 0.0 and any(slides_on(frames.time, frames.slip, silence) for frames in run.all_frames)
-    outcome = decide(run.outcome, rotation=rotation, stands=stands(dam, block), slows=not slides)
+    off = bool(leaves([summary.by_name() for summary in run.summaries], [each.crack_width for each in dam.sections]))
+    outcome = decide(run.outcome, rotation=rotation, stands=stands(dam, block), off=off, slows=not slides)
     if outcome.has_result:
         return outcome, None
-    raw = run.summary
+    raw, why = run.summary, instability(block)
+    text, remedy = _unrest(dam) if why is None else ("", outcome.remedy)
     return outcome, advice_of(
         outcome,
         rotation=rotation,
-        why=instability(block),
+        why=why or Sentence(text),
+        unless_it_stands=remedy,
         stopped=Sentence.of("stopped at {time_s:.3f s} with slip {slip_m:.4g m}", time_s=raw.end_time, slip_m=raw.slip),
         silence=silence,
     )
@@ -64,18 +97,18 @@ def warnings_of(
     histories: Sequence[CrackHistory],
     evidences: Sequence[EvidenceNumbers],
     growth: SelfExcitation | None,
-    safety: float | None,
+    block: Block,
     outcome: Outcome,
     leads: int = 0,
 ) -> list[Notice]:
-    """Return what a reader of a flexible run must know; `safety` is that against sliding under the static loads,
-    `outcome` that of :func:`judge_outcome`, and `leads` the place of the crack that leads."""
+    """Return what a reader of a flexible run must know; `block` is the part above the crack asked of, `outcome` that of
+    :func:`judge_outcome`, and `leads` the place of the crack that leads."""
     case, dam = shaken.case, shaken.dam
     peak = float(abs(shaken.shaking.horizontal).max())
     return [
         # What does not stand has no result that evidence could be of.
         *(_about_the_evidences(evidences, dam, leads) if outcome is not Outcome.UNSTABLE else ()),
-        *_about_the_start(case, dam, safety),
+        *_about_the_start(case, dam, block),
         *_about_the_growth(growth, run.summaries[leads]),
         *_about_the_mesh(dam),
         *_about_the_rock(case, dam),
@@ -95,7 +128,7 @@ def _most_loaded(case: Case, run: DamRun) -> list[AnchorForce]:
 
 def _about_the_rock(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
     if dam.rock_error > ENOUGH_OF_ROCK:
-        yield Notice("rock-coarse", error=dam.rock_error, highest_hz=HIGHEST)
+        yield Notice("rock-coarse", error=dam.rock_error, highest_hz=band_of(case))
     if case.rock is not None and may_have_no_limit(case, dam):
         yield Notice("rock-undamped", damping=case.rock.damping, usual=Rock.model_fields["damping"].default)
     if case.rock is not None and case.rock.massless:
@@ -130,12 +163,15 @@ def _about_the_joints(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
         )
 
 
-def _about_the_start(case: Case, dam: FlexibleDam, safety: float | None) -> Iterator[Notice]:
-    if safety is not None and safety < 1.0:
+def _about_the_start(case: Case, dam: FlexibleDam, block: Block) -> Iterator[Notice]:
+    safety, held = block.sliding_safety_factor, _held(block)
+    if held is not None:
+        yield Notice("anchors-hold", why=instability(held))
+    elif safety is not None and safety < 1.0:
         steps = climbs(case.crack.kinks) and dam.start.stands
-        yield Notice("anchors-hold" if dam.anchors else "steps-hold" if steps else "slides-by-itself", factor=safety)
-    elif not (dam.start.stands or dam.anchors):
-        yield Notice("no-rest")
+        yield Notice("steps-hold" if steps else "slides-by-itself", factor=safety)
+    elif not dam.start.stands:
+        yield Notice("no-rest", why=_unrest(dam)[0])
 
 
 def _about_the_evidences(evidences: Sequence[EvidenceNumbers], dam: FlexibleDam, leads: int) -> Iterator[Notice]:

@@ -17,14 +17,14 @@ from heeltoe.errors.error import InputError
 from heeltoe.kernel.block import CREST, MODES, OUTCOMES, SUMMARY, USUAL, Limits, run_blocks
 from heeltoe.mechanics.block import Block
 from heeltoe.mechanics.drains import close_by_slip
-from heeltoe.models.rigid.model import moments_of
 from heeltoe.models.rigid.rows import Rows, check_limits, rows_of
-from heeltoe.models.rigid.tables import crest_of_run
+from heeltoe.models.rigid.tables import crest_looks, crest_of_run
 from heeltoe.models.rigid.varying import varies
 from heeltoe.models.rigid.walk import limits_of, walk
 from heeltoe.models.runner import largest_rotation, rows_until_rest
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.result.crest import LOOKS_S, band_weights
 from heeltoe.result.outcome import LARGEST_ROTATION
 
 # What ends blocks that run together, whether they are walked exactly, and whether rotations may be of any size.
@@ -148,7 +148,10 @@ def _runner(
         through = [earthquakes[motion].silent(silence) for motion in used.tolist()]
         if not exact:
             return _integrated(rows, some, which, through, limits, threads)
-        crest = None if rows.crest is None else (rows.crest[some], [moments_of(shaken, None) for shaken in through])
+        crest = None
+        if rows.crest is not None:
+            looks = [crest_looks(shaken.shaking.time[-1]) for shaken in through]
+            crest = (rows.crest[some], looks, band_weights(LOOKS_S))
         shakings = [shaken.shaking for shaken in through]
         return run_blocks(rows.numbers[some], shakings, which, rows.scales[some], limits, threads, crest)
 
@@ -171,7 +174,7 @@ def _integrated(
 ) -> dict[str, Floats]:
     """Run blocks of which something changes as they move, or between motions; the kernel leaves Python to others."""
 
-    wanted = [None if rows.crest is None else moments_of(earthquake, None) for earthquake in earthquakes]
+    wanted = [None if rows.crest is None else crest_looks(ground.shaking.time[-1]) for ground in earthquakes]
 
     def run(place: int) -> list[float]:
         row, shaking, moments = part[place], earthquakes[which[place]].shaking, wanted[which[place]]
@@ -179,7 +182,7 @@ def _integrated(
         vertical = None if shaking.up is None else up * shaking.up
         shaken = replace(shaking, horizontal=across * shaking.horizontal, up=vertical)
         walked = walk(block.case, block, shaken, moments, limits)
-        crest = () if moments is None else crest_of_run(block, shaken, moments, walked)
+        crest = () if moments is None else crest_of_run(block, shaken, walked)
         return [*walked.summary.by_name().values(), *crest]
 
     with ThreadPoolExecutor(threads or None) as pool:

@@ -8,17 +8,22 @@ from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import Block, build_block
-from heeltoe.models.rigid.tables import crack_response, energy_of, references_of, with_crest
+from heeltoe.models.rigid.tables import crack_response, crest_looks, energy_of, references_of, with_crest
 from heeltoe.models.rigid.walk import walk_with_drainage
 from heeltoe.models.rigid.warnings import advice_of_block, warnings_of
-from heeltoe.models.runner import largest_rotation
+from heeltoe.models.runner import largest_rotation, leaves
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.outcome import Outcome, decide
 from heeltoe.result.response import Response
 
 
 def run_rigid(
-    case: Case, earthquake: Earthquake, output_step: float | None = None, block: Block | None = None
+    case: Case,
+    earthquake: Earthquake,
+    output_step: float | None = None,
+    block: Block | None = None,
+    *,
+    crest: bool = True,
 ) -> Response:
     """Run the rigid model on a case: exactly between events, or where loads or geometry change as the block moves by
     integration between them.
@@ -34,6 +39,8 @@ def run_rigid(
         than 0.02 s apart.
     block
         Of the case, where it has been built before.
+    crest
+        Whether the motion of the crest is wanted.
 
     Raises
     ------
@@ -42,7 +49,8 @@ def run_rigid(
     """
     block = block or build_block(case)
     shaking = earthquake.shaking
-    moments = moments_of(earthquake, output_step)
+    seen = moments_of(earthquake, output_step)
+    moments = with_looks(seen, shaking.time[-1]) if crest else seen
     run, drainage = walk_with_drainage(case, block, shaking, moments)
     moments = moments[: run.mode.size]
     end = run.summary.end_time
@@ -50,10 +58,13 @@ def run_rigid(
         # Where it lies is between two moments: the last one is that just before, which a walk still passes.
         run, drainage = walk_with_drainage(case, block, shaking, np.append(moments, np.nextafter(end, 0.0)))
         # A walk that ends there all the same has no state at the last moment.
-        moments = np.append(moments, end)[: run.mode.size]
-    rotation = float(largest_rotation(run.summary.by_name()))
-    outcome = decide(run.outcome, rotation=rotation, finite=case.analysis.rotation == "finite")
-    started = outcome is not Outcome.UNSTABLE
+        moments, seen = np.append(moments, end)[: run.mode.size], np.append(seen, end)
+    row = run.summary.by_name()
+    rotation, off = float(largest_rotation(row)), bool(leaves([row], [block.width]))
+    outcome = decide(run.outcome, rotation=rotation, finite=case.analysis.rotation == "finite", off=off)
+    started, shown = outcome is not Outcome.UNSTABLE, np.isin(moments, seen)
+    crack = crack_response(case, block, shaking, moments, run, shown=shown, started=started, drainage=drainage)
+    cracks, top = with_crest([crack], [block], [run], shaking, moments, shown) if crest else ([crack], None)
     return Response(
         model="rigid",
         title=case.title,
@@ -64,14 +75,17 @@ def run_rigid(
         motion=earthquake.motion,
         vertical=earthquake.vertical,
         gravity=case.gravity,
-        cracks=tuple(
-            with_crest(
-                [crack_response(case, block, shaking, moments, run, started=started, drainage=drainage)], [block]
-            )
-        ),
+        cracks=tuple(cracks),
+        crest=top,
         references=references_of(case, block, run),
         silence_s=earthquake.silence,
     )
+
+
+def with_looks(moments: Floats, end: float) -> Floats:
+    """Return moments of histories up to an end [s] with those at which the crest is looked at."""
+    together: Floats = np.union1d(moments, crest_looks(end))
+    return together
 
 
 #: Moments that a history may have: each takes some 200 bytes, here and in the file.

@@ -13,11 +13,11 @@ from heeltoe.case.model import Case
 from heeltoe.kernel.block import StackRun, run_stack
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, build_block, instability
-from heeltoe.models.rigid.model import moments_of
+from heeltoe.models.rigid.model import moments_of, with_looks
 from heeltoe.models.rigid.tables import crack_response, energy_of, references_of, with_crest
 from heeltoe.models.rigid.walk import limits_of
 from heeltoe.models.rigid.warnings import advice_of_block, warnings_of
-from heeltoe.models.runner import largest_rotation
+from heeltoe.models.runner import largest_rotation, leaves
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.judge import leading_crack
 from heeltoe.result.numbers import CrackEnergy
@@ -39,7 +39,9 @@ def place_of(lower: Block, upper: Block) -> Floats:
     return np.array([along, across, upper.section.inclination - lower.section.inclination])
 
 
-def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None = None) -> Response:
+def run_two_blocks(
+    case: Case, earthquake: Earthquake, output_step: float | None = None, *, crest: bool = True
+) -> Response:
     """Run a dam that is cracked at two levels, exactly between events.
 
     Parameters
@@ -51,6 +53,8 @@ def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None
     output_step
         Spacing of the histories [s]; where it is not given at the record's samples, and between those that are more
         than 0.02 s apart.
+    crest
+        Whether the motion of the crest is wanted.
 
     Raises
     ------
@@ -59,22 +63,30 @@ def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None
     """
     check(case, "rigid")
     asked = case.asked
-    moments = moments_of(earthquake, output_step)
+    seen = moments_of(earthquake, output_step)
+    moments = with_looks(seen, earthquake.shaking.time[-1]) if crest else seen
     blocks, run = walk_two_blocks(case, earthquake.shaking, moments)
     moments = moments[: run.cracks[0].mode.size]
+    shown = np.isin(moments, seen)
     # Neither may turn far from the ground.
     turned = max(float(largest_rotation(run.cracks[0].summary.by_name())), float(np.abs(run.tilts).max()))
-    outcome = decide(run.cracks[0].outcome, rotation=turned)
+    off = bool(leaves([crack.summary.by_name() for crack in run.cracks[::-1]], [block.width for block in blocks]))
+    outcome = decide(run.cracks[0].outcome, rotation=turned, off=off)
     started = outcome is not Outcome.UNSTABLE
     first, alone = blocks[asked], run.cracks[1 - asked]
     cracks = [
         _with_losses(
-            crack_response(block.case, block, earthquake.shaking, moments, run.cracks[1 - place], started=started),
+            crack_response(
+                block.case, block, earthquake.shaking, moments, run.cracks[1 - place], shown=shown, started=started
+            ),
             block.case.crack.mu_kinetic,
             run.lost[1 - place].tolist(),
         )
         for place, block in enumerate(blocks)
     ]
+    top = None
+    if crest:
+        cracks, top = with_crest(cracks, blocks, run.cracks[::-1], earthquake.shaking, moments, shown)
     leads = leading_crack([run.cracks[1 - place].summary.slip for place in range(len(blocks))])
     return Response(
         model="rigid",
@@ -86,7 +98,8 @@ def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None
         motion=earthquake.motion,
         vertical=earthquake.vertical,
         gravity=case.gravity,
-        cracks=tuple(with_crest(cracks, blocks)),
+        cracks=tuple(cracks),
+        crest=top,
         asked=leads,
         references=references_of(case, first, alone),
         silence_s=earthquake.silence,

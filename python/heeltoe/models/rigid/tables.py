@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe.base.arrays import Floats
+from heeltoe.base.arrays import Bools, Floats
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import EVENT_KINDS, MODES, SUMMARY, BlockRun
 from heeltoe.kernel.shaking import Shaking
@@ -18,7 +18,7 @@ from heeltoe.mechanics.references import cited
 from heeltoe.models.rigid.bond import BondedBlock, bonded_block, held_histories
 from heeltoe.models.rigid.slip_history import law_histories, law_result, roughness_histories, roughness_result
 from heeltoe.result.contract import HEADLINES, ground_histories, headlines, slip_by_mode, time_by_mode
-from heeltoe.result.crest import crest_histories, crest_motion
+from heeltoe.result.crest import LOOKS_S, CrestMotion, CrestSeries, crest_series
 from heeltoe.result.numbers import AnchorForce, BlockNumbers
 from heeltoe.result.response import CrackResponse, Energy
 
@@ -45,13 +45,10 @@ def with_openings(columns: dict[str, Floats], case: Case, width: Floats) -> dict
 
 
 def anchors_of(case: Case, run: BlockRun) -> list[AnchorForce]:
-    """Return what each anchor bears at most [N/m], and what it is good for: its prestress where nothing varies."""
+    """Return what each anchor bears [N/m], and what it is good for: its prestress where nothing varies."""
     anchors = case.anchors_at_crack
-    borne = [[anchor.prestress] * 2 for anchor in anchors] if run.anchors is None else run.anchors.tolist()
-    return [
-        AnchorForce(distance_m=anchor.distance, peak_tension_n=tension, peak_force_n=force, capacity_n=anchor.capacity)
-        for anchor, (tension, force) in zip(anchors, borne, strict=True)
-    ]
+    borne = [None] * len(anchors) if run.anchors is None else run.anchors.tolist()
+    return [AnchorForce.of(anchor, forces) for anchor, forces in zip(anchors, borne, strict=True)]
 
 
 def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
@@ -117,40 +114,67 @@ def crack_response(
     moments: Floats,
     run: BlockRun,
     *,
+    shown: Bools,
     started: bool = True,
     drainage: Sequence[float] = (),
 ) -> CrackResponse:
-    """Return what the crack below a block did; of a run that never started events and static state alone. `drainage` is
-    what each motion of a sequence met of its drainage."""
+    """Return what the crack below a block did; of a run that never started events and static state alone. Of the
+    `moments` of the run those `shown` (n,) are moments of the histories. `drainage` is what each motion of a sequence
+    met of its drainage."""
     bonded = bonded_block(block, shaking)
+    histories = histories_of(case, block, shaking, moments, run, bonded) if started else {}
     return CrackResponse(
         elevation=block.section.heel[1] - block.section.base_elevation,
         of_crack=numbers_of(case, block, run, drainage, bonded) if started else None,
-        histories=histories_of(case, block, shaking, moments, run, bonded) if started else {},
-        mode=tuple(MODE_NAMES.take(run.mode).tolist()) if started else (),
+        histories={name: values[shown] for name, values in histories.items()},
+        mode=tuple(MODE_NAMES.take(run.mode[shown]).tolist()) if started else (),
         event_log=events_of(run),
         static=static_state(block),
     )
 
 
-def with_crest(cracks: Sequence[CrackResponse], blocks: Sequence[Block]) -> list[CrackResponse]:
-    """Return what cracks did with the motion of the crest, which goes with the blocks, one on the other."""
+def with_crest(
+    cracks: Sequence[CrackResponse],
+    blocks: Sequence[Block],
+    runs: Sequence[BlockRun],
+    shaking: Shaking,
+    moments: Floats,
+    shown: Bools,
+) -> tuple[list[CrackResponse], CrestMotion | None]:
+    """Return what cracks did with the motion of the crest, which goes with the blocks, one on the other, and its
+    largest numbers. Of the `moments` of the runs those `shown` are moments of the histories, and those of
+    :func:`crest_moments` are among them."""
     if not all(crack.histories for crack in cracks):
-        return list(cracks)
-    place = np.sum([_crest_of(crack, block) for crack, block in zip(cracks, blocks, strict=True)], axis=0)
-    h = cracks[0].histories
-    crest = crest_histories(h["time_s"], place, h["ground_acceleration_m_s2"])
-    return [replace(crack, histories={**crack.histories, **crest}) for crack in cracks]
+        return list(cracks), None
+    place = np.sum([_crest_place(block, run) for block, run in zip(blocks, runs, strict=True)], axis=0)
+    looks = crest_looks(float(moments[-1]))
+    series = _series(place[np.searchsorted(moments, looks)], shaking)
+    displacement = (place - place[0])[shown]
+    seen = series.histories(moments[shown], displacement)
+    # The block stays where it is beyond its last look.
+    crest = series.motion(blocks[0].gravity, float(displacement[-1]))
+    return [replace(crack, histories={**crack.histories, **seen}) for crack in cracks], crest
 
 
-def _crest_of(crack: CrackResponse, block: Block) -> Floats:
+def crest_looks(end: float) -> Floats:
+    """Return the moments up to an end [s] at which the crest of a block is looked at."""
+    return LOOKS_S * np.arange(int(np.floor(end / LOOKS_S * (1.0 + 1e-12))) + 1, dtype=np.float64)
+
+
+def _series(place: Floats, shaking: Shaking) -> CrestSeries:
+    moments = np.arange(place.size) * LOOKS_S
+    return crest_series(LOOKS_S, place, np.interp(moments, shaking.time, shaking.horizontal))
+
+
+def _crest_place(block: Block, run: BlockRun) -> Floats:
     """Return how far one crack moves the upstream edge of the crest downstream [m]: a turn counter-clockwise, about the
     heel, moves it upstream."""
-    h, section = crack.histories, block.section
-    place = crest_moves(block.case) @ np.array([h["slip_m"], h["gap_heel_m"], h["gap_toe_m"]])
+    column, section = run.histories, block.section
+    place = crest_moves(block.case) @ np.array([column.slip, column.gap_heel, column.gap_toe])
     if block.case.analysis.rotation == "finite":
         ahead, above = _to_crest(block.case)
-        turn, small = h["rotation_rad"], (h["gap_toe_m"] - h["gap_heel_m"]) / section.crack_width
+        small = (column.gap_toe - column.gap_heel) / section.crack_width
+        turn = np.arcsin(np.clip(small, -1.0, 1.0))
         place += (np.cos(turn) - 1.0) * ahead - (np.sin(turn) - small) * above
     return np.asarray(place)
 
@@ -171,12 +195,9 @@ def crest_moves(case: Case) -> Floats:
     return np.array(np.broadcast_arrays(*moves), dtype=np.float64)
 
 
-def crest_of_run(block: Block, shaking: Shaking, moments: Floats, run: BlockRun) -> tuple[float, float]:
-    """Return how far the crest moves [m], and its largest acceleration [m/s2], in a run seen at some moments."""
-    crack = crack_response(block.case, block, shaking, moments[: run.mode.size], run)
-    (seen,) = with_crest([crack], [block])
-    crest = crest_motion(seen.histories, 1.0, 0.0)
-    assert crest is not None
+def crest_of_run(block: Block, shaking: Shaking, run: BlockRun) -> tuple[float, float]:
+    """Return how far the crest moves [m], and its largest acceleration [m/s2], in a run seen at :func:`crest_looks`."""
+    crest = _series(_crest_place(block, run), shaking).motion(1.0)
     return crest.displacement_m, crest.acceleration_g
 
 

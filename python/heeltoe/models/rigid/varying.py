@@ -78,6 +78,7 @@ def varying(case: Case, block: Block) -> Varying:
             anchor.prestress,
             anchor.axial_stiffness,
             anchor.shear_stiffness,
+            np.inf if anchor.capacity is None else anchor.capacity,
         )
         for anchor in case.anchors_at_crack
     ]
@@ -86,7 +87,7 @@ def varying(case: Case, block: Block) -> Varying:
         rotation=case.analysis.rotation,
         law=uplift.during_shaking,
         pressure=np.ascontiguousarray(profile),
-        anchors=np.array(anchors, dtype=np.float64).reshape(-1, 6),
+        anchors=np.array(anchors, dtype=np.float64).reshape(-1, 7),
         friction=None if case.crack.law is None and rough is None else crack_law(case.crack),
         asperities=None if rough is None else np.array([rough.asperity_height, rough.wave_length, rough.wear]),
     )

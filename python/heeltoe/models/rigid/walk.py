@@ -10,7 +10,8 @@ from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import BlockRun, Limits, run_block
 from heeltoe.kernel.shaking import Shaking
-from heeltoe.mechanics.block import Block
+from heeltoe.mechanics.anchors import anchors_hold
+from heeltoe.mechanics.block import Block, instability
 from heeltoe.models.rigid.bond import bonded_block
 from heeltoe.models.rigid.stages import in_stages, start_of, walk_in_stages
 from heeltoe.models.rigid.varying import varies, varying
@@ -27,6 +28,12 @@ def walk(
 ) -> BlockRun:
     """Run a block as :func:`walk_with_drainage` does; return the run alone."""
     return walk_with_drainage(case, block, shaking, moments, limits)[0]
+
+
+def _loose(block: Block) -> list[list[float]] | None:
+    """Return the place and the velocity that a block moves off from which anchors alone will hold; None of one that
+    stands, or that nothing holds, as the walk finds out by itself."""
+    return [[0.0] * 3, [0.0] * 3] if instability(block) is not None and anchors_hold(block) else None
 
 
 def walk_with_drainage(
@@ -48,7 +55,7 @@ def walk_with_drainage(
     def run(now: Case, block: Block, shaking: Shaking, moments: Floats, before: BlockRun | None) -> BlockRun:
         # Nothing varies below a block that does not move.
         what = varying(now, block) if not holds and (varies(now) or shaking.turning is not None) else None
-        start, worn = (None, None) if before is None else start_of(before)
+        start, worn = (_loose(block), None) if before is None else start_of(before)
         if what is not None and before is not None and before.rough is not None:
             dilation, _, work = before.rough.end
             what = replace(what, dilated=(dilation, work))

@@ -6,6 +6,7 @@ import math
 
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import BlockRun
+from heeltoe.mechanics.anchors import anchors_hold
 from heeltoe.mechanics.block import Block, instability
 from heeltoe.mechanics.friction import range_of
 from heeltoe.models.rigid.tables import anchors_of
@@ -68,6 +69,9 @@ def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:
     # Integration is exact to a part of the crack's width, of which tiny motions are a tiny part.
     if raw.energy_residual > (1e-9 if run.exact else 1e-6):
         notices.append(Notice("energy-open", residual=raw.energy_residual))
+    why = instability(block)
+    if why is not None and anchors_hold(block):
+        notices.append(Notice("anchors-hold", why=why))
     notices += about_the_anchors(anchors_of(case, run))
     if case.analysis.rotation == "small":
         notices += _about_the_rotation(block, run)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.case.model import Case
+from heeltoe.mechanics.loads import crack_water_density
 from heeltoe.warnings.notice import Notice
 
 if TYPE_CHECKING:
@@ -41,8 +42,8 @@ def _opened(case: Case, normal_force: float, solved: Solved) -> tuple[Notice, ..
         return ()
     remedy = "heeltoe statics counts it"
     # Meant to be copied into the case: it stays as it is in all units.
-    if case.reservoir is not None:
-        unit = case.gravity * case.reservoir.density
+    if case.reservoir is not None or case.tailwater is not None:
+        unit = case.gravity * crack_water_density(case)
         points = [f'[{x / width:.4g}, "{p / unit:.4g} m"]' for x, p in solved.settled.profile.tolist()]
         drawn = ", ".join(dict.fromkeys(points))
         remedy = f'to count it set uplift.pattern = "profile", points = [{drawn}]'

@@ -208,7 +208,7 @@ def _rigid(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads
         named |= dict(
             zip(CREST_PEAKS, (table["crest_displacement"], table["crest_acceleration"] / gravity), strict=True)
         )
-    outcome = _outcomes(plan.case, table)
+    outcome = _outcomes(plan.case, table, width)
     results.put(rows, outcome, _of_table(table, width, named))
     # Bounces may amplify the last digit: twins show it.
     bouncy = (numbers[dam, _RESTITUTION] >= BOUNCY) & (outcome == "ok") & (table["impacts"] > 0.0)
@@ -229,10 +229,10 @@ def _crest_moves(plan: Plan, values: Mapping[str, NDArray[Any]], blocks: Sequenc
     return np.array([np.full(3, np.nan) if case is None else crest_moves(case) for case in cases])
 
 
-def _outcomes(case: Case, table: Mapping[str, Floats]) -> Words:
-    """Return how the rows of a table of blocks ended."""
+def _outcomes(case: Case, table: Mapping[str, Floats], width: Floats) -> Words:
+    """Return how the rows of a table of blocks on cracks of these widths [m] ended."""
     words = [OUTCOMES[place] for place in table["outcome"].astype(np.int64).tolist()]
-    return outcomes_of(words, [table], finite=case.analysis.rotation == "finite")
+    return outcomes_of(words, [table], [width], finite=case.analysis.rotation == "finite")
 
 
 def _two_blocks(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads: int) -> None:
@@ -248,8 +248,7 @@ def _two_blocks(plan: Plan, runs: Runs, rows: Integers, results: PartResults, th
         ground = plan.earthquakes[runs.motion[row]].scaled(float(runs.factor[row]))
 
         def through(earthquake: Earthquake) -> Response:
-            # The histories are for the crest alone.
-            return run_two_blocks(case, earthquake, None if plan.crest else ground.end)
+            return run_two_blocks(case, earthquake, ground.end, crest=plan.crest)
 
         try:
             ran = block_until_rest(through, lambda ran: ran, ground, case.analysis.silence)
@@ -409,7 +408,7 @@ def _decoupled(plan: Plan, runs: Runs, rows: Integers, results: PartResults, thr
                 if earthquake.silence not in at_crack:
                     at_crack[earthquake.silence] = crack_earthquake(case, earthquake)
                 felt = at_crack[earthquake.silence].scaled(factor)
-                return replace(run_rigid(case, felt, ground.end, block), silence_s=earthquake.silence)
+                return replace(run_rigid(case, felt, ground.end, block, crest=False), silence_s=earthquake.silence)
 
             return with_outcome(*block_until_rest(run, lambda ran: ran, ground, case.analysis.silence, swings=True))
 

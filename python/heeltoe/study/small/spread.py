@@ -141,7 +141,7 @@ def _rigid(case: Case, shaking: Shaking, scales: Floats, leads: int, progress: P
         if progress is not None:
             progress(scales.size, scales.size)
     columns = with_openings(headlines(rows), case, np.full(scales.size, width))
-    return columns, _trusted(rows, OUTCOMES, finite=case.analysis.rotation == "finite")
+    return columns, _trusted(rows, OUTCOMES, width, finite=case.analysis.rotation == "finite")
 
 
 def _walked(
@@ -185,13 +185,13 @@ def _flexible(
             progress(start, scales.size)
             some.append(shaken.run_scaled_cracks(step, scales[start : start + cores])[leads])
         rows = {name: np.concatenate([part[name] for part in some]) for name in some[0]}
-    return headlines(rows), _trusted(rows, DAM_OUTCOMES, finite=False)
+    return headlines(rows), _trusted(rows, DAM_OUTCOMES, shaken.dam.sections[leads].crack_width, finite=False)
 
 
-def _trusted(rows: Mapping[str, Floats], names: Sequence[str], *, finite: bool) -> NDArray[np.bool_]:
+def _trusted(rows: Mapping[str, Floats], names: Sequence[str], width: float, *, finite: bool) -> NDArray[np.bool_]:
     """Return which of the runs have a result."""
     words = [names[place] for place in rows["outcome"].astype(np.int64).tolist()]
-    return np.array([outcome.has_result for outcome in outcomes_of(words, [rows], finite=finite)])
+    return np.array([outcome.has_result for outcome in outcomes_of(words, [rows], [width], finite=finite)])
 
 
 def _step(response: FlexibleResponse) -> float:

@@ -154,7 +154,20 @@ def load_cases(checked: Statics, numbers: Numbers, prefix: str) -> Table:
     rows.append(("Resultant in", *(case.resultant_zone or NOTHING for case in checked.cases)))
     head = ("", *(case.name for case in checked.cases))
     per = "per foot of dam" if numbers.units.name == "us" else "per metre of dam"
-    return Table(head, tuple(rows), f"Load cases, {per}.", _SHARES[: len(head)])
+    return Table(head, tuple(rows), f"Load cases, {per}.{entered(checked, numbers.units.name)}", _SHARES[: len(head)])
+
+
+def entered(checked: Statics, units: str) -> str:
+    """Say that the usual loads are those with water in what they open, where that makes them others than a run of the
+    earthquake has before it; nothing where it does not."""
+    usual = next((case for case in checked.cases if case.name == "usual"), None)
+    if usual is None or not usual.cracked_length_m:
+        return ""
+    opened = quantity(usual.cracked_length_m, ".3g m", units)
+    return (
+        f" The usual loads open {opened} of the crack, and water enters it: their uplift and their factors are not "
+        "those of runs of the earthquake, which keep the uplift of the case."
+    )
 
 
 def _checks(subject: Subject, checked: Statics) -> Table:

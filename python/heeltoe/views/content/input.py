@@ -14,6 +14,7 @@ from heeltoe.errors.sanitize import plain
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.write import build_info
 from heeltoe.units.sentences import quantity
+from heeltoe.views.content.checks import entered
 from heeltoe.views.content.subject import Subject
 from heeltoe.views.content.tree import Block, Code, Inline, Listing, Section, Strong, Table, glued, paragraph
 from heeltoe.views.words.fields import fields
@@ -59,6 +60,7 @@ def _loads(subject: Subject) -> tuple[Block, ...]:
         f"Loads before the earthquake on what is above the crack at {at}, {subject.per_width}: H positive downstream, "
         "V upward, M = x V − z H counter-clockwise; arms from the heel of what is closed."
     )
+    caption += entered(joint.statics, subject.units)
     return (Table(written.head[:-1], tuple(rows), caption, "lrrrrr"),)
 
 

@@ -159,7 +159,7 @@ def _numbers(subject: Subject) -> Block:
     if any(tension and tension["strength"] for tension in tensions):
         bears = subject.row("What it bears in an earthquake", "tension.strength.dynamic_pa")
         rows.append(bears + (("",) if both else ()))
-    static = subject.row("Sliding safety factor under static loads", "static.sliding_safety_factor")
+    static = subject.row("Sliding safety factor before it, uplift of the case", "static.sliding_safety_factor")
     rows.append(static + (("",) if both else ()))
     more = ("flexible / rigid",) if both else ()
     if both and not subject.ran("rigid"):
@@ -193,7 +193,10 @@ def _numbers_of_cracks(subject: Subject) -> Block:
         rows.append(("Cracked length of the joint", *lengths))
     factors = [result.cracks[place].static.sliding_safety_factor for place in places]
     rows.append(
-        ("Sliding safety factor under static loads", *(NOTHING if at is None else digits(at, 4) for at in factors))
+        (
+            "Sliding safety factor before it, uplift of the case",
+            *(NOTHING if at is None else digits(at, 4) for at in factors),
+        )
     )
     rows.append(("At the end of the run", _end(run), *blank))
     tension = result.summary.get("tension")

@@ -124,8 +124,8 @@ def results(subject: Subject) -> Section:
         Table(
             ("", "value"),
             tuple(static),
-            f"Before the earthquake, {subject.per_width}; accelerations at which a rigid part above the crack starts "
-            "to move.",
+            f"Before the earthquake, with the uplift of the case, {subject.per_width}; accelerations at which a rigid "
+            "part above the crack starts to move.",
             "lr",
         ),
         *subject.figure("comparison", "response"),
@@ -230,19 +230,32 @@ def _anchors(subject: Subject) -> list[Block]:
     if not subject.case.anchors:
         return []
     runs = [run for run in subject.runs if run.response.summary.get("anchors")]
-    head = ("anchor", "from the heel", *(f"largest force, {run.name}" for run in runs), "capacity")
+    events = [
+        (f"{label}, {run.name}", f"{run.prefix}anchors", key)
+        for key, label in (("slack_s", "slack from"), ("yields_s", "above its capacity from"))
+        for run in runs
+        if any(anchor[key] is not None for anchor in run.response.anchors or ())
+    ]
+    head = (
+        "anchor",
+        "from the heel",
+        *(f"largest force, {run.name}" for run in runs),
+        "capacity",
+        *(label for label, _, _ in events),
+    )
     rows = tuple(
         (
             f"{place + 1}",
             subject.numbers(f"{runs[0].prefix}anchors.{place}.distance_m", "length"),
             *(subject.numbers(f"{run.prefix}anchors.{place}.peak_force_n") for run in runs),
             subject.numbers(f"{runs[0].prefix}anchors.{place}.capacity_n"),
+            *(subject.numbers(f"{path}.{place}.{key}", "time") for _, path, key in events),
         )
         for place in range(len(subject.case.anchors))
         if runs
     )
     caption = f"What the anchors bear, tension and resistance to slip together, {subject.per_width}."
-    return [Table(head, rows, caption, "l" + "r" * (2 + len(runs)))] if rows else []
+    return [Table(head, rows, caption, "l" + "r" * (len(head) - 1))] if rows else []
 
 
 def _rough(subject: Subject) -> list[Block]:

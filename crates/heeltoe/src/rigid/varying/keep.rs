@@ -38,7 +38,7 @@ impl Varying<'_> {
         self.see();
         let at = self.walk.summary.position;
         self.walk.summary.widen(&at, self.state[2]);
-        self.strain();
+        self.strain(time + taken);
     }
 
     /// Take the works of the last step over from the state into the ledger.
@@ -94,12 +94,11 @@ impl Varying<'_> {
         [self.walk.summary.position, self.walk.summary.velocity] = self.contact(&self.state);
     }
 
-    /// Note what the anchors bear.
-    pub(super) fn strain(&mut self) {
-        for (peak, anchor) in self.anchors.iter_mut().zip(&self.turning.anchors) {
+    /// Note what the anchors bear at a moment.
+    pub(super) fn strain(&mut self, time: f64) {
+        for (noted, anchor) in self.anchors.iter_mut().zip(&self.turning.anchors) {
             let moved = self.turning.anchor_moves(self.corner, &self.state, anchor);
-            let borne = anchor.borne(moved, anchor.elongation(moved));
-            *peak = [0, 1].map(|i| peak[i].max(borne[i]));
+            noted.note(anchor, anchor.borne(moved, anchor.elongation(moved)), time);
         }
     }
 

@@ -21,6 +21,7 @@ use super::shaking::{level, Ground, Piece, TurningShaking};
 use super::step::{State, SIZE};
 use crate::asperity::Asperities;
 use crate::friction::{Law, Worn};
+use crate::inside::Borne;
 
 /// Relative error allowed in a step, of lengths of the crack's width and of velocities of sqrt(g B).
 const TOLERANCE: f64 = 1e-12;
@@ -48,7 +49,7 @@ pub(super) struct Varying<'a> {
     pub(super) suggested: f64,
     /// Accelerations of the contact coordinates right after an event, freed from rounding where a motion starts.
     pub(super) starting: Option<Vector>,
-    pub(super) anchors: Vec<[f64; 2]>,
+    pub(super) anchors: Vec<Borne>,
     /// Of a block at rest, see [`super::rest`]; none until it is asked for.
     pub(super) reserve: Option<[[f64; 4]; 4]>,
     /// Of a block that slides downstream or upstream, see [`super::slide`].
@@ -123,7 +124,11 @@ pub fn simulate(
         state: [0.0; SIZE],
         suggested: any,
         starting: None,
-        anchors: vec![[0.0; 2]; turning.anchors.len()],
+        anchors: turning
+            .anchors
+            .iter()
+            .map(|anchor| Borne::new(anchor, shaking.level.time[0]))
+            .collect(),
         reserve: None,
         lines: Default::default(),
         flats: Default::default(),
@@ -140,7 +145,7 @@ pub fn simulate(
     let theta = varying.state[2];
     varying.walk.summary.rotation_range = [theta.min(0.0), theta.max(0.0)];
     varying.walk.summary.ledger.start = varying.kinetic_energy();
-    varying.strain();
+    varying.strain(shaking.level.time[0]);
     match varying.run(shaking, start.is_none()) {
         Some(from) => varying.go_on_exactly(shaking, from),
         None => {

@@ -17,6 +17,7 @@ import shapely
 from heeltoe.case.dam import Rock, Water
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
+from heeltoe.mechanics.beam import band_of
 from heeltoe.models.flexible.body.modes import FIRST_KEPT
 from heeltoe.models.flexible.mesh.rows import ROWS
 
@@ -138,7 +139,7 @@ def surroundings_of(case: Case) -> Cost:
 
 def _rock_elements(case: Case, rock: Rock) -> int:
     """Return how many elements there are along the base of the rock."""
-    from heeltoe.models.flexible.surroundings.rock import BEYOND, HIGHEST, RockMaterial, base_elements, halvings
+    from heeltoe.models.flexible.surroundings.rock import BEYOND, RockMaterial, base_elements, halvings
 
     left, base, right, _ = case.outline.bounds
     width = case.outline.intersection(shapely.LineString([(left, base), (right, base)])).length
@@ -146,7 +147,8 @@ def _rock_elements(case: Case, rock: Rock) -> int:
     across = (None if at_base else case.flexible.elements_across_below) or case.flexible.elements_across
     across *= 2 ** halvings(across)
     edges = across + 2 * BEYOND if at_base else across
-    return base_elements(edges, width * edges / across, RockMaterial(rock.modulus, rock.poisson, rock.density), HIGHEST)
+    material = RockMaterial(rock.modulus, rock.poisson, rock.density)
+    return base_elements(edges, width * edges / across, material, band_of(case))
 
 
 def _waters(case: Case) -> list[Water]:

@@ -84,6 +84,14 @@ def crack_anchors(alone: Case, faces: Sequence[BodyMesh], rock: RockBody | None 
             points.append(tuple((rock.beyond + node, share) for node, share in points[-1]))
         axis = (math.sin(anchor.inclination), math.cos(anchor.inclination))
         result.append(
-            CrackAnchor(place, tuple(points), axis, anchor.prestress, anchor.axial_stiffness, anchor.shear_stiffness)
+            CrackAnchor(
+                place,
+                tuple(points),
+                axis,
+                anchor.prestress,
+                anchor.axial_stiffness,
+                anchor.shear_stiffness,
+                math.inf if anchor.capacity is None else anchor.capacity,
+            )
         )
     return tuple(result)

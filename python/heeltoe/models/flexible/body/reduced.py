@@ -15,6 +15,7 @@ from heeltoe.errors.error import expect
 from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.geometry.section import CutSection
 from heeltoe.kernel.dam import CrackAnchor, CrackedDam, CrackLine
+from heeltoe.mechanics.beam import band_of
 from heeltoe.mechanics.friction import law_of
 from heeltoe.models.flexible.body.bond import kernel_bond
 from heeltoe.models.flexible.body.bonded import NOT_OF_DAM, BondedDam, bonded_dam, case_key
@@ -82,11 +83,14 @@ class Start:
         By how much each crack slips on the way there, positive downstream [m].
     open_contacts
         How many of the watched nodes of each are open then.
+    unrest
+        Why no state is known in which it stands, see ``CrackedDam.unrest``; None where one is, or none was sought.
     """
 
     stands: bool
     slips: tuple[float, ...]
     open_contacts: tuple[int, ...]
+    unrest: str | None = None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -171,7 +175,8 @@ _KEPT: Kept[FlexibleDam] = Kept(4)
 @one_blas_thread()
 def build_flexible_dam(case: Case, larger: float = 1.0) -> FlexibleDam:
     """Mesh, assemble and reduce the parts of a case; the last few are kept, by all that they depend on. Rock and water
-    with sound reach so many times `larger` as far as they need.
+    with sound reach so many times `larger` as far as they need, and answer well up to so many times the frequency of
+    :func:`heeltoe.mechanics.beam.band_of`.
 
     Raises
     ------
@@ -187,7 +192,7 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
     bodies, modes = bonded.bodies, bonded.modes
     sections = tuple(single_crack_case.cut for single_crack_case in case.single_crack_cases)
     damping = damping_of(case, bonded)
-    with beside(lambda: water_body(case, bodies, longer=larger)) as water:
+    with beside(lambda: water_body(case, bodies, larger * band_of(case), longer=larger)) as water:
         whole = founded(case, bonded, larger=larger)
         rock = rock_body(case, bodies[-1], larger=larger)
     reservoir = water.result()
@@ -215,6 +220,8 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
         for force, section in zip(bonded.bonded_forces, sections, strict=True)
     )
     rest = kernel.still() if exact else None
+    if exact:
+        start = replace(start, unrest=kernel.unrest())
     if rest is not None:
         start = Start(True, rest.slips, rest.open_contacts)
         # Behind those of the dam are the modes of the rock.

@@ -14,9 +14,6 @@ from heeltoe.models.flexible.body.elastic import Body, dofs
 from heeltoe.models.flexible.body.modes import Modes
 from heeltoe.models.flexible.surroundings.water import NEAR, ReducedWater, reduced_water
 
-#: Frequency [Hz] up to which the water of a run answers well.
-HIGHEST = 15.0
-
 
 @dataclass(frozen=True, eq=False)
 class WaterBody:
@@ -67,9 +64,7 @@ class WetFace:
     still: Floats
 
 
-def water_body(
-    case: Case, bodies: Sequence[Body], *, longer: float = 1.0, highest: float = HIGHEST
-) -> WaterBody | None:
+def water_body(case: Case, bodies: Sequence[Body], highest: float, *, longer: float = 1.0) -> WaterBody | None:
     """Return the compressible water before the parts of a dam, from the crest down; None where there is none.
 
     Parameters
@@ -78,10 +73,10 @@ def water_body(
         With ``compressible`` set of reservoir or tailwater.
     bodies
         The parts of the dam.
-    longer
-        Factor on the length of the near field.
     highest
         Frequency [Hz] up to which the water answers well.
+    longer
+        Factor on the length of the near field.
     """
     waters: list[tuple[ReducedWater, str, list[tuple[int, Integers]]]] = []
     base = case.cut.base_elevation

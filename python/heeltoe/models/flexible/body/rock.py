@@ -12,6 +12,7 @@ from heeltoe.base.cache import Kept
 from heeltoe.case.dam import Rock
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
+from heeltoe.mechanics.beam import band_of
 from heeltoe.models.flexible.body.bonded import BondedDam
 from heeltoe.models.flexible.body.elastic import Body, Dam, base_shapes, dofs, held_alone, side_by_side
 from heeltoe.models.flexible.body.modes import Modes
@@ -20,7 +21,6 @@ from heeltoe.models.flexible.surroundings.response import base_nodes
 from heeltoe.models.flexible.surroundings.rock import (
     BEYOND,
     EXTENT,
-    HIGHEST,
     ReducedRock,
     RockMaterial,
     halvings,
@@ -108,13 +108,13 @@ def founded(case: Case, bonded: BondedDam, *, larger: float = 1.0) -> Founded | 
     bonded
         The dam on a rigid plane.
     larger
-        Factor on the extent of the rock that is meshed.
+        Factor on the extent of the rock that is meshed, and on the band in which it answers well.
     """
     lowest, held = bonded.bodies[-1], bonded.modes[-1]
     if case.rock is None or not lowest.mesh.fixed.size:
         return None
     nodes = base_nodes(lowest)
-    rock = _rock_below(lowest.mesh.nodes[nodes], case.rock, larger)
+    rock = _rock_below(lowest.mesh.nodes[nodes], case.rock, larger, larger * band_of(case))
     load = np.concatenate([body.load for body in bonded.bodies])
     # Of the whole dam, for the settlement, and of the part alone.
     every = base_shapes(bonded, load.size - lowest.load.size + dofs(nodes)) @ rock.shapes
@@ -154,7 +154,7 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
     lowest
         The part above the crack at the base.
     larger
-        Factor on the extent of the rock that is meshed.
+        Factor on the extent of the rock that is meshed, and on the band in which it answers well.
 
     Raises
     ------
@@ -174,14 +174,15 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
     ahead = [base[0] - (BEYOND - k / 2.0) * first for k in range(2 * BEYOND)]
     behind = [base[-1] + (k + 1) / 2.0 * last for k in range(2 * BEYOND)]
     points = np.vstack([*ahead, base, *behind])
-    reduced = _rock_below(points, case.rock, larger, beyond=2 * BEYOND)
+    reduced = _rock_below(points, case.rock, larger, larger * band_of(case), beyond=2 * BEYOND)
     count = reduced.omega_squared.size
     shapes = reduced.shapes.T.reshape(count, -1, 2).swapaxes(1, 2).reshape(count, -1)
     return RockBody(reduced.omega_squared, reduced.damping, np.ascontiguousarray(shapes), points, reduced.error)
 
 
-def _rock_below(points: Floats, rock: Rock, larger: float, *, beyond: int = 0) -> ReducedRock:
-    """Return the rock below nodes (x, z), of which so many are `beyond` the heel, and beyond the toe.
+def _rock_below(points: Floats, rock: Rock, larger: float, highest: float, *, beyond: int = 0) -> ReducedRock:
+    """Return the rock below nodes (x, z), of which so many are `beyond` the heel, and beyond the toe, good up to the
+    `highest` frequency [Hz].
 
     The same rock lies below dams that differ in all else, and below the meshes of a dam, of which coarser ones tie its
     base to fewer nodes."""
@@ -195,7 +196,8 @@ def _rock_below(points: Floats, rock: Rock, larger: float, *, beyond: int = 0) -
     fine = float(f"{_SAME * np.ptp(base[:, 0]):.0e}")
     base = fine * np.round(base / fine)
     rock_below = _KEPT.get(
-        (base.tobytes(), material, extent), lambda: reduced_rock(base, material, highest=HIGHEST, extent=extent)
+        (base.tobytes(), material, extent, highest),
+        lambda: reduced_rock(base, material, highest=highest, extent=extent),
     )
     return rock_below if finer == 1 else rock_below.followed(base, points)
 

@@ -26,7 +26,7 @@ MOVED_BY = {
     "step": "the time step",
     "mesh": "the mesh",
     "shaking": "the last per cent of the shaking",
-    "surroundings": "how far rock and water reach",
+    "surroundings": "how far rock and water reach, and up to which frequency",
 }
 
 

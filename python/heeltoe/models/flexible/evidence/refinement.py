@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -25,7 +26,7 @@ from heeltoe.models.flexible.evidence.trials import SCALES, SOFTENING, Level, Tr
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import FEWEST_ACROSS
 from heeltoe.result.contract import CRACKED, HEADLINES
-from heeltoe.result.numbers import EvidenceNumbers, HeadlineWorth
+from heeltoe.result.numbers import EvidenceNumbers, HeadlineWorth, RotationWorth
 
 # Two meshes may agree by chance. Twice the elements of quadratic shape make what they leave a quarter at best, so of
 # what moves a number from the third mesh to the second at least this part is left; coarser meshes say nothing.
@@ -154,6 +155,10 @@ def _worth(
     deviation = None if varied is None else max(float(runs.std(ddof=1)) for runs in varied)
     least = FLOOR_M if key.endswith("_m") else 0.0
     return worth_of(value, run, abs(run - other), mesh, deviation, surroundings, least=least)
+
+
+def _rotation(worth: HeadlineWorth, *, bounded: bool) -> RotationWorth:
+    return RotationWorth(**dict(worth) | ({} if bounded else {"uncertainty": None}))
 
 
 def _moved_by_mesh(
@@ -285,9 +290,14 @@ class _Stand:
             moved = (length.step, length.mesh, length.shaking, length.surroundings)
             cracked = worth_of(length.run, length.run, *moved, least=least)
         slip = worth("residual_slip_m")
+        on_rock = dam.rock is not None and crack == len(dam.lines) - 1
         no_limit = may_have_no_limit(trials.dam_of(0).case, dam)
         failed = 0 if varied is None else trials.failed(self._own if mean else self._cheap, SCALES)
         slips = [] if ensembles is None else ensembles[0]["residual_slip_m"].tolist()
+        headline_worths: dict[str, Any] = {item.key: worth(item.key) for item in HEADLINES}
+        for item in HEADLINES:
+            if item.kind == "rotation":
+                headline_worths[item.key] = _rotation(worth(item.key), bounded=not on_rock)
         return EvidenceNumbers(
             asked="full" if self._full else "step",
             converged=slip.uncertainty <= allowed(slip.value) and not (failed or no_limit),
@@ -308,5 +318,5 @@ class _Stand:
             budget=BUDGET,
             budget_spent=spent,
             cracked_length_m=cracked,
-            **{item.key: worth(item.key) for item in HEADLINES},
+            **headline_worths,
         )

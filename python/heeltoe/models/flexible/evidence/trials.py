@@ -23,7 +23,7 @@ from heeltoe.result.contract import CRACKED, HEADLINES, headlines
 SOFTENING = "softening_length_m"
 #: Factors on the shaking: as it is, and up to 1 % either way.
 SCALES = (1.0, 0.99, 0.995, 1.005, 1.01)
-# Rock and water that reach farther do so this many times.
+# Rock and water that reach farther do so this many times, and answer well up to so many times the frequency.
 _LARGER = 1.5
 _OK = DAM_OUTCOMES.index("ok")
 # Twice as many elements along the crack cost about so many times as much; half the step twice.

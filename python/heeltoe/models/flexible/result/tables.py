@@ -23,7 +23,7 @@ from heeltoe.models.flexible.result.water import face_pressures
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.slip_history import law_result, sliding_friction, worn_of
 from heeltoe.result.contract import ground_histories, slip_by_mode, time_by_mode
-from heeltoe.result.crest import crest_histories
+from heeltoe.result.crest import CrestSeries, crest_series
 from heeltoe.result.numbers import (
     AnchorForce,
     BeforeShaking,
@@ -42,17 +42,9 @@ from heeltoe.result.response import Energy
 
 
 def anchors_of(case: Case, run: DamRun, place: int) -> list[AnchorForce]:
-    """Return what each anchor bears at most [N] at a crack, and what it is good for; `case` has it alone."""
+    """Return what each anchor bears [N] at a crack, and what it is good for; `case` has it alone."""
     borne = iter(run.anchors[place].tolist())
-    forces = []
-    for anchor in case.anchors_at_crack:
-        tension, force = next(borne) if anchor.yields else (anchor.prestress, anchor.prestress)
-        forces.append(
-            AnchorForce(
-                distance_m=anchor.distance, peak_tension_n=tension, peak_force_n=force, capacity_n=anchor.capacity
-            )
-        )
-    return forces
+    return [AnchorForce.of(anchor, next(borne) if anchor.yields else None) for anchor in case.anchors_at_crack]
 
 
 def histories_of_cracks(case: Case, dam: FlexibleDam, run: DamRun) -> tuple[CrackHistory, ...]:
@@ -246,21 +238,19 @@ def histories_of(
     }
 
 
-def crest_of(shaken: ShakenDam, run: DamRun) -> dict[str, Floats]:
-    """Return the histories of the upstream edge of the crest."""
-    dam, time = shaken.dam, run.frames.time
-    row = 2 * int(dam.bodies[0].mesh.upstream[-1])
-    place = run.modes[0] @ dam.modes[0].shapes[row]
-    ground = np.interp(time, shaken.shaking.time, shaken.shaking.horizontal)
-    return crest_histories(time, place, ground)
+def crest_of(shaken: ShakenDam, run: DamRun) -> CrestSeries:
+    """Return the way of the upstream edge of the crest, step by step."""
+    step = run.summary.end_time / run.summary.steps
+    time = np.arange(run.crest.size) * step
+    return crest_series(step, run.crest, np.interp(time, shaken.shaking.time, shaken.shaking.horizontal))
 
 
 def crack_responses(
-    answer: Answer, histories: Sequence[CrackHistory], static: StaticState
+    answer: Answer, histories: Sequence[CrackHistory], static: StaticState, crest: CrestSeries
 ) -> list[ElasticCrackResponse]:
     """Return what each crack did, from the crest down; `static` is the state at the one asked of."""
     shaken, run = answer.shaken, answer.run
-    crest = crest_of(shaken, run)
+    moved = crest.histories(run.frames.time)
     responses = []
     for history, case in zip(histories, shaken.case.single_crack_cases, strict=True):
         place = history.place
@@ -278,7 +268,7 @@ def crack_responses(
                         law=case.crack.law is not None,
                         bonded_width=None if case.crack.bond is None else section.crack_width,
                     ),
-                    **crest,
+                    **moved,
                 },
                 mode=modes_of(run, place),
                 event_log={},

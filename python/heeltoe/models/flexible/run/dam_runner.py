@@ -13,6 +13,7 @@ from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.kernel.dam import CrackedDam, DamRun, Ending
 from heeltoe.kernel.shaking import Shaking
+from heeltoe.models.flexible.body.cost import wave_bodies
 from heeltoe.models.flexible.body.inside import rising_water
 from heeltoe.models.flexible.body.modes import part_periods
 from heeltoe.models.flexible.body.reduced import FlexibleDam
@@ -26,6 +27,9 @@ from heeltoe.result.rest import LAST_S
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
+#: Where waves surround the dam the step goes with the dam, and is this part of that vibration: a small dam swings as
+#: fast as its waves, and similar dams have similar answers.
+_STEPS_AMONG_WAVES = 400.0
 #: What acts in the crack may ask for a shorter one, down to this.
 _SHORTEST_OF_ALL = 1e-5
 #: So closely the program's own step follows it, as from a sixteenth on the contact problem is next to singular; and so
@@ -38,8 +42,11 @@ _STRESS_STEP = 2e-3
 _FITS = 1e-9
 
 
-def usual_step(period: float) -> float:
-    """Return a step [s] that follows a part above the crack of this longest period [s]."""
+def usual_step(period: float, *, waves: bool = False) -> float:
+    """Return a step [s] that follows a part above the crack of this longest period [s]; with `waves` in rock or
+    water around the dam."""
+    if waves:
+        return float(np.clip(period / _STEPS_AMONG_WAVES, _SHORTEST_OF_ALL, _LONGEST_STEP))
     shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
     return float(np.clip(period / _STEPS_PER_PERIOD, shortest, _LONGEST_STEP))
 
@@ -69,7 +76,7 @@ class ShakenDam:
         """
         period = self._period()
         stated = self.case.flexible.time_step
-        wanted = stated or usual_step(period)
+        wanted = stated or usual_step(period, waves=wave_bodies(self.case) > 0)
         step, field = longest_step(self.dam, self.case.flexible.theta, wanted)
         if step < (wanted if stated else _SHORTEST_OF_ALL):
             raise InputError("step-stiff", field, step=f"{step:.2g} s")
@@ -107,10 +114,11 @@ class ShakenDam:
         count, step, ground = self._ground(step)
         if pauses is not None:
             ground = np.vstack([ground, np.zeros((pauses.times * pauses.steps, 2))])
-        stride, rows = 0, None
+        stride, rows, crest = 0, None, None
         if frame_step is not None:
             stride = max(1, min(count, round(frame_step / step)))
             often = max(1, round(min(_STRESS_STEP, frame_step) / step))
+            crest = self._crest_row
             rows = StressRows(tuple(item.rows for item in self.dam.stress_places), often) if stresses else None
         return self._shaken_dam.run(
             factor * ground,
@@ -118,6 +126,7 @@ class ShakenDam:
             self.case.flexible.theta,
             stride=stride,
             stresses=rows,
+            crest=crest,
             penalty=self._penalty(),
             ending=ending,
             until_rest=None if pauses is None else (count, pauses.steps, LAST_S, JOINT_METER_M),
@@ -154,6 +163,12 @@ class ShakenDam:
             penalty=self._penalty(),
             ending=ending,
         )
+
+    @cached_property
+    def _crest_row(self) -> Floats:
+        """How far each mode of the part at the crest moves its upstream edge downstream."""
+        row = 2 * int(self.dam.bodies[0].mesh.upstream[-1])
+        return np.ascontiguousarray(self.dam.modes[0].shapes[row])
 
     @cached_property
     def _shaken_dam(self) -> CrackedDam:

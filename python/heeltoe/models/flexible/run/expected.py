@@ -107,7 +107,7 @@ def analysing(
 def _step_of(case: Case) -> float:
     """Return about the step that the program will choose [s]."""
     speed = math.sqrt((case.concrete.modulus or math.inf) / case.concrete.density)
-    return usual_step(_PERIOD * case.cut.height / speed)
+    return usual_step(_PERIOD * case.cut.height / speed, waves=wave_bodies(case) > 0)
 
 
 def with_mesh(case: Case, mesh: int) -> Case:

@@ -127,9 +127,7 @@ def crest_amplification(case: Case) -> Amplification:
     if case.reservoir is not None and case.reservoir.depth > 0.0:
         waters["incompressible"] = WaterOfDam.of(intact, parts, None)
         with_waves = dam(sounding, mesh)
-        waters["compressible"] = WaterOfDam.of(
-            intact, with_waves, water_body(sounding, with_waves.bodies, highest=highest)
-        )
+        waters["compressible"] = WaterOfDam.of(intact, with_waves, water_body(sounding, with_waves.bodies, highest))
     rocks: dict[str, ReducedRock | None] = {
         "rigid": None,
         "elastic": reduced_rock(intact.base, rock_material(_rock(case)), highest=highest),

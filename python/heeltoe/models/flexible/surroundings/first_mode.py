@@ -69,7 +69,7 @@ class SectionForces:
         parts = dam(case, dam_mesh(case))
         intact = IntactDam.of(parts)
         first = 1.0 / float(intact_periods(parts, 1, water=False)[0])
-        waves = water_body(case, parts.bodies, highest=farthest * first)
+        waves = water_body(case, parts.bodies, farthest * first)
         rock = None
         if case.rock is not None:
             rock = reduced_rock(intact.base, rock_material(case.rock), highest=farthest * first)

@@ -48,8 +48,6 @@ from heeltoe.models.flexible.surroundings.reduction import (
 
 #: Distance of the last ring in half widths of the base.
 EXTENT = 100.0
-#: Frequency [Hz] up to which the rock of a case answers well.
-HIGHEST = 15.0
 #: The level surface goes on beyond heel and toe by so many edges of the mesh, on which a dam that slides stands.
 BEYOND = 1
 # Elements across the base at least, and over the shortest shear wave.
@@ -244,7 +242,7 @@ def _joined(
 
 
 def reduced_rock(
-    base: Floats, material: RockMaterial, *, highest: float = HIGHEST, extent: float = EXTENT, enough: float = ENOUGH
+    base: Floats, material: RockMaterial, *, highest: float = 15.0, extent: float = EXTENT, enough: float = ENOUGH
 ) -> ReducedRock:
     """Return the rock below a base in few unknowns.
 
@@ -264,7 +262,7 @@ def reduced_rock(
     return _reduced(full_rock(base, material, highest=highest, extent=extent), base, material, highest, enough)
 
 
-def full_rock(base: Floats, material: RockMaterial, *, highest: float = HIGHEST, extent: float = EXTENT) -> FullRock:
+def full_rock(base: Floats, material: RockMaterial, *, highest: float = 15.0, extent: float = EXTENT) -> FullRock:
     """Return the rock below a base in all its finite elements; parameters as in :func:`reduced_rock`."""
     import skfem
     from skfem.helpers import dot
