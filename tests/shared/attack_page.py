@@ -15,7 +15,7 @@ CASES, SEED = int(os.environ.get("HEELTOE_ATTACK_CASES", "100")), int(os.environ
 _TEXT = """# Attacks
 
 `make attack` tries to break heeltoe, with random cases from a seed (`CASES`, `SEED`), and writes this page; with
-`ADD=1` it adds what other seeds come to. `make test-slow` tries a short form. This was version {version}, seeds {seeds}.
+`ADD=1` it adds what other seeds come to. `make test-slow` tries a short form. Version {version}, seeds {seeds}.
 
 | what | tried | accepted | refused | no result | defects |
 | --- | ---: | ---: | ---: | ---: | ---: |
