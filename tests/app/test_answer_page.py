@@ -72,6 +72,7 @@ def test_both_blocks_where_the_crack_is_at_a_height(page, picture):
     picture(page, "answer-height")
 
 
+@pytest.mark.product
 def test_looks(places, heard_well):
     for page in places("answer"):
         page.wait_for_selector(SLIP)

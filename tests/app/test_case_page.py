@@ -190,6 +190,7 @@ def test_a_screen_reader_finds_its_way(case, heard_well):
     assert not heard_well(case)
 
 
+@pytest.mark.product
 def test_looks(case, places):
     for page in places("case"):
         page.wait_for_selector(WATER)

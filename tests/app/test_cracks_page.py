@@ -110,6 +110,7 @@ def test_what_is_typed_while_the_form_is_made_anew_stays(case):
     value_is(case, DEPTH, "260 ft")
 
 
+@pytest.mark.product
 def test_looks(case, heard_well):
     choose_example(case, "two-cracks")
     case.wait_for_selector("[data-handle='further crack 1']")

@@ -66,6 +66,7 @@ def test_making_is_cancelled(export):
     assert export.is_enabled("text=Make the files")
 
 
+@pytest.mark.product
 def test_looks(export, places, heard_well):
     for page in places("export"):
         page.wait_for_selector(".lines pre >> text=heeltoe run")

@@ -206,6 +206,7 @@ def test_a_sequence_is_made_ordered_and_taken_apart(motion, picture):
     assert motion.input_value("#horizontal-pga") == "0.2 g"
 
 
+@pytest.mark.product
 def test_looks(motion, places, heard_well):
     for page in places("motion"):
         page.wait_for_selector(f"{FACTS} >> text=PGA")

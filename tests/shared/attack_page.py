@@ -10,12 +10,12 @@ from importlib.metadata import version
 from pathlib import Path
 
 ENDS = ("accepted", "refused", "no result", "defect")
-#: How many random cases a long attack tries, and with which seed; `make test-slow` takes a few, `make attack` many.
+#: How many random cases a long attack tries, and with which seed; `make test-all` takes a few, `make attack` many.
 CASES, SEED = int(os.environ.get("HEELTOE_ATTACK_CASES", "100")), int(os.environ.get("HEELTOE_ATTACK_SEED", "34"))
 _TEXT = """# Attacks
 
 `make attack` tries to break heeltoe, with random cases from a seed (`CASES`, `SEED`), and writes this page; with
-`ADD=1` it adds what other seeds come to. `make test` tries a short form. This was version {version}, seeds {seeds}.
+`ADD=1` it adds what other seeds come to. `make test-slow` tries a short form. Version {version}, seeds {seeds}.
 
 | what | tried | accepted | refused | no result | defects |
 | --- | ---: | ---: | ---: | ---: | ---: |

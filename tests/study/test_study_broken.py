@@ -21,6 +21,7 @@ pytestmark = pytest.mark.slow
 HEELTOE = [sys.executable, "-m", "heeltoe"]
 
 
+@pytest.mark.product
 def test_ten_kills_change_nothing(tmp_path):
     text = DRAWN.replace("samples = 60", "samples = 100000").replace(
         '"crack.friction"', '"uplift.pattern" = ["none"]\n"crack.friction"'

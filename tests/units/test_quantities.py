@@ -177,3 +177,8 @@ def test_pydantic_types():
 @pytest.mark.parametrize(("target", "units"), _USUAL.items())
 def test_usual_units_are_those_of_pint(target, units):
     assert {unit: _converted(unit, target) for unit in units} == units
+
+
+def test_the_minus_of_printed_tables_is_a_minus():
+    assert parse("\u22127 m", "length", "here") == -7.0
+    assert parse_acceleration("\u22120.2 g", "here").si(9.81) == pytest.approx(-1.962)

@@ -189,7 +189,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "holds {value}",
         "give quadrilaterals throughout, of 4 nodes or of 8 (Gmsh: recombine, incomplete second order)",
     ),
-    "mesh-unused": ("{value} nodes belong to no element, the first of them is {first}", "remove them"),
+    "mesh-unused": (
+        "{value} nodes belong to no element, the first of them is {first}",
+        "remove them; gmsh leaves out the centres of arcs where the surface is a physical group",
+    ),
     "mesh-clockwise": (
         "{count} elements run clockwise, the first of them is {value}",
         "number the nodes of each counter-clockwise, seen with x downstream to the right",

@@ -176,7 +176,8 @@ def _split(value: object, dimension: str, field: str) -> tuple[float, str]:
         except OverflowError:
             number = math.inf
         return _finite(number, value, dimension, field), ""
-    match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
+    # The minus of printed tables, as our PDFs have it, too.
+    match = _QUANTITY.fullmatch(value.replace("\u2212", "-")) if isinstance(value, str) else None
     if match is None:
         raise InputError("wrong-quantity", field, shown(value), kind=expected.kind, example=shown(expected.example))
     unit = (match[2] or "").strip()

@@ -33,6 +33,7 @@ def test_where_a_hundredth_of_the_shaking_decides_no_mesh_mends_it():
 
 
 @pytest.mark.slow
+@pytest.mark.product
 def test_eight_elements_across_are_too_few_for_a_step():
     """A straight crack has converged with them; a step has not, as two to four nodes carry the dam on it."""
     straight, step = (LINES[name] for name in ("straight, 0.9", "27°, 0.9"))

@@ -6,6 +6,7 @@ import bz2
 import gzip
 import io
 import random
+import struct
 import tarfile
 import zipfile
 
@@ -268,6 +269,16 @@ def test_without_obspy_the_remedy_is_said(tmp_path, monkeypatch):
     monkeypatch.setattr(seismology, "find_spec", lambda name: None)
     with pytest.raises(InputError, match=r"a\.mseed: needs the package obspy.*pip install obspy"):
         read_channels(tmp_path / "a.mseed")
+
+
+@pytest.mark.parametrize("step", [1.0 / 128.0, 0.01, 0.005, 1.0 / 300.0])
+def test_the_step_of_sac_is_that_of_its_header(step):
+    """Which is in single precision; the reader rounds it to microseconds."""
+    data = bytearray(sac())
+    data[0:4] = struct.pack("<f" if struct.unpack_from("<i", data, 304)[0] in (6, 7) else ">f", step)
+    motion = read_text(bytes(data), "a.sac", options=Options(unit="m/s^2"))
+    assert motion.dt == pytest.approx(step, rel=6e-8)
+    assert step not in (1.0 / 128.0, 0.01, 0.005) or motion.dt == step
 
 
 @pytest.mark.parametrize("sample", ["zip", "gz", "bz2", "tar", "tgz", "miniseed", "sac"])
