@@ -6,13 +6,13 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Generic, Protocol, Self, TypeVar, overload
 
 from heeltoe.base.arrays import Floats
 from heeltoe.base.atomic_files import written
 from heeltoe.base.blocks import Block, Number, plain_json
 from heeltoe.base.display import Shown
+from heeltoe.base.frozen import FrozenDict
 from heeltoe.base.pandas import dataframe
 from heeltoe.errors.sanitize import plain
 from heeltoe.mechanics.block import StaticState
@@ -188,7 +188,7 @@ class CrackResponse(Numbered):
 
     def __post_init__(self) -> None:
         for name in ("histories", "event_log"):
-            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+            object.__setattr__(self, name, FrozenDict(getattr(self, name)))
 
     @property
     def numbers(self) -> CrackNumbers | None:
@@ -337,7 +337,7 @@ class Response(Numbered, Shown):
         if self.numbers is None:
             return {}
         of_crack = {name: value for name, value in self.numbers.items() if name not in OF_SEVERAL}
-        return MappingProxyType({**of_crack, **(self.dam or {})})
+        return FrozenDict({**of_crack, **(self.dam or {})})
 
     @property
     def histories(self) -> Mapping[str, Floats]:
