@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Annotated
 
 from heeltoe.base.blocks import Block, Number
-from heeltoe.result.quantity import Quantity
+from heeltoe.result.quantity import Quantity, peak_time
 
 _JOULE, _NEWTON = "J per metre of dam", "N per metre of dam"
 
@@ -217,6 +217,15 @@ class CrackNumbers(Block):
             short="peak\nup",
             way=-1,
             column="slip_min",
+        ),
+    ]
+    time_of_peak_slip_s: Annotated[
+        float,
+        Quantity(
+            "When the slip is largest either way, by the histories.",
+            "s",
+            label="time of the largest slip",
+            compute=peak_time,
         ),
     ]
     rocking_downstream_rad: Annotated[

@@ -11,6 +11,8 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
+
 from heeltoe.base.arrays import Floats
 from heeltoe.base.blocks import Block, Number, entries
 
@@ -82,3 +84,8 @@ def quantities_of(kind: type[Block]) -> tuple[Quantity, ...]:
 def computed(kind: type[Block], time: Floats, slip: Floats) -> dict[str, Any]:
     """Return the quantities of a block that a history has, by their JSON names: moments (k,) [s] and slips (k,) [m]."""
     return {item.key: item.compute(time, slip) for item in quantities_of(kind) if item.compute is not None}
+
+
+def peak_time(time: Floats, slip: Floats) -> float:
+    """Return when a slip is largest either way [s], the first moment of several."""
+    return float(time[np.abs(slip).argmax()])
