@@ -14,7 +14,14 @@ class FrozenDict(Mapping[str, Any]):
     __slots__ = ("_values",)
 
     def __init__(self, values: Mapping[str, Any]) -> None:
-        self._values = {name: _frozen(value) for name, value in values.items()}
+        self._values = dict(values)
+        for name, value in values.items():
+            if isinstance(value, np.ndarray):
+                # Of an array a view.
+                self._values[name] = view = value.view()
+                view.flags.writeable = False
+            elif type(value) is list:
+                self._values[name] = FrozenList(value)
 
     def __getitem__(self, name: str) -> Any:
         return self._values[name]
@@ -43,12 +50,3 @@ class FrozenList(list[Any]):
 
     def __reduce__(self) -> tuple[type, tuple[list[Any]]]:
         return type(self), (list(self),)
-
-
-def _frozen(value: Any) -> Any:
-    """Return a value that cannot be changed: of an array a view."""
-    if isinstance(value, np.ndarray):
-        view = value.view()
-        view.flags.writeable = False
-        return view
-    return FrozenList(value) if type(value) is list else value
