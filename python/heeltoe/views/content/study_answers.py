@@ -183,8 +183,8 @@ def fragility(subject: StudySubject) -> Section | None:
     head = ("exceeded", f"median {_named(asked)}", "dispersion", "from event to event", "other", "runs that exceed")
     text = (
         f"Lognormal curves of greatest likelihood over {_named(asked)}. In brackets what median and dispersion lie "
-        f"within with {asked['confidence']:.0%}, from leaving out one event at a time. Dams that overturn, do not "
-        "stand or turn too far for small rotations exceed every limit."
+        f"within with {asked['confidence']:.0%}, from leaving out one event at a time. Dams that have failed exceed "
+        "every limit."
     )
     if any(curve["median"] is not None and not curve["reached"] for curve in curves):
         text += " * stronger or weaker than any motion here: a guess."
