@@ -9,16 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from heeltoe.base.arrays import Floats
 from heeltoe.base.blocks import Block, Number, entries
-
-# Not at run time: a response takes these names.
-if TYPE_CHECKING:
-    from heeltoe.result.response import Numbered
 
 #: A hundredth of a millimetre and a thousandth of a milliradian: nobody measures less on a dam.
 LEAST_M, LEAST_RAD = 1e-5, 1e-6
@@ -60,7 +56,7 @@ class Quantity(Number):
     compute: Callable[[Floats, Floats], float] | None = None
     key: str = ""
 
-    def of(self, crack: Numbered) -> float:
+    def of(self, crack: object) -> float:
         """Return this number of a crack, or of the crack that leads of a response."""
         return float(getattr(crack, self.key))
 
