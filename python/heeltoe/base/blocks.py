@@ -18,6 +18,8 @@ from typing import Annotated, Any, Literal, NamedTuple, Union, dataclass_transfo
 
 import numpy as np
 
+from heeltoe.base.frozen import FrozenList
+
 
 @dataclass(frozen=True)
 class Number:
@@ -45,6 +47,12 @@ class Block(Mapping[str, Any]):
     def __init_subclass__(cls) -> None:
         super().__init_subclass__()
         dataclass(frozen=True, kw_only=True, eq=False)(cls)
+
+    def __post_init__(self) -> None:
+        for name in _lists(type(self)):
+            value = getattr(self, name)
+            if type(value) is list:
+                object.__setattr__(self, name, FrozenList(value))
 
     def __iter__(self) -> Iterator[str]:
         for entry in entries(type(self)):
@@ -106,6 +114,12 @@ def entries(kind: type) -> tuple[Entry, ...]:
         if numbers:
             rows.append(Entry(name, get_args(hint)[0], numbers[0]))
     return tuple(rows)
+
+
+@cache
+def _lists(kind: type) -> tuple[str, ...]:
+    """Return the fields of a block that may hold a list."""
+    return tuple(item.name for item in fields(kind) if "list[" in str(item.type))
 
 
 @cache

@@ -19,6 +19,7 @@ from heeltoe.base.atomic_files import check_file, write_text
 from heeltoe.cli.streams import console, print_data
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
+from heeltoe.result.outcome import NO_RESULT as NO_RESULT
 from heeltoe.units.systems import unit_system
 
 if TYPE_CHECKING:
@@ -77,7 +78,6 @@ app = typer.Typer(
 
 BUG = 1
 BAD_INPUT = 2
-NO_RESULT = 3
 INTERRUPTED = 130
 LONGEST_PATH = 5000
 

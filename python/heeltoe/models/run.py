@@ -30,6 +30,7 @@ from heeltoe.models.statics.standing import standing_warnings
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.contract import SHEARS_M
+from heeltoe.result.judge import Judgement
 from heeltoe.result.limits import check_limits, judge_response
 from heeltoe.result.response import Chosen, Response
 from heeltoe.units.sentences import Sentence
@@ -381,14 +382,15 @@ def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *
     """Add what every result has, and to one that stands `alone` what it leaves out; a field that one of the `models`
     side by side reads is not said to change nothing. A run that never started says why by itself."""
     off: tuple[Notice, ...] = ()
+    judgement = judge_response(case.limits, response)
     if response.started:
-        off = (*_slides_on(case, response), *_anchors_crossed(case, response), *_slid_off(case, response))
+        off = (*_slides_on(case, response), *_anchors_crossed(case, response), *_slid_off(response, judgement))
     response, between = _sequence(case, response)
     unused = unused_fields(case, models)
     vertical = () if response.vertical is None else response.vertical.warnings
     end = about_the_end(response, asked="silence" in case.analysis.model_fields_set)
     warnings = (*case_warnings(case), *response.motion.warnings, *vertical, *response.warnings, *end, *unused)
-    response = replace(response, limits=check_limits(case.limits, response))
+    response = replace(response, limits=check_limits(case.limits, response, judgement))
     if not response.started:
         return replace(response, chosen=chosen, warnings=by_gravity(warnings))
     warnings = (
@@ -443,9 +445,9 @@ def _anchors_crossed(case: Case, response: Response) -> Iterator[Notice]:
             yield Notice("anchors-cross-slip", slip_m=slip, where=where_of(case, alone), how=how)
 
 
-def _slid_off(case: Case, response: Response) -> tuple[Notice, ...]:
+def _slid_off(response: Response, judgement: Judgement) -> tuple[Notice, ...]:
     """Say where little or nothing is left below the part above a crack."""
-    notices, off = [], judge_response(case.limits, response).slid_off[0]
+    notices, off = [], judgement.slid_off[0]
     for crack in response.cracks:
         slip = max(abs(crack.peak_slip_downstream_m), abs(crack.peak_slip_upstream_m))
         if off and slip > crack.crack_width_m:

@@ -40,7 +40,7 @@ _CHAOTIC = 0.01
 # motion [s] does not show that.
 _AS_FAST, _AS_FAST_VIBRATING, _LEAST_SILENCE = 1.0 - 1e-6, 0.99, 2.0
 #: Where in the free motion after the record the slip is looked at to see that.
-_QUARTERS = (0.5, 0.75)
+_QUARTERS = (0.25, 0.5, 0.75)
 
 T = TypeVar("T")
 R = TypeVar("R", bound=Response)
@@ -186,14 +186,17 @@ def keeps_sliding(slips: Floats, silence: float, as_fast: float = _AS_FAST) -> N
     Parameters
     ----------
     slips
-        (..., 3) slips in the middle of the free motion, after three quarters of it, and at its end [m].
+        (..., 4) slips after a quarter, a half, three quarters and the end of the free motion [m]; what slides on goes
+        one way in between.
     silence
         How long it is [s].
     as_fast
         What the last quarter is at least of the quarter before, of one that does not slow down.
     """
-    before, now = np.moveaxis(np.abs(np.diff(slips)), -1, 0)
-    return np.asarray((silence >= _LEAST_SILENCE) & (now > JOINT_METER_M) & (now >= as_fast * before))
+    steps = np.diff(slips)
+    one_way = np.all(steps > 0.0, axis=-1) | np.all(steps < 0.0, axis=-1)
+    _, before, now = np.moveaxis(np.abs(steps), -1, 0)
+    return np.asarray(one_way & (silence >= _LEAST_SILENCE) & (now > JOINT_METER_M) & (now >= as_fast * before))
 
 
 def slides_on(time: Floats, slip: Floats, silence: float) -> bool:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from heeltoe.result.contract import HEADLINES, Quantity
+from heeltoe.result.contract import HEADLINES
+from heeltoe.result.quantity import Quantity
 from heeltoe.units.sentences import Sentence
 from heeltoe.units.write import angle, length
 

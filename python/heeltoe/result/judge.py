@@ -161,8 +161,11 @@ class Judgement:
         )
 
     def _by_outcome(self, says: Callable[[Outcome], bool]) -> Flags:
-        flags = {outcome: says(outcome) for outcome in Outcome}
+        flags = {outcome: says(outcome) for outcome in set(self.outcome.tolist())}
         return np.array([flags[outcome] for outcome in self.outcome.tolist()], dtype=bool)
+
+
+_ROWS = {outcome: outcome for outcome in Outcome}
 
 
 def judge(columns: Mapping[str, Any], limits: Mapping[str, float]) -> Judgement:
@@ -176,8 +179,7 @@ def judge(columns: Mapping[str, Any], limits: Mapping[str, float]) -> Judgement:
     limits
         What is allowed, by the name of the limit, SI, accelerations in g.
     """
-    rows = {outcome: outcome for outcome in Outcome}
-    outcome = np.array([rows[word] for word in np.asarray(columns["outcome"], dtype=object).tolist()], dtype=object)
+    outcome = np.array([_ROWS[word] for word in np.asarray(columns["outcome"], dtype=object).tolist()], dtype=object)
     numbers = {
         name: np.asarray(column, dtype=np.float64).reshape(outcome.size, -1)
         for name, column in columns.items()

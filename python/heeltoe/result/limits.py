@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from heeltoe.result.response import CrackResponse, Response
 
 
+#: The numbers of a crack by which a response is judged.
+_KEYS = ("crack_width_m", *sorted({key for limit in LIMITS.values() for key in limit.keys} - {*CREST_PEAKS, CRACKED}))
+
+
 class LimitCheck(Block):
     """A result beside what the user allows."""
 
@@ -79,20 +83,18 @@ class LimitCheck(Block):
 
 def allowances(limits: Limits, gravity: float) -> dict[str, float]:
     """Return what limits allow, by name: lengths in m, rotations in rad, accelerations in g of so many m/s2."""
-    allowed = {name: getattr(limits, name, None) for name in LIMITS}
     return {
         name: value.si(gravity) / gravity if isinstance(value, Acceleration) else float(value)
-        for name, value in allowed.items()
+        for name, value in limits
         if value is not None
     }
 
 
 def judge_response(limits: Limits, response: Response) -> Judgement:
     """Return the judgement of a response, one row."""
-    keys = {key for limit in LIMITS.values() for key in limit.keys} - set(CREST_PEAKS) - {CRACKED}
     columns: dict[str, Any] = {
-        key: [[math.nan if crack.numbers is None else crack.numbers[key] for crack in response.cracks]]
-        for key in ("crack_width_m", *sorted(keys))
+        key: [[math.nan if crack.numbers is None else getattr(crack.numbers, key) for crack in response.cracks]]
+        for key in _KEYS
     }
     if any(_bonded(crack) for crack in response.cracks):
         columns[CRACKED] = [[_cracked(crack) for crack in response.cracks]]
@@ -101,13 +103,13 @@ def judge_response(limits: Limits, response: Response) -> Judgement:
     return judge({"outcome": [response.outcome], **columns}, allowances(limits, response.gravity))
 
 
-def check_limits(limits: Limits, response: Response) -> tuple[LimitCheck, ...]:
+def check_limits(limits: Limits, response: Response, judgement: Judgement | None = None) -> tuple[LimitCheck, ...]:
     """Compare the numbers of a response with the limits that the user has set.
 
     They are the numbers to trust: where the runs of an elastic dam scatter, the means. Nothing is compared where the
-    run does not say; of a dam that has failed no limit is met.
+    run does not say; of a dam that has failed no limit is met. `judgement` is that of the response, where it is known.
     """
-    judgement = judge_response(limits, response)
+    judgement = judgement or judge_response(limits, response)
     if not (judgement.has_result[0] or judgement.failed[0]):
         return ()
     checks = []

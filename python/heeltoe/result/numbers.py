@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
 
 from heeltoe.base.blocks import Block, Number
+from heeltoe.result.quantity import Quantity, peak_time
 
 # Not at run time: the numbers of a result need no case.
 if TYPE_CHECKING:
@@ -231,15 +232,86 @@ class CrackNumbers(Block):
             optional=True,
         ),
     ] = None
-    residual_slip_m: Annotated[float, Number("Slip at the end, positive downstream.", "m")]
-    peak_slip_downstream_m: Annotated[float, Number("Largest slip on the way.", "m")]
-    peak_slip_upstream_m: Annotated[
-        float, Number("Least slip on the way: negative where it is upstream of the start.", "m")
+    residual_slip_m: Annotated[
+        float,
+        Quantity(
+            "Slip at the end, positive downstream.",
+            "m",
+            label="residual slip",
+            short="residual",
+            signed=True,
+            column="slip",
+        ),
     ]
-    rocking_downstream_rad: Annotated[float, Number("Largest rotation about the toe.", "rad")]
-    rocking_upstream_rad: Annotated[float, Number("Largest rotation about the heel.", "rad")]
-    opening_upstream_m: Annotated[float, Number("Largest opening of the crack at the upstream face.", "m")]
-    opening_downstream_m: Annotated[float, Number("Largest opening of the crack at the downstream face.", "m")]
+    peak_slip_downstream_m: Annotated[
+        float,
+        Quantity("Largest slip on the way.", "m", label="peak slip downstream", short="peak\ndown", column="slip_max"),
+    ]
+    peak_slip_upstream_m: Annotated[
+        float,
+        Quantity(
+            "Least slip on the way: negative where it is upstream of the start.",
+            "m",
+            label="peak slip upstream",
+            short="peak\nup",
+            way=-1,
+            column="slip_min",
+        ),
+    ]
+    time_of_peak_slip_s: Annotated[
+        float,
+        Quantity(
+            "When the slip is largest either way, by the histories.",
+            "s",
+            label="time of the largest slip",
+            compute=peak_time,
+        ),
+    ]
+    rocking_downstream_rad: Annotated[
+        float,
+        Quantity(
+            "Largest rotation about the toe.",
+            "rad",
+            label="rotation downstream",
+            short="rotation\ndown",
+            kind="rotation",
+            column="rotation_min",
+            sense=-1,
+        ),
+    ]
+    rocking_upstream_rad: Annotated[
+        float,
+        Quantity(
+            "Largest rotation about the heel.",
+            "rad",
+            label="rotation upstream",
+            short="rotation\nup",
+            kind="rotation",
+            column="rotation_max",
+        ),
+    ]
+    opening_upstream_m: Annotated[
+        float,
+        Quantity(
+            "Largest opening of the crack at the upstream face.",
+            "m",
+            label="opening, upstream face",
+            short="opening\nupstream",
+            kind="opening",
+            column="opening_heel",
+        ),
+    ]
+    opening_downstream_m: Annotated[
+        float,
+        Quantity(
+            "Largest opening of the crack at the downstream face.",
+            "m",
+            label="opening, downstream face",
+            short="opening\ndownstr.",
+            kind="opening",
+            column="opening_toe",
+        ),
+    ]
     largest_gap_heel_m: Annotated[float, Number("Largest gap at the heel, in the air included.", "m")]
     largest_gap_toe_m: Annotated[float, Number("Largest gap at the toe, in the air included.", "m")]
     slip_by_mode_m: Annotated[SlipByMode, Number("Slip while sliding, in slide-rocking and in the air.", "m")]

@@ -5,14 +5,15 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Generic, Protocol, Self, TypeVar, overload
 
 from heeltoe.base.arrays import Floats
 from heeltoe.base.atomic_files import written
 from heeltoe.base.blocks import Block, Number, plain_json
 from heeltoe.base.display import Shown
+from heeltoe.base.frozen import FrozenDict
 from heeltoe.base.pandas import dataframe
 from heeltoe.errors.sanitize import plain
 from heeltoe.mechanics.block import StaticState
@@ -188,7 +189,9 @@ class CrackResponse(Numbered):
 
     def __post_init__(self) -> None:
         for name in ("histories", "event_log"):
-            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+            columns = getattr(self, name)
+            if not isinstance(columns, FrozenDict):
+                object.__setattr__(self, name, FrozenDict(columns))
 
     @property
     def numbers(self) -> CrackNumbers | None:
@@ -286,6 +289,10 @@ class Response(Numbered, Shown):
     def __post_init__(self) -> None:
         object.__setattr__(self, "outcome", Outcome(self.outcome))
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Return the fields alone: what is made of them can be made again."""
+        return {name: value for name, value in vars(self).items() if name != "summary"}
+
     def __repr__(self) -> str:
         beside = "" if self.beside is None else f" with the {self.beside.model} one beside it"
         title = self.title or "untitled case"
@@ -334,13 +341,13 @@ class Response(Numbered, Shown):
         """The numbers of the dam as a whole; None of a block."""
         return self.dam
 
-    @property
+    @cached_property
     def summary(self) -> Mapping[str, Any]:
         """All numbers of the crack that leads and of the dam, by their JSON names; empty where no run started."""
         if self.numbers is None:
             return {}
         of_crack = {name: value for name, value in self.numbers.items() if name not in OF_SEVERAL}
-        return MappingProxyType({**of_crack, **(self.dam or {})})
+        return FrozenDict({**of_crack, **(self.dam or {})})
 
     @property
     def histories(self) -> Mapping[str, Floats]:

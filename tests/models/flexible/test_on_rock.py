@@ -294,7 +294,7 @@ def test_a_thin_layer_bonded_to_the_rock_hardly_matters():
 def test_twice_the_damping_is_that_of_the_concrete():
     case = read_case(dam(crack=HIGH))
     dam_on_rock = build_flexible_dam(case)
-    twice = damped(case, dam_on_rock, 2.0)
+    twice = damped(dam_on_rock, 2.0)
     whole = founded(case, bonded_dam(case))
     for one, factor in ((dam_on_rock, 1.0), (twice, 2.0)):
         part = one.reduced[-1]

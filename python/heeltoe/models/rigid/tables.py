@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -20,6 +20,7 @@ from heeltoe.models.rigid.slip_history import law_histories, law_result, roughne
 from heeltoe.result.contract import HEADLINES, ground_histories, headlines, slip_by_mode, time_by_mode
 from heeltoe.result.crest import LOOKS_S, CrestMotion, CrestSeries, crest_series
 from heeltoe.result.numbers import AnchorForce, BlockNumbers
+from heeltoe.result.quantity import computed
 from heeltoe.result.response import CrackResponse, Energy
 
 #: Modes of motion by their numbers.
@@ -72,10 +73,15 @@ def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
 
 
 def numbers_of(
-    case: Case, block: Block, run: BlockRun, drainage: Sequence[float] = (), bonded: BondedBlock | None = None
+    case: Case,
+    block: Block,
+    run: BlockRun,
+    histories: Mapping[str, Floats],
+    drainage: Sequence[float] = (),
+    bonded: BondedBlock | None = None,
 ) -> BlockNumbers:
-    """Return the numbers of a crack below a block; `drainage` is what each motion of a sequence met of its drainage,
-    `bonded` how its bond has fared."""
+    """Return the numbers of a crack below a block, with its histories; `drainage` is what each motion of a sequence met
+    of its drainage, `bonded` how its bond has fared."""
     raw, row = run.summary, run.summary.by_name()
     table = {name: np.array([row[name]]) for name in _COLUMNS}
     first: dict[str, Any] = {
@@ -84,6 +90,7 @@ def numbers_of(
     about = "toe" if first["rocking_downstream_rad"] > first["rocking_upstream_rad"] else "heel"
     return BlockNumbers(
         **first,
+        **computed(BlockNumbers, histories["time_s"], histories["slip_m"]),
         largest_gap_heel_m=raw.largest_gap_heel,
         largest_gap_toe_m=raw.largest_gap_toe,
         slip_by_mode_m=slip_by_mode(row),
@@ -122,11 +129,12 @@ def crack_response(
     `moments` of the run those `shown` (n,) are moments of the histories. `drainage` is what each motion of a sequence
     met of its drainage."""
     bonded = bonded_block(block, shaking)
-    histories = histories_of(case, block, shaking, moments, run, bonded) if started else {}
+    every = histories_of(case, block, shaking, moments, run, bonded) if started else {}
+    histories = {name: values[shown] for name, values in every.items()}
     return CrackResponse(
         elevation=block.section.heel[1] - block.section.base_elevation,
-        of_crack=numbers_of(case, block, run, drainage, bonded) if started else None,
-        histories={name: values[shown] for name, values in histories.items()},
+        of_crack=numbers_of(case, block, run, histories, drainage, bonded) if started else None,
+        histories=histories,
         mode=tuple(MODE_NAMES.take(run.mode[shown]).tolist()) if started else (),
         event_log=events_of(run),
         static=static_state(block),

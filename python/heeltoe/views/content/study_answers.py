@@ -247,8 +247,8 @@ def _about_curves(subject: StudySubject, curves: Sequence[Mapping[str, Any]]) ->
     text = " ".join(text for model in subject.results.walk.models for text in _do_not_stand(subject, model))
     text += (
         f" Lognormal curves of greatest likelihood over {_named(asked)}. In brackets what median and dispersion lie "
-        f"within with {asked['confidence']:.0%}, by profile likelihood, as far as events differ. Dams that overturn or "
-        "turn too far for small rotations exceed every limit."
+        f"within with {asked['confidence']:.0%}, by profile likelihood, as far as events differ. Dams that have "
+        "failed exceed every limit."
     )
     whys: dict[str, list[str]] = {}
     for curve, label in zip(curves, labels, strict=True):

@@ -13,13 +13,17 @@ from heeltoe.views.content.tree import Block, Code, Inline, Notes, Section, Stro
 from heeltoe.views.words.numbers import Amount, in_one_unit
 from heeltoe.views.words.studies import JUDGED, STATISTICS
 
+# The demands that are lengths people look for.
 _DEMANDS = {
-    "residual_slip_m": "residual slip",
-    "peak_slip_m": "largest slip",
-    "opening_upstream_m": "opening upstream",
-    "opening_downstream_m": "opening downstream",
-    "cracked_length_m": "cracked length",
-    "crest_displacement_m": "crest displacement",
+    f"{name}_m": LIMITS[name].label
+    for name in (
+        "residual_slip",
+        "peak_slip",
+        "opening_upstream",
+        "opening_downstream",
+        "cracked_length",
+        "crest_displacement",
+    )
 }
 _ACCELERATION = "crest_acceleration_g"
 

@@ -228,11 +228,11 @@ def crest_figure(response: Response, units: str = "si") -> Figure:
     shift.set_ylabel(f"crest [{scale.unit}]\n(+ downstream)")
     shift.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize=7, borderaxespad=0.0)
     beside(shift, f"largest {scale(crest.displacement_m):.4g} {scale.unit}")
-    draw_limits(shift, response, {"crest_displacement": "crest displacement"}, scale)
+    draw_limits(shift, response, ("crest_displacement",), scale)
     shakes.plot(h["time_s"], h[ACCELERATION] / response.gravity, color=COLOURS["rotation"], linewidth=0.7)
     shakes.set_ylabel("acceleration\nof crest [g]")
     beside(shakes, f"largest {crest.acceleration_g:.3g} g")
-    draw_limits(shakes, response, {"crest_acceleration": "crest acceleration"}, Scale(1.0, "g"))
+    draw_limits(shakes, response, ("crest_acceleration",), Scale(1.0, "g"))
     time_axis(shakes, response)
     align_labels([shaking, shift, shakes])
     return figure
@@ -303,10 +303,10 @@ _PANELS = (
 )
 # The limits that each panel shows.
 _LIMITS = {
-    "slip_m": {"residual_slip": "residual slip", "peak_slip": "peak slip"},
-    "rotation_rad": {"rotation": "rotation"},
-    "gap_heel_m": {"opening_upstream": "opening"},
-    "gap_toe_m": {"opening_downstream": "opening"},
+    "slip_m": ("residual_slip", "peak_slip"),
+    "rotation_rad": ("rotation",),
+    "gap_heel_m": ("opening_upstream",),
+    "gap_toe_m": ("opening_downstream",),
 }
 
 

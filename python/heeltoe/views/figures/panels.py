@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TypeGuard
 
 import numpy as np
@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from heeltoe.models.flexible.result.response import FlexibleResponse
+from heeltoe.result.judge import LIMITS
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Scale, Units
 from heeltoe.units.write import length
@@ -66,18 +67,18 @@ def draw_slip(axes: Axes, response: Response, units: Units) -> None:
         axes.axhline(scale(edge), color=COLOURS["slip"], linewidth=0.6, linestyle=":")
     if largest(h["slip_m"], ends, within) == 0.0:
         axes.set_ylim(-1.0, 1.0)
-    draw_limits(axes, response, {"residual_slip": "residual slip", "peak_slip": "peak slip"}, scale)
+    draw_limits(axes, response, ("residual_slip", "peak_slip"), scale)
     varied = "" if spread is None else f", {scale(ends[0]):.4g} to {scale(ends[1]):.4g} with the shaking varied"
     beside(axes, f"{slip_in_the_end(response, scale)}{varied}", colour=COLOURS["slip"])
 
 
-def draw_limits(axes: Axes, response: Response, names: Mapping[str, str], scale: Scale) -> None:
+def draw_limits(axes: Axes, response: Response, names: Sequence[str], scale: Scale) -> None:
     """Draw what the case allows as lines, as far as they are near what there is.
 
     Parameters
     ----------
     names
-        Of the fields of ``limits``, with what each line is called.
+        Of the fields of ``limits``.
     scale
         The unit of the axis.
     """
@@ -92,7 +93,7 @@ def draw_limits(axes: Axes, response: Response, names: Mapping[str, str], scale:
         for side in sides:
             axes.axhline(side, color=COLOURS["crack"], linewidth=0.9, linestyle=(0, (6, 2)))
             axes.annotate(
-                f"{names[check.name]} allowed",
+                f"{LIMITS[check.name].short} allowed",
                 # At the beginning, where nothing has moved yet, beyond the line and within the panel.
                 (0.0, side),
                 xycoords=("axes fraction", "data"),
@@ -131,7 +132,7 @@ def draw_rotation(axes: Axes, response: Response, units: Units) -> None:
     scale = units.scale("rotation", largest(h["rotation_rad"]))
     axes.plot(h["time_s"], scale(h["rotation_rad"]), color=COLOURS["rotation"], linewidth=1.0)
     axes.set_ylabel(f"rotation [{scale.unit}]\n(+ about heel)")
-    draw_limits(axes, response, {"rotation": "rotation"}, scale)
+    draw_limits(axes, response, ("rotation",), scale)
     if cut is not None:
         axes.set_yscale("symlog", linthresh=float(scale(cut)), linscale=2.0)
         ends = [float(scale(h["rotation_rad"].min())), float(scale(h["rotation_rad"].max()))]
@@ -158,7 +159,7 @@ def draw_openings(axes: Axes, response: Response, units: Units) -> None:
     axes.set_ylabel(f"opening [{scale.unit}]")
     top = scale(most) * 1.05
     axes.set_ylim(min(0.0, axes.get_ylim()[0]) if cut is None else -0.05 * top, top or 1.0)
-    draw_limits(axes, response, {"opening_upstream": "heel", "opening_downstream": "toe"}, scale)
+    draw_limits(axes, response, ("opening_upstream", "opening_downstream"), scale)
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=8, borderaxespad=0.0)
 
 

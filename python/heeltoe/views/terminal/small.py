@@ -49,7 +49,7 @@ def _count(value: int, units: str) -> str:
 # Heading, name in the rows, sign, how to write it.
 _Column = tuple[str, str, float, Callable[[Any, str], str]]
 _HEADLINES = tuple(
-    (headline.heading, headline.key, float(headline.way), _mrad if headline.kind == "rotation" else _length)
+    (headline.short, headline.key, float(headline.way), _mrad if headline.kind == "rotation" else _length)
     for headline in HEADLINES
 )
 _SLIPS = sum(headline.kind == "slip" for headline in HEADLINES)

@@ -16,6 +16,7 @@ from pydantic import BaseModel
 from heeltoe.case.fields import field_texts
 from heeltoe.case.project import Project
 from heeltoe.errors.sanitize import plain
+from heeltoe.result.judge import LIMITS
 from heeltoe.units.sentences import UNITS, scale
 from heeltoe.units.write import angle, digits
 
@@ -33,7 +34,7 @@ _SI = {
 _ENOUGH = {"m": 0.5}
 # No stress in a dam comes to so much, and all moduli do [Pa].
 _MODULUS = 1e9
-_MOVEMENTS = ("residual_slip", "peak_slip", "opening", "opening_upstream", "opening_downstream", "crest_displacement")
+_MOVEMENTS = {name for name, limit in LIMITS.items() if limit.unit == "m"} - {"cracked_length"}
 _QUANTITY = re.compile(r"(-?\d+(?:\.\d*)?(?:e[+-]?\d+)?) ([A-Za-z/^\d]+)")
 # Longer lists, as the points of a drawn motion, are not read by anyone; their hash is in the report.
 _MOST_ITEMS = 12

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -107,8 +109,8 @@ class FlexibleDam(BondedDam):
         Which of them is that of ``[crack]``.
     reduced
         The bodies in their modes, as the kernel takes them.
-    kernel
-        The kernel's own copy.
+    contactors
+        Of each element of a crack.
     start
         The state before the earthquake.
     static
@@ -131,7 +133,7 @@ class FlexibleDam(BondedDam):
     sections: tuple[CutSection, ...]
     asked: int
     reduced: tuple[ReducedBody, ...]
-    kernel: CrackedDam
+    contactors: int
     start: Start
     static: tuple[Floats, ...]
     crack_forces: tuple[Floats, ...]
@@ -145,6 +147,15 @@ class FlexibleDam(BondedDam):
         parts = zip(self.bodies, self.modes, strict=True)
         counts = " and ".join(f"{len(body.mesh.nodes)} nodes in {modes.shapes.shape[1]} modes" for body, modes in parts)
         return f"<FlexibleDam: {counts}; first period {self.periods[0]:.4g} s>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what is kept of a dam: the kernel's own copy can be made again."""
+        return {name: value for name, value in vars(self).items() if name != "kernel"}
+
+    @cached_property
+    def kernel(self) -> CrackedDam:
+        """The kernel's own copy."""
+        return _cracked(self.contactors, self.section, self.asked, self.reduced, self.lines, self.reservoir, self.rock)
 
     @property
     def give(self) -> tuple[float, float]:
@@ -211,7 +222,8 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
         part = replace(part, boundary=whole.rock + damping.between, start=part.start + whole.settled)
         reduced = (*reduced[:-1], part)
     lines = _lines(case, bonded, rock)
-    kernel = _cracked(case, reduced, lines, reservoir, rock)
+    contactors = case.flexible.contactors
+    kernel = _cracked(contactors, case.cut, case.asked, reduced, lines, reservoir, rock)
     # The penalty method begins with its crack bonded and its springs unloaded.
     exact = case.flexible.contact == "coulomb"
     static, start = bonded.bent, Start(not exact, (0.0,) * len(lines), (0,) * len(lines))
@@ -227,13 +239,13 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
         # Behind those of the dam are the modes of the rock.
         static = tuple(basis.shapes @ q for basis, q in zip(modes, rest.modes, strict=False))
         forces = rest.forces
-    return FlexibleDam(
+    dam = FlexibleDam(
         **vars(bonded),
         section=case.cut,
         sections=sections,
         asked=case.asked,
         reduced=reduced,
-        kernel=kernel,
+        contactors=contactors,
         start=start,
         static=static,
         crack_forces=forces,
@@ -243,17 +255,21 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
         rock=rock,
         rock_error=max((part.error for part in (whole, rock) if part is not None), default=0.0),
     )
+    vars(dam)["kernel"] = kernel
+    return dam
 
 
 def _cracked(
-    case: Case,
+    contactors: int,
+    section: CutSection,
+    asked: int,
     reduced: tuple[ReducedBody, ...],
     lines: tuple[CrackLine, ...],
     reservoir: WaterBody | None,
     rock: RockBody | None,
 ) -> CrackedDam:
-    parts = reduced if rock is None else (*reduced, _reduced_rock(rock, case.cut, reduced[0]))
-    return CrackedDam(parts, lines, case.flexible.contactors, reservoir, asked=case.asked)
+    parts = reduced if rock is None else (*reduced, _reduced_rock(rock, section, reduced[0]))
+    return CrackedDam(parts, lines, contactors, reservoir, asked=asked)
 
 
 def _lines(case: Case, bonded: BondedDam, rock: RockBody | None) -> tuple[CrackLine, ...]:
@@ -289,7 +305,7 @@ def along_crack(above: Body, section: CutSection) -> Floats:
     return along
 
 
-def damped(case: Case, dam: FlexibleDam, factor: float) -> FlexibleDam:
+def damped(dam: FlexibleDam, factor: float) -> FlexibleDam:
     """Return the same dam with so many times its damping."""
     damping = dam.damping.scaled(factor)
     reduced = tuple(
@@ -301,8 +317,7 @@ def damped(case: Case, dam: FlexibleDam, factor: float) -> FlexibleDam:
     if damping.between.size:
         boundary = reduced[-1].boundary + (damping.between - dam.damping.between)
         reduced = (*reduced[:-1], replace(reduced[-1], boundary=boundary))
-    kernel = _cracked(case, reduced, dam.lines, dam.reservoir, dam.rock)
-    return replace(dam, reduced=reduced, damping=damping, kernel=kernel)
+    return replace(dam, reduced=reduced, damping=damping)
 
 
 def _reduced_rock(rock: RockBody, section: CutSection, part: ReducedBody) -> ReducedBody:

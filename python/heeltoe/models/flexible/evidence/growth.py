@@ -211,7 +211,7 @@ def self_excitation(
     damped_slip = None
     if rate * max(times) > _MATTERS and run.outcome == "ok":
         raw = run.summaries[leads]
-        other = replace(shaken, dam=damped(shaken.case, shaken.dam, 2.0))
+        other = replace(shaken, dam=damped(shaken.dam, 2.0))
         damped_slip = other.run(raw.end_time / raw.steps, ending=ending).summaries[leads].slip
     return SelfExcitation(
         growth_1_s=rate,

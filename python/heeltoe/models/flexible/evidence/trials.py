@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
@@ -17,7 +17,9 @@ from heeltoe.models.flexible.body.cost import Cost, building, parts_of, surround
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import running, with_mesh
+from heeltoe.models.runner import largest_rotation, leaves
 from heeltoe.result.contract import CRACKED, HEADLINES, headlines
+from heeltoe.result.outcome import Outcome, decide
 
 #: Length of a joint that softens [m], beside the headline numbers.
 SOFTENING = "softening_length_m"
@@ -25,7 +27,6 @@ SOFTENING = "softening_length_m"
 SCALES = (1.0, 0.99, 0.995, 1.005, 1.01)
 # Rock and water that reach farther do so this many times, and answer well up to so many times the frequency.
 _LARGER = 1.5
-_OK = DAM_OUTCOMES.index("ok")
 # Twice as many elements along the crack cost about so many times as much; half the step twice.
 _WORK_OF_MESH = 4.0
 
@@ -185,4 +186,11 @@ class Trials:
 
     def failed(self, level: Level, scales: Sequence[float]) -> int:
         """Return how many of these runs, all made before, end without a result."""
-        return sum(self._numbers[level, scale][0]["outcome"] != _OK for scale in scales)
+        widths = [section.crack_width for section in self.dam_of(level.mesh).dam.sections]
+        return sum(not _outcome(self._numbers[level, scale], widths).has_result for scale in scales)
+
+
+def _outcome(cracks: Sequence[Mapping[str, float]], widths: Sequence[float]) -> Outcome:
+    """Return how a run ended, by what it says of each of its cracks, which are so wide [m]."""
+    rotation = max(float(largest_rotation(row)) for row in cracks)
+    return decide(DAM_OUTCOMES[int(cracks[0]["outcome"])], rotation=rotation, off=bool(leaves(cracks, widths)))

@@ -22,7 +22,7 @@ from heeltoe.models.flexible.result.response import ElasticCrackResponse
 from heeltoe.models.flexible.result.water import face_pressures
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.slip_history import law_result, sliding_friction, worn_of
-from heeltoe.result.contract import ground_histories, slip_by_mode, time_by_mode
+from heeltoe.result.contract import ground_histories, headlines, slip_by_mode, time_by_mode
 from heeltoe.result.crest import CrestSeries, crest_series
 from heeltoe.result.numbers import (
     AnchorForce,
@@ -38,6 +38,7 @@ from heeltoe.result.numbers import (
     SelfExcitation,
     Tension,
 )
+from heeltoe.result.quantity import computed
 from heeltoe.result.response import Energy
 
 
@@ -92,13 +93,8 @@ def crack_numbers(
     worn = worn_of(case, place, dam, run)
     several = len(dam.lines) > 1
     numbers = ElasticCrack(
-        residual_slip_m=raw.slip,
-        peak_slip_downstream_m=raw.slip_max,
-        peak_slip_upstream_m=raw.slip_min,
-        rocking_downstream_rad=abs(raw.rotation_min),
-        rocking_upstream_rad=abs(raw.rotation_max),
-        opening_upstream_m=raw.opening_heel,
-        opening_downstream_m=raw.opening_toe,
+        **computed(ElasticCrack, run.frames.time, run.all_frames[place].slip),
+        **{name: float(column) for name, column in headlines(row).items()},
         largest_gap_heel_m=raw.opening_heel,
         largest_gap_toe_m=raw.opening_toe,
         slip_by_mode_m=slip_by_mode(row),

@@ -1,0 +1,52 @@
+"""Containers that cannot be changed, and can be pickled and copied: those of results."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, NoReturn
+
+import numpy as np
+
+
+class FrozenDict(Mapping[str, Any]):
+    """A mapping of names to values; its arrays are read-only."""
+
+    __slots__ = ("_values",)
+
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        self._values = dict(values)
+        for name, value in values.items():
+            if isinstance(value, np.ndarray):
+                # Of an array a view.
+                self._values[name] = view = value.view()
+                view.flags.writeable = False
+            elif type(value) is list:
+                self._values[name] = FrozenList(value)
+
+    def __getitem__(self, name: str) -> Any:
+        return self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __repr__(self) -> str:
+        return repr(self._values)
+
+    def __reduce__(self) -> tuple[type, tuple[dict[str, Any]]]:
+        return type(self), (self._values,)
+
+
+class FrozenList(list[Any]):
+    """A list that cannot be changed, equal to a list of the same items."""
+
+    def _refuse(self, *_: object, **__: object) -> NoReturn:
+        raise TypeError("a result cannot be changed")
+
+    append = extend = insert = remove = pop = clear = sort = reverse = _refuse
+    __setitem__ = __delitem__ = __iadd__ = __imul__ = _refuse
+
+    def __reduce__(self) -> tuple[type, tuple[list[Any]]]:
+        return type(self), (list(self),)
