@@ -243,12 +243,26 @@ def _usual(forces: Floats) -> float:
     return round_below(usual) if usual > 0.0 else 1.0
 
 
+def shaken_sign(response: Response) -> str:
+    """Say which way round the motion shakes the dam that is shown."""
+    own = next((sign.sign for sign in response.signs if sign.governs), None)
+    if own is None:
+        turned = any("sign reversed" in step for step in response.motion.processing)
+        return "the motion reversed" if turned else "the motion as it is written"
+    which = "as recorded" if own == "recorded" else "reversed"
+    return f"the motion {which}, the worse of both signs" if len(response.signs) > 1 else f"the motion {which}"
+
+
 def _subtitle(response: Response) -> str:
     peak = response.motion.pga / response.gravity
     ending = "" if response.outcome == "ok" else f"; {response.outcome}"
     shaken = ", in which the motion of the crack shakes the part above" if response.model == "decoupled" else ""
     curves = "; curves of the crack that leads" if response.several else ""
-    return f"{plain(response.motion.name)}, peak {peak:.3g} g; {response.model} model{shaken}{ending}{curves}"
+    sign = shaken_sign(response).removeprefix("the motion ").removesuffix(", the worse of both signs")
+    which = (
+        f"{plain(response.motion.name)} {sign}" if response.signs or "reversed" in sign else plain(response.motion.name)
+    )
+    return f"{which}, peak {peak:.3g} g; {response.model} model{shaken}{ending}{curves}"
 
 
 def _traces(response: Response, within: NDArray[np.bool_], units: Units) -> tuple[Trace, ...]:
