@@ -167,7 +167,7 @@ def animate(
             soft_wrap=True,
             markup=False,
         )
-        words.print(f"{shaken_sign(response)[:1].upper()}{shaken_sign(response)[1:]}.", soft_wrap=True, markup=False)
+        words.print(f"It shows {shaken_sign(response)}.", soft_wrap=True, markup=False)
     if not response.ok:
         words.print(f"{response.outcome}: {response.advice}", soft_wrap=True, markup=False)
         raise typer.Exit(NO_RESULT)
