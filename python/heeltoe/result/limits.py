@@ -129,19 +129,21 @@ def _check_joints(limit: float, response: Response, *, failed: bool) -> Iterator
     """Compare how far each bonded joint has cracked with what it may; a crack without a bond cracks no farther."""
     for crack in response.cracks:
         numbers = crack.numbers
-        joint, bond = (None, None) if numbers is None else (numbers.get("joint"), numbers.get("bond"))
-        if numbers is None or (joint is None and bond is None):
+        if numbers is None:
             continue
-        # The bond of a block breaks all at once.
+        joint, bond = numbers.get("joint"), numbers.get("bond")
+        if joint is not None:
+            cracked = joint["cracked_length_m"]
+        elif bond is not None:
+            # The bond of a block breaks all at once.
+            cracked = 0.0 if bond["breaks_s"] is None else numbers["crack_width_m"]
+        else:
+            continue
         evidence = numbers.get("evidence")
         worth = None if evidence is None else evidence["cracked_length_m"]
         yield LimitCheck(
             name="cracked_length",
-            value=joint["cracked_length_m"]
-            if joint
-            else numbers["crack_width_m"]
-            if bond["breaks_s"] is not None
-            else 0.0,
+            value=cracked,
             allowed=limit,
             failed=failed,
             uncertainty=0.0 if worth is None else worth.uncertainty,

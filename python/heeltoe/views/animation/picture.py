@@ -166,7 +166,9 @@ class _View:
     def _add_anchors(self) -> None:
         """Draw the anchors from foot to head as the parts carry them."""
         scene = self.scene
-        lines = [animated(self.axes.plot([], [], color=look.ANCHOR, **look.ANCHOR_LINE)[0]) for _ in scene.anchors]
+        # The head has a mark.
+        style: dict[str, Any] = {"linewidth": 1.2, "linestyle": "-.", "marker": "s", "markersize": 3, "markevery": [1]}
+        lines = [animated(self.axes.plot([], [], color=look.ANCHOR, **style)[0]) for _ in scene.anchors]
         rest = [part.points for part in scene.parts]
 
         def move(frame: int, drawn: dict[int, Floats]) -> list[Any]:
