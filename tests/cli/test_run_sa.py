@@ -75,3 +75,21 @@ def test_a_record_that_has_none_says_so(tmp_path):
     reply = command("run", BASE, "--motions", "elcentro-1940-180-nga", "--vertical", "--model", "rigid")
     assert reply.returncode == 2
     assert "none of its name, and none that the case names for it" in reply.stderr
+
+
+def test_none_takes_a_field_out(tmp_path):
+    short = run(tmp_path, "--set", "motion.duration=4 s", "--set", "analysis.silence=0 s")
+    whole = run(tmp_path, "--set", "motion.duration=none", "--set", "analysis.silence=0 s")
+    assert short["motion"]["duration_s"] == pytest.approx(4.0)
+    assert whole["motion"]["duration_s"] == pytest.approx(39.98)
+    assert read_case(BASE, ["reservoir=none", "tailwater=none"]).reservoir is None
+    # A choice that has this word keeps it.
+    assert read_case(BASE, ["uplift.pattern=none"]).uplift.pattern == "none"
+
+
+def test_the_vertical_component_follows_each_scaling_step():
+    step = 'motion.processing=[{step="scale-to-arias",intensity="1 m/s"},{step="taper"}]'
+    plain = resolve_all(read_case(BASE, [PAIR, {"motion.pga": None}, 'motion.processing=[{step="taper"}]']))
+    scaled = resolve_all(read_case(BASE, [PAIR, {"motion.pga": None}, step]))
+    factors = [after.pga / before.pga for after, before in zip(scaled, plain, strict=True)]
+    assert factors[1] == pytest.approx(factors[0], rel=1e-9) != 1.0

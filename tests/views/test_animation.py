@@ -9,10 +9,13 @@ import numpy as np
 import pytest
 import shapely
 
+from heeltoe import run
+from heeltoe.case.at_crack import anchor_line
 from heeltoe.case.dam import Reservoir
 from heeltoe.views.animation import look
 from heeltoe.views.animation.bodies import ACCURACY, Moments, rigid_parts
-from heeltoe.views.animation.frames import STATUSES, automatic, build_scene, round_below
+from heeltoe.views.animation.frames import STATUSES, automatic, build_scene, round_below, shaken_sign
+from heeltoe.views.animation.page import page_data
 from heeltoe.views.animation.picture import arrow_outlines, shore_of
 from shared.dams import example
 from shared.scenes import SMALL
@@ -214,3 +217,38 @@ def test_arrows_point_where_the_force_goes():
     assert outline.vertices[3] == pytest.approx([5.0, 1.0])
     assert outline.vertices[:, 1].min() == pytest.approx(-1.0)
     assert len(arrow_outlines(np.zeros((1, 2)), np.zeros((1, 2)), 0.1).vertices) == 0
+
+
+# The right ends are those of the drawing of the section: `anchor_line`; the head goes with the part above the crack.
+def test_anchors_are_drawn_and_their_heads_move():
+    case = example("anchored", "motion.duration=4s", "analysis.silence=0s")
+    response = run(case, "rigid")
+    scene = build_scene(case, response, response.histories["time_s"], 50.0)
+    assert len(scene.anchors) == len(case.anchors) == 2
+    rest = [part.points for part in scene.parts]
+    now = [part.drawn(len(scene.times) - 1, 50.0) for part in scene.parts]
+    for line, anchor in zip(scene.anchors, case.anchors, strict=True):
+        head, foot = anchor_line(anchor, case.cut, 0.22 * (case.cut.crest_elevation - case.cut.base_elevation))
+        assert line.drawn(rest, rest) == pytest.approx(np.array([foot, head]))
+        moved = line.drawn(now, rest) - line.drawn(rest, rest)
+        assert moved[0] == pytest.approx([0.0, 0.0])
+        # The block slides along its crack and has not turned in the end.
+        slid = 50.0 * abs(response.residual_slip_m)
+        assert np.hypot(*moved[1]) == pytest.approx(slid, rel=1e-6)
+    assert [list(line["foot"]) for line in page_data(scene, 1.0)["anchors"]] == [list(a.foot) for a in scene.anchors]
+
+
+def test_the_subtitle_says_which_way_round_the_motion_is():
+    case = example("typical-base", "motion.duration=3s", "analysis.silence=0s")
+    assert "elcentro-1940-180-nga reversed, peak" in shown_subtitle(case.with_("motion.sign=reversed"))
+    assert "elcentro-1940-180-nga as recorded, peak" in shown_subtitle(case.with_("motion.sign=recorded"))
+    response = run(case, "rigid")
+    worse = max(response.signs, key=lambda sign: abs(sign.residual_slip_m)).sign
+    words = {"recorded": "as recorded", "reversed": "reversed"}[worse]
+    assert f"elcentro-1940-180-nga {words}, peak" in shown_subtitle(case)
+    assert shaken_sign(response) == f"the motion {words}, the worse of both signs"
+
+
+def shown_subtitle(case):
+    response = run(case, "rigid")
+    return build_scene(case, response, response.histories["time_s"], 1.0).subtitle

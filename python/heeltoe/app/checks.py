@@ -101,7 +101,9 @@ def _judged(case: Case, left: Sequence[Mapping[str, Any]]) -> tuple[Joints, str]
     except InputError as error:
         if error.code != UNSUPPORTED:
             raise
-        return statics_of_sections(case), _NO_SLIP if awaited else ""
+        beside = ("flexible",) if awaited else ()
+        without = statics_of_sections(case, lambda alone, place: judge(alone, beside=beside))
+        return without, _NO_SLIP if awaited else ""
     return joints_after(case, lambda: (response,)), _BLOCK_SLIP if awaited else ""
 
 

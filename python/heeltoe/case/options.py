@@ -222,10 +222,15 @@ def _flood_of(value: object) -> object:
     return None if value == NO_FLOOD else value
 
 
+def _upper(value: object) -> object:
+    """Return a name in capitals: criteria are known by any case."""
+    return value.upper() if isinstance(value, str) else value
+
+
 class StaticsChoice(Fields):
     """Strength and load cases of the static checks before, during and after the earthquake."""
 
-    criteria: Literal["USACE", "USBR", "FERC", "CDA", "CADAM3D"] = "USACE"
+    criteria: Annotated[Literal["USACE", "USBR", "FERC", "CDA", "CADAM3D"], BeforeValidator(_upper)] = "USACE"
     """Whose required factors the checks are judged by."""
     criteria_file: str | None = Field(default=None, strict=True, min_length=1)
     """Criteria of your own from a file in TOML, relative to the case file, in place of those."""

@@ -107,10 +107,11 @@ def overturning(
 def animate(
     case: CasePath,
     model: Annotated[str, typer.Option(metavar="auto|rigid|flexible|decoupled", help="Model of the dam.")] = "auto",
-    to: Annotated[
+    out: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Output file: .mp4, .gif or .html (default: CASE.animation.html)."),
+        typer.Option("--out", metavar="FILE", help="Output file: .mp4, .gif or .html (default: CASE.animation.html)."),
     ] = None,
+    to: Annotated[Path | None, typer.Option("--to", hidden=True, help="The older name of --out.")] = None,
     exaggerate: Annotated[str, typer.Option(metavar="N|auto", help="Magnify displacements N times.")] = "auto",
     fps: Annotated[float, typer.Option(metavar="30", help="Frames per second of a video.")] = 30.0,
     speed: Annotated[
@@ -129,18 +130,21 @@ def animate(
     from heeltoe.case.read import read_case
     from heeltoe.models.run import AUTO, MODELS, run
     from heeltoe.units.parse import parse
+    from heeltoe.views.animation.frames import shaken_sign
     from heeltoe.views.animation.write import animate as write_animation
     from heeltoe.views.animation.write import check_options
 
     if model not in (AUTO, *MODELS):
         raise InputError("unknown-model", "--model", model, models=", ".join((AUTO, *MODELS)), near="")
-    place = to or Path(f"{Path(case).stem}.animation.html")
+    if out is not None and to is not None:
+        raise InputError("fields-conflict", "--to", other="--out")
+    place = out or to or Path(f"{Path(case).stem}.animation.html")
     many = None if exaggerate == "auto" else parse(exaggerate, "number", "--exaggerate")
     check_units(units)
     start = parse(from_, "duration", "--from")
     end = None if until is None else parse(until, "duration", "--until")
     check_options(place, exaggerate=many, frames_per_second=fps, speed=speed)
-    check_file(place, "--to")
+    check_file(place, "--out")
     loaded = read_case(case, [*(set_ or []), *motion_changes(motion, pga=pga)])
     with status() as say:
         began = perf_counter()
@@ -163,6 +167,7 @@ def animate(
             soft_wrap=True,
             markup=False,
         )
+        words.print(f"It shows {shaken_sign(response)}.", soft_wrap=True, markup=False)
     if not response.ok:
         words.print(f"{response.outcome}: {response.advice}", soft_wrap=True, markup=False)
         raise typer.Exit(NO_RESULT)

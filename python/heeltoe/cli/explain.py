@@ -15,9 +15,10 @@ def explain(
         typer.Argument(
             metavar="NAME",
             help="A field (crack.friction), a block (uplift), a key of the JSON (residual_slip_m) or a column; "
-            "all of them without it.",
+            "the subjects without it.",
         ),
     ] = None,
+    all_: Annotated[bool, typer.Option("--all", help="List all names, a line each.")] = False,
     json_: JsonPath = None,
     schema: Annotated[
         bool, typer.Option("--schema", help="Print the JSON schema of `heeltoe run --json`, with units and meanings.")
@@ -32,9 +33,9 @@ def explain(
         return
     from heeltoe.views.explain.find import everything
     from heeltoe.views.explain.find import explain as find
-    from heeltoe.views.terminal.explain import as_json, print_list, print_meanings
+    from heeltoe.views.terminal.explain import as_json, print_list, print_meanings, print_subjects
 
     entry = everything() if name is None else find(name)
     check_json(json_)
-    show = print_list if name is None else print_meanings
+    show = print_meanings if name is not None else print_list if all_ else print_subjects
     finish(as_json(entry), json_, [], lambda console: show(entry, console))

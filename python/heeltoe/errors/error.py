@@ -243,7 +243,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "unknown-model": ("{value} is not a model", "use {models}{near}"),
     "explain-unknown": (
         "{value} is not a field of a case or a study, a key of the JSON or a column{near}",
-        "`heeltoe explain` lists all",
+        "`heeltoe explain --all` lists all",
     ),
     "app-package": ("needs the package {value}", 'install heeltoe with the extra "app"'),
     "app-public": (

@@ -21,7 +21,7 @@ export function showSliders(root, sliders, drained, values, moved) {
     const exact = /** @type {HTMLInputElement} */ (element("input", { type: "number", "aria-label": `${slider.label}, exactly`, min: slider.least, max: slider.most, step: slider.step }));
     range.value = exact.value = slider.value.toFixed(digits);
     range.setAttribute("aria-valuetext", `${range.value} ${slider.unit}`);
-    const label = element("label", { for: id }, slider.label);
+    const label = element("label", { for: id }, slider.label.replace(/(\d) (\S+)$/, "$1\u00a0$2"));
     const box = element("div", { class: "slider" }, label, element("span", { class: "exact" }, exact, slider.unit), range);
     const wrong = element("p", { class: "wrong", "data-wrong": slider.path, role: "status" });
 

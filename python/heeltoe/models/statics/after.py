@@ -12,7 +12,7 @@ from heeltoe.mechanics.drains import drainage_left
 from heeltoe.models.statics.joints import Joints, statics_of_sections
 from heeltoe.models.statics.model import Statics, statics
 from heeltoe.result.numbers import BlockBond, BondState
-from heeltoe.result.response import Response
+from heeltoe.result.response import CrackResponse, Response
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.sequence import Stage, stages
 from heeltoe.warnings.notice import Notice
@@ -80,7 +80,7 @@ def statics_after(case: Case, *runs: Response) -> Statics:
     return statics(case, slip, slip_source=source, ligament=ligament, beside=beside)
 
 
-def ligament_of(run: Response) -> tuple[float, float] | None:
+def ligament_of(run: Response | CrackResponse) -> tuple[float, float] | None:
     """Return from where to where a bonded joint still holds after its earthquake [m from the heel]; None of a crack,
     and of a joint that is cracked through.
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
-from heeltoe.case.dam import Water
+from heeltoe.case.at_crack import anchor_line
+from heeltoe.case.dam import Anchor, Water
 from heeltoe.case.model import Case
 from heeltoe.errors.sanitize import plain
 from heeltoe.geometry.section import CutSection
@@ -57,6 +58,29 @@ class Trace:
     values: Floats
 
 
+@dataclass(frozen=True)
+class AnchorLine:
+    """An anchor: its foot, which stays, and its head (x, z) [m], which moves with a point of a part.
+
+    Attributes
+    ----------
+    foot, head
+        Where they are before the earthquake.
+    part, point
+        Which point of which of `Scene.parts` is nearest to the head.
+    """
+
+    foot: tuple[float, float]
+    head: tuple[float, float]
+    part: int
+    point: int
+
+    def drawn(self, points: Sequence[Floats], rest: Sequence[Floats]) -> Floats:
+        """Return foot and head (2, 2) where the points of the parts are drawn so, and rest so."""
+        moved = points[self.part][self.point] - rest[self.part][self.point]
+        return np.array([self.foot, np.array(self.head) + moved])
+
+
 @dataclass(frozen=True, eq=False)
 class Scene:
     """All that an animation shows.
@@ -89,6 +113,8 @@ class Scene:
         (h,) the mode at these.
     traces
         What shakes the dam, the ground first; slip, openings.
+    anchors
+        Those that cross the crack.
     base, water, tailwater
         z of the base, and of the surfaces of the water; None where there is none [m].
     views
@@ -117,6 +143,7 @@ class Scene:
     tailwater: float | None
     views: tuple[tuple[float, float, float, float], ...]
     above: int = 0
+    anchors: tuple[AnchorLine, ...] = ()
 
 
 def build_scene(case: Case, response: Response, times: Floats, exaggeration: float | None, units: str = "si") -> Scene:
@@ -171,7 +198,17 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
         tailwater=water_level(section, case.tailwater),
         views=_views(case, parts[above:], exaggeration),
         above=above,
+        anchors=tuple(_anchor_line(anchor, case, parts) for anchor in case.anchors),
     )
+
+
+def _anchor_line(anchor: Anchor, case: Case, parts: tuple[Part, ...]) -> AnchorLine:
+    """Return an anchor as it is drawn; its head goes with the nearest point of the outline of a part."""
+    head, foot = anchor_line(anchor, case.cut, 0.22 * (case.cut.crest_elevation - case.cut.base_elevation))
+    far = [np.hypot(*(part.points[part.outline] - np.array(head)).T) for part in parts]
+    place = int(np.argmin([distance.min() for distance in far]))
+    point = int(parts[place].outline[int(far[place].argmin())])
+    return AnchorLine((float(foot[0]), float(foot[1])), (float(head[0]), float(head[1])), place, point)
 
 
 def chosen_exaggeration(response: Response, parts: tuple[Part, ...], section: CutSection) -> float:
@@ -243,12 +280,25 @@ def _usual(forces: Floats) -> float:
     return round_below(usual) if usual > 0.0 else 1.0
 
 
+def shaken_sign(response: Response) -> str:
+    """Say which way round the motion shakes the dam that is shown."""
+    worse = ", the worse of both signs" if len(response.signs) > 1 else ""
+    return f"the motion {_sign(response)}{worse}"
+
+
+def _sign(response: Response) -> str:
+    governing = next((sign.sign for sign in response.signs if sign.governs), None)
+    turned = governing == "reversed" if governing else "sign reversed" in response.motion.processing
+    return "reversed" if turned else "as written" if response.motion.format == "points" else "as recorded"
+
+
 def _subtitle(response: Response) -> str:
     peak = response.motion.pga / response.gravity
     ending = "" if response.outcome == "ok" else f"; {response.outcome}"
     shaken = ", in which the motion of the crack shakes the part above" if response.model == "decoupled" else ""
     curves = "; curves of the crack that leads" if response.several else ""
-    return f"{plain(response.motion.name)}, peak {peak:.3g} g; {response.model} model{shaken}{ending}{curves}"
+    motion = f"{plain(response.motion.name)} {_sign(response)}"
+    return f"{motion}, peak {peak:.3g} g; {response.model} model{shaken}{ending}{curves}"
 
 
 def _traces(response: Response, within: NDArray[np.bool_], units: Units) -> tuple[Trace, ...]:

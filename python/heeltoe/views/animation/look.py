@@ -7,6 +7,7 @@ EDGE, GRID = "#3a3a38", "#aaa8a0"
 WATER, SURFACE = "#cfe5f4", "#5b9bc8"
 GROUND = "#d9cbb2"
 BEFORE = "#6a6a66"
+ANCHOR = "#b22222"
 FORCE, FORCE_CUT = "#882255", "#e08bb4"
 #: By `Scene.status`, the last two of bonded joints alone; what is open is a mere rim.
 STATUS = ("#ffffff", "#333333", "#0072B2", "#D55E00", "#009E73", "#F0E442")

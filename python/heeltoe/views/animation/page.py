@@ -91,6 +91,10 @@ def scene_data(scene: Scene) -> dict[str, Any]:
         "base": scene.base,
         "water": scene.water,
         "tailwater": scene.tailwater,
+        "anchors": [
+            {"foot": anchor.foot, "head": anchor.head, "part": anchor.part, "point": anchor.point}
+            for anchor in scene.anchors
+        ],
         "views": [list(view) for view in scene.views],
     }
 

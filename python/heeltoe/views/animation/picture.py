@@ -160,6 +160,24 @@ class _View:
         before = upper.points[[*upper.outline, upper.outline[0]]].T
         line = animated(axes.plot(*before, color=look.BEFORE, linewidth=0.8, dashes=(5, 4))[0])
         self.overlays.append(lambda frame, drawn: [line])
+        if scene.anchors:
+            self._add_anchors()
+
+    def _add_anchors(self) -> None:
+        """Draw the anchors from foot to head as the parts carry them."""
+        scene = self.scene
+        # The head has a mark.
+        style: dict[str, Any] = {"linewidth": 1.2, "linestyle": "-.", "marker": "s", "markersize": 3, "markevery": [1]}
+        lines = [animated(self.axes.plot([], [], color=look.ANCHOR, **style)[0]) for _ in scene.anchors]
+        rest = [part.points for part in scene.parts]
+
+        def move(frame: int, drawn: dict[int, Floats]) -> list[Any]:
+            now = [drawn[id(part)] for part in scene.parts]
+            for line, anchor in zip(lines, scene.anchors, strict=True):
+                line.set_data(*anchor.drawn(now, rest).T)
+            return lines
+
+        self.overlays.append(move)
 
     def _body(self, part: Part, colour: str) -> _Body:
         fill = Polygon([(0, 0)], facecolor=colour, edgecolor=look.EDGE, linewidth=0.9)
@@ -245,6 +263,10 @@ class _View:
             x += 0.03 + 0.006 * len(name)
         figure.add_artist(Line2D([x, x + 0.018], [0.038, 0.038], color=look.BEFORE, linewidth=0.8, dashes=(5, 4)))
         figure.text(x + 0.023, 0.038, "before", fontsize=9, va="center")
+        if scene.anchors:
+            line = Line2D([x + 0.075, x + 0.093], [0.038, 0.038], color=look.ANCHOR, linewidth=1.2, linestyle="-.")
+            figure.add_artist(line)
+            figure.text(x + 0.098, 0.038, "anchor", fontsize=9, va="center")
 
     def _arrows(self, colour: str) -> Any:
         return animated(

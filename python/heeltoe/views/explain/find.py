@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from difflib import SequenceMatcher, get_close_matches
 from functools import cache
 
 from heeltoe.errors.error import InputError, shown
@@ -16,6 +17,8 @@ from heeltoe.views.explain.meaning import Meaning
 
 # No name is so long; what is longer is not compared with all of them.
 _LONGEST = 200
+# So many names are suggested.
+_SUGGESTED = 3
 # Keys of a result stand below these again, where models stand side by side or runs in a table.
 _AGAIN = ("beside", "cracks", "runs", "sections", "statics", "rigid", "flexible", "decoupled")
 _HEADLINES = frozenset((*(headline.key for headline in HEADLINES), *CREST_PEAKS))
@@ -39,11 +42,37 @@ def explain(name: str) -> tuple[Meaning, ...]:
     """
     wanted = _plain(name.strip())
     if wanted not in ("", "*") and len(wanted) <= _LONGEST:
-        for matches in (_of_path(wanted), _of_path(_shorter(wanted)), _ending(wanted)):
+        for matches in (_with_fields(_of_path(wanted), wanted), _of_path(_shorter(wanted)), _ending(wanted)):
             if matches:
                 return matches
+    raise InputError("explain-unknown", "NAME", shown(name), near=_suggested(wanted[:_LONGEST]))
+
+
+def _with_fields(matches: tuple[Meaning, ...], wanted: str) -> tuple[Meaning, ...]:
+    """Return meanings with the fields that end with the same name first: `friction` is what a user writes before it is
+    what the JSON has."""
+    if not matches or any(meaning.kind.startswith("field") for meaning in matches):
+        return matches
+    fields = tuple(meaning for meaning in _ending(wanted) if meaning.kind == "field of a case")
+    return (*fields, *matches)
+
+
+def _suggested(wanted: str) -> str:
+    """Return what may have been meant, in the words of a message: a name, or fields with a word that is nearer."""
     names = dict.fromkeys(key for path, (first, *_) in _by_name().items() for key in (path, first.last))
-    raise InputError("explain-unknown", "NAME", shown(name), near=near(wanted[:_LONGEST], names))
+    of_word: dict[str, list[str]] = {}
+    for path, (first, *_) in _by_name().items():
+        for word in re.findall(r"[a-z0-9]{3,}", first.last) if first.kind == "field of a case" else ():
+            of_word.setdefault(word, []).append(path)
+    name, word = (get_close_matches(wanted, known, n=1) for known in (names, of_word))
+    if not word or (name and _likeness(wanted, name[0]) >= _likeness(wanted, word[0])):
+        return near(wanted, names)
+    *others, last = (f'"{path}"' for path in of_word[word[0]][:_SUGGESTED])
+    return f", did you mean {', '.join(others)}{' or ' if others else ''}{last}?"
+
+
+def _likeness(one: str, other: str) -> float:
+    return SequenceMatcher(None, one, other).ratio()
 
 
 def _of_path(wanted: str) -> tuple[Meaning, ...]:

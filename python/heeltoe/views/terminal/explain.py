@@ -55,6 +55,31 @@ def _parts(block: Meaning) -> Any:
     return grid
 
 
+def print_subjects(meanings: Sequence[Meaning], console: Console) -> None:
+    """Print what there is to ask for: the blocks of a case and of a study, and how many names of each other kind."""
+    for kind, group in groupby(meanings, key=lambda meaning: meaning.kind):
+        names = list(group)
+        if not kind.startswith("field"):
+            console.print(f"[bold]{KINDS[kind]}[/bold]  {len(names)}, as {escape(names[0].name)}")
+            continue
+        subjects = [name for name in names if "." not in name.name]
+        console.print(f"[bold]{KINDS[kind]}[/bold]")
+        console.print()
+        grid = label_grid()
+        for subject in subjects:
+            if subject.parts:
+                grid.add_row(f"  {escape(subject.name)}", escape(subject.short))
+        console.print(grid)
+        alone = ", ".join(escape(subject.name) for subject in subjects if not subject.parts)
+        if alone:
+            console.print(f"  and {alone}")
+        console.print()
+    console.print()
+    console.print("heeltoe explain NAME explains a subject with its fields, a field, a key or a column:")
+    console.print("  heeltoe explain crack, heeltoe explain friction, heeltoe explain residual_slip_m")
+    console.print("heeltoe explain --all lists every name")
+
+
 def print_list(meanings: Sequence[Meaning], console: Console) -> None:
     """Print all names, kind by kind, a line each with the begin of what they mean."""
     for kind, names in groupby(meanings, key=lambda meaning: meaning.kind):

@@ -1,6 +1,6 @@
 /** The dam at a moment on a canvas: its parts, the water, the ground, forces and contact along the crack. */
 import { colours, path, prepared } from "./canvas.js";
-import { arrowOutline, between, drawnPoints, forcesAt, picked, waterOutline } from "./scene.js";
+import { anchorLines, arrowOutline, between, drawnPoints, forcesAt, picked, waterOutline } from "./scene.js";
 
 /**
  * Draw a scene on a canvas, with the forces and the lines between elements where they are wanted, and return how long
@@ -82,6 +82,13 @@ function drawView(context, scene, moment, drawn, number, [left, top, width, heig
   context.setLineDash([5, 4]);
   stroke(picked(upper.points, upper.outline).map(at), "faint", 1, true);
   context.setLineDash([]);
+  for (const line of anchorLines(scene, drawn)) {
+    context.setLineDash([7, 3, 2, 3]);
+    stroke(line.map(at), "anchor", 1.5, false);
+    context.setLineDash([]);
+    const [x, y] = at(line[1]);
+    fill([[x - 3, y - 3], [x + 3, y - 3], [x + 3, y + 3], [x - 3, y + 3]], "anchor");
+  }
   if (number === 0) drawGroundArrow(context, colour, fill, between(scene.ground, moment), [left, width, ground, foot]);
   const long = scene.arrow * (z1 - z0) * scale;
   if (detailed) {

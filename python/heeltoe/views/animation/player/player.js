@@ -89,6 +89,7 @@ export class DamPlayer {
       entry("arrow", scene.forceText),
       ...scene.statusNames.map((/** @type {string} */ name, /** @type {number} */ k) => entry("dot", name, `status-${k}`)),
       entry("dashed", "before the earthquake"),
+      ...((scene.anchors || []).length ? [entry("dashed anchor", "anchor")] : []),
     );
     // A rigid part has no elements.
     const label = /** @type {HTMLElement} */ (this.grid.parentElement);

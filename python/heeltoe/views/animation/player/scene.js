@@ -26,6 +26,15 @@ function readPart(part) {
   return { ...arrays, shapeCount: part.shapes.shape[0], pointCount: part.points.shape[0] };
 }
 
+/** Return foot and head of each anchor where the parts are drawn so: its head moves with a point of its part. */
+export function anchorLines(scene, drawn) {
+  return (scene.anchors || []).map(({ foot, head, part, point }) => {
+    const [[x, z]] = picked(drawn[part], [point]);
+    const [[x0, z0]] = picked(scene.parts[part].points, [point]);
+    return [foot, [head[0] + x - x0, head[1] + z - z0]];
+  });
+}
+
 /** Return the histories beside a scene with all arrays unpacked. */
 export function readHistories(data) {
   const { traces, historyTimes, historyMode } = data;
