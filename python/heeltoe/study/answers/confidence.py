@@ -22,7 +22,7 @@ from heeltoe.study.answers.likelihood import Witnesses, fit, likelihood, rise
 _RAYS, _HALVINGS = 96, 30
 #: Where there are more strengths, those within this part of each other are one.
 _MANY, _ALIKE = 500, 0.01
-#: An event without which nothing is known leaves no more than so many variances of independent runs.
+#: Largest variance over that of independent runs, where one event has all that is known.
 _WIDEST = 1e6
 
 #: Events that are left out side by side; a dispersion less than this part of the strengths' is a step.

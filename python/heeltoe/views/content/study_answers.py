@@ -113,7 +113,10 @@ def _without_curve(row: Mapping[str, Any], units: str) -> list[str]:
     runs = f"{row['exceeding']:,} of {row['runs']:,} runs exceed it"
     if len(shares) == 1:
         part = _percent(shares[0]["share"])
-        return [f"{runs}{at}, {part} ({_percents(shares[0]['interval'])}); no curve: {row['why']}"]
+        bounds = _percents(shares[0]["interval"])
+        if row["events"] < row["runs"]:
+            bounds += f" if runs were independent; they are of {counted(row['events'], 'event')}"
+        return [f"{runs}{at}, {part} ({bounds}); no curve: {row['why']}"]
     low, high = row["gap"]
     if low is None or high is None:
         return [f"{runs}; no curve: {row['why']}"]
