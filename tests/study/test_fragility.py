@@ -240,7 +240,7 @@ def test_the_test_of_fit_of_independent_runs_is_that_of_the_table(hits):
 
 
 def test_a_curve_that_does_not_fit_says_so():
-    """Of a share of dams the limit is exceeded at any strength: no lognormal curve begins with 12 %."""
+    """A share of the dams exceeds the limit at any strength: no lognormal curve begins with 12 %."""
     random = np.random.default_rng(9)
     strength, exceeds, event = capacities(10, 20, 20)
     weak = np.repeat(random.random(20 * 20) < 0.12, LEVELS.size)

@@ -10,7 +10,7 @@ from heeltoe.study.plan.plan import plan_of
 from heeltoe.study.run import batches as parts
 from shared.command import command
 from shared.dams import STUDIES, example
-from shared.studies import BLOCK, DRAWN, GRID, study_file
+from shared.studies import DRAWN, GRID, study_file
 
 
 def plan(folder, text, case=None):
@@ -304,5 +304,5 @@ def test_a_limit_without_a_unit_is_one_of_millimetres(tmp_path):
         assert '"100 mm"' in str(error.value)
         assert '"100 m"' not in str(error.value)
     with pytest.raises(InputError, match=r"limits\.residual_slip") as error:
-        read_study(study_file(tmp_path, 'case = "case.toml"\n', case=f"{BLOCK}[limits]\nresidual_slip = 100\n"))
+        read_case({**example("koyna").model_dump(mode="json"), "limits": {"residual_slip": 100}})
     assert '"100 mm"' in str(error.value)

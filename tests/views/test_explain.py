@@ -103,8 +103,8 @@ def results(tmp_path_factory, study):
 
 
 def _portfolio(place):
-    (place / "dams.csv").write_text("name,crack.friction\nA,0.5\nB,0.6\n")
-    scale = 'scale = { values = ["0.3 g", "0.6 g", "1.2 g"] }\n'
+    (place / "dams.csv").write_text("name,crack.friction\nA,0.4\nB,0.6\n")
+    scale = 'scale = { values = ["0.3 g", "0.5 g", "0.7 g", "1.2 g"] }\n'
     limits = '[fragility]\nlimits = { residual_slip = ["1 mm"] }\n[hazard]\ncurve = [["0.1 g", 0.1], ["1 g", 0.01]]\n'
     return study_file(place, f'case = "case.toml"\ncases = "dams.csv"\n[motions]\nfolder = "quakes"\n{scale}{limits}')
 

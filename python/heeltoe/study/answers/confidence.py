@@ -16,15 +16,17 @@ import numpy as np
 from scipy.special import betaincinv, stdtrit
 
 from heeltoe.base.arrays import Floats
-from heeltoe.study.answers.likelihood import Witnesses, likelihood, rise
+from heeltoe.study.answers.likelihood import Witnesses, fit, likelihood, rise
 
 #: Directions in which the edge of a region is looked for, and halvings until it is found.
 _RAYS, _HALVINGS = 96, 30
 #: Where there are more strengths, those within this part of each other are one.
 _MANY, _ALIKE = 500, 0.01
-#: An event without which nothing is known leaves no more than so many variances of independent runs.
+#: Largest variance over that of independent runs, where one event has all that is known.
 _WIDEST = 1e6
 
+#: Events that are left out side by side; a dispersion less than this part of the strengths' is a step.
+_TOGETHER, _STEP = 64, 0.01
 #: Logarithms of strengths beyond this, either way, are no end.
 _ENDLESS = 100.0
 
@@ -148,31 +150,52 @@ def knowledge_of(seen: Witnesses, median: float, dispersion: float) -> Knowledge
     middle, scale = float(np.average(seen.logarithm, weights=seen.runs)), float(seen.logarithm.std())
     z = (logarithm - middle) / scale
     estimate = np.array([(middle - median) / dispersion, scale / dispersion])
-    information, rays = _spread(seen, z[level], estimate)
+    first, second = rise(estimate[0] + estimate[1] * z[level], seen.exceeding, seen.runs - seen.exceeding)
+    of_event = _information(seen, z[level], second)
+    information = of_event.sum(axis=0)
+    moved = _left_out(seen, middle, scale)
+    if moved is None:
+        # Without some event there is no curve: one step of Newton's towards it.
+        score = np.column_stack([_by_event(seen, first), _by_event(seen, first * z[level])])
+        left = (1.0 + 1e-9) * information - of_event
+        moved = estimate + np.linalg.solve(left, -score[:, :, None])[:, :, 0]
+    rays = _rays(information, moved - estimate)
     exceeding = summed(seen.exceeding)
     return Knowledge(
         *(middle, scale, z, exceeding, summed(seen.runs) - exceeding, estimate, information, rays, seen.events)
     )
 
 
-def _spread(seen: Witnesses, z: Floats, estimate: Floats) -> tuple[Floats, Floats]:
-    """Return the information of independent runs, and what spans the covariance from event to event: that of a
-    jackknife of one step, in no direction less than independent runs make it."""
-    first, second = rise(estimate[0] + estimate[1] * z, seen.exceeding, seen.runs - seen.exceeding)
+def _by_event(seen: Witnesses, values: Floats) -> Floats:
+    return np.asarray(np.bincount(seen.event, values, seen.events), dtype=np.float64)
 
-    def by_event(values: Floats) -> Floats:
-        return np.asarray(np.bincount(seen.event, values, seen.events), dtype=np.float64)
 
-    score = np.column_stack([by_event(first), by_event(first * z)])
-    sums = [by_event(second * z**power) for power in range(3)]
-    of_event = np.stack([sums[0], sums[1], sums[1], sums[2]], axis=1).reshape(-1, 2, 2)
-    information = of_event.sum(axis=0)
-    left = (1.0 + 1e-9) * information - of_event
-    moved = np.linalg.solve(left, -score[:, :, None])[:, :, 0]
-    covariance = (seen.events - 1.0) / seen.events * moved.T @ moved
+def _information(seen: Witnesses, z: Floats, bend: Floats) -> Floats:
+    """Return the information of the runs of each event, (e, 2, 2)."""
+    sums = [_by_event(seen, bend * z**power) for power in range(3)]
+    return np.stack([sums[0], sums[1], sums[1], sums[2]], axis=1).reshape(-1, 2, 2)
+
+
+def _left_out(seen: Witnesses, middle: float, scale: float) -> Floats | None:
+    """Return a and b with each event left out in turn, (e, 2); None where one of them decides whether there is a
+    curve."""
+    fits = [
+        fit(seen, (np.arange(start, min(start + _TOGETHER, seen.events))[:, None] != seen.event).astype(np.float64))
+        for start in range(0, seen.events, _TOGETHER)
+    ]
+    median, dispersion = np.concatenate(fits).T
+    if not np.isfinite(dispersion).all() or (dispersion < _STEP * scale).any():
+        return None
+    return np.column_stack([(middle - median) / dispersion, scale / dispersion])
+
+
+def _rays(information: Floats, moved: Floats) -> Floats:
+    """Return what spans the covariance from event to event, from how far the curve moves as each event is left out: in
+    no direction less than independent runs make it."""
+    covariance = (len(moved) - 1.0) / len(moved) * moved.T @ moved
     root = np.linalg.cholesky(information)
     size, direction = np.linalg.eigh(root.T @ covariance @ root)
-    return information, np.linalg.solve(root.T, direction * np.sqrt(np.clip(size, 1.0, _WIDEST)))
+    return np.asarray(np.linalg.solve(root.T, direction * np.sqrt(np.clip(size, 1.0, _WIDEST))))
 
 
 def median_ends(region: Floats) -> Ends:

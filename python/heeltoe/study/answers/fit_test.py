@@ -17,7 +17,7 @@ from heeltoe.study.answers.likelihood import SAME, Witnesses, greatest
 
 #: Studies that are made, and the probability below which a curve does not fit.
 _MADE, _RARE = 199, 0.05
-#: Where there are more than twice as many strengths, so many groups of runs stand for them.
+#: Groups of runs that stand for the strengths where these are more than twice as many.
 _GROUPS = 12
 #: A dispersion less than this part of the whole is a step.
 _STEP = 1e-3

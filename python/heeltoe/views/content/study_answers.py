@@ -123,7 +123,10 @@ def _without_curve(row: Mapping[str, Any], units: str) -> list[str]:
     runs = f"{row['exceeding']:,} of {row['runs']:,} runs exceed it"
     if len(shares) == 1:
         part = _percent(shares[0]["share"])
-        return [f"{runs}{at}, {part} ({_percents(shares[0]['interval'])}); no curve: {row['why']}"]
+        bounds = _percents(shares[0]["interval"])
+        if row["events"] < row["runs"]:
+            bounds += f" if runs were independent; they are of {counted(row['events'], 'event')}"
+        return [f"{runs}{at}, {part} ({bounds}); no curve: {row['why']}"]
     low, high = row["gap"]
     if low is None or high is None:
         return [f"{runs}; no curve: {row['why']}"]
@@ -236,7 +239,7 @@ def fragility(subject: StudySubject) -> Section | None:
         "fits",
         "runs that exceed",
     )
-    table = Table(head, tuple(rows), "Fragility.", "lllllrr", (3.0, 3.0, 2.6, 1.3, 1.0, 1.5, 2.0))
+    table = Table(head, tuple(rows), "Fragility.", "lllllrr", (2.9, 2.9, 2.4, 1.5, 1.4, 2.0, 1.8))
     blocks = (paragraph(_about_curves(subject, curves)), table, *_shares(subject, curves))
     return Section("Fragility", (*blocks, *subject.figure("fragility")))
 
@@ -417,7 +420,7 @@ def _by_event(subject: StudySubject, annual: Sequence[Mapping[str, Any]], labels
     ]
     some = f"the {len(shown)} that make most of {len(parts[0]):,}" if len(shown) < len(parts[0]) else "all of them"
     caption = (
-        f"Events, {some}: the share of the annual rate that motions like theirs make; behind it the "
+        f"Events, {some}: the share of the annual rate of dams that stand that motions like theirs make; behind it the "
         f"{_named(subject.study['fragility'])} at which half of the dams exceed the limit in them."
     )
     return (Table(("event", *known), tuple(rows), caption, "l" + "r" * len(known)),)

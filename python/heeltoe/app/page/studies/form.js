@@ -150,7 +150,7 @@ export class StudyForm {
       "fieldset",
       { "data-field": "fragility" },
       element("legend", {}, "Fragility"),
-      element("p", { class: "faint" }, "Each limit has a curve; without limits there are no curves."),
+      element("p", { class: "faint" }, "Each limit has a curve if motions have three strengths or more; without limits there are no curves."),
       element("div", { class: "pair limits" }, ...limits),
       this._select("fragility.measure", "Over", choices.measures.map((/** @type {string} */ name) => [name, name])),
       this._field("fragility.period", "Period", "of sa", "0.3 s"),

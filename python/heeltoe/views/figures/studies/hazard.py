@@ -22,6 +22,8 @@ from heeltoe.views.words.studies import limits_of
 _SHOWN, _LONGEST = 12, 28
 #: An axis of probabilities that ends at less than so many times its beginning has two numbers in each decade.
 _NARROW = 300.0
+#: Of the last rate of the hazard curve, the least that its axis shows.
+_LEAST = 1e-3
 
 
 @styled
@@ -60,6 +62,8 @@ def hazard_figure(study: StudyResults, units: str = "si") -> Figure | None:
         edges = np.array([row["contribution"][0]["from"], *(part["to"] for part in row["contribution"])])
         shares = 100.0 * np.array([part["share"] for part in row["contribution"]])
         right.stairs(shares, edges / strength.scale, color=colour, linestyle=dash, linewidth=1.6, label=label)
+    # An interval that all but reaches zero would leave no room for the hazard.
+    left.set_ylim(bottom=max(left.get_ylim()[0], _LEAST * hazard["annual_rate"][-1]))
     right.set_xscale("log")
     right.set_ylim(0.0, None)
     right.set_xlabel(strength.label)
