@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from heeltoe import read_case, run
+from heeltoe.mechanics.beam import band_of
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.body.reservoir import water_body
 from heeltoe.models.flexible.result.water import total_pressure
@@ -92,7 +93,7 @@ def test_the_same_ground_the_other_way_round_is_another_answer_but_twice_round_t
 def test_the_rows_of_the_water_push_with_the_pressure_on_the_face():
     # The sum of the forces on the nodes of all parts is that of the pressure over the wet face.
     built = build_flexible_dam(read_case(CASES["tailwater"]))
-    reservoir = water_body(read_case(CASES["tailwater"]), built.bodies)
+    reservoir = water_body(read_case(CASES["tailwater"]), built.bodies, band_of(read_case(CASES["tailwater"])))
     assert reservoir is not None
     # As under a ground that goes off slowly.
     rates = reservoir.ground[:, 0] / reservoir.omega_squared

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from heeltoe import InputError
+from heeltoe.mechanics.beam import band_of
 from heeltoe.models.flexible.body import bonded, rock
 from heeltoe.models.flexible.body.cost import building, part_of, parts_of, surroundings_of
 from heeltoe.models.flexible.body.reduced import _build
@@ -171,7 +172,7 @@ def test_memory_of_water_with_sound(depth):
     bodies = bonded.bonded_dam(case).bodies
     water._KEPT.clear()
     tracemalloc.start()
-    water_body(case, bodies)
+    water_body(case, bodies, band_of(case))
     _, measured = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert factor(measured, surroundings_of(case).memory) < 1.3

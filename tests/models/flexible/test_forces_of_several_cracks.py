@@ -49,7 +49,7 @@ def test_an_anchor_of_the_neck_alone_where_the_base_is_bonded(anchor):
     same(two.all_frames[0], alone.frames, 8.0)
     # The bonded crack has the tension, and no slip that a dowel could resist.
     assert two.anchors[0] == pytest.approx(alone.anchors[0], rel=1e-6)
-    assert two.anchors[1][0] == pytest.approx([alone.anchors[0][0, 0]] * 2, rel=1e-6)
+    assert two.anchors[1][0, :2] == pytest.approx([alone.anchors[0][0, 0]] * 2, rel=1e-6)
 
 
 @pytest.mark.parametrize("law", LAWS)

@@ -18,7 +18,7 @@ from shared.dams import TYPICAL_SECTION
 G = 9.80665
 RULES = ("constant", "zero while open", "full while open", "follows opening")
 #: An anchor that does nothing, with which there is no closed form.
-IDLE = np.array([[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]])
+IDLE = np.array([[0.0, 1.0, 0.0, 0.0, 0.0, 0.0, np.inf]])
 QUIET = GroundMotion.from_points([0.0, 1.0], [0.0, 0.0], name="quiet")
 
 

@@ -63,6 +63,9 @@ _FADING = 0.5
 # Sampled frequencies at least, and for each time that half the base is as long as the shortest wave over 2 pi; terms of
 # each beyond the answer, the lowest over the highest, and the growth of the motions over their frequency.
 _SAMPLED, _BY_WAVES, _MOMENTS, _LOWEST, _GROWTH = 4, 0.65, 3, 0.03, 0.5
+# Far below all modes of a dam an earthquake still moves it, and rock that waves leave grows softer and softer: one
+# more frequency over the highest.
+_SLOW = 0.005
 # Frequencies for each of these at which shapes are chosen, with the growth where they are chosen and checked; shapes at
 # most beside the static ones.
 _CHOSEN, _LITTLE_GROWTH, _MOST = 6, 0.03, 200
@@ -475,11 +478,11 @@ def _rates(material: RockMaterial, half: float, highest: float) -> Rates:
     limit = 2.0 * np.pi * highest
 
     def rates(growth: float, highest: float, count: int) -> list[complex]:
-        return [complex(growth, 1.0) * limit * ratio for ratio in np.geomspace(_LOWEST, highest, count)]
+        return [complex(growth, 1.0) * limit * ratio for ratio in (_SLOW, *np.geomspace(_LOWEST, highest, count))]
 
     count = max(_SAMPLED, 2 + math.ceil(_BY_WAVES * limit * half / material.shear_speed))
     # Between those that are sampled.
-    checked = rates(_LITTLE_GROWTH, 1.0, 2 * count - 1)[1::4]
+    checked = rates(_LITTLE_GROWTH, 1.0, 2 * count - 1)[2::4]
     return Rates(rates(_GROWTH, 1.0, count), rates(_LITTLE_GROWTH, 1.05, _CHOSEN * count), checked, _MOMENTS)
 
 
