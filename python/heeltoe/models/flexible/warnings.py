@@ -22,7 +22,7 @@ from heeltoe.models.flexible.result.tables import anchors_of
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.surroundings.left_out import left_out
 from heeltoe.models.flexible.surroundings.rock import ENOUGH as ENOUGH_OF_ROCK
-from heeltoe.models.runner import about_the_anchors, largest_rotation, outcome_of
+from heeltoe.models.runner import about_the_anchors, largest_rotation, largest_slip, outcome_of
 from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
 from heeltoe.result.numbers import AnchorForce, EvidenceNumbers, SelfExcitation
 from heeltoe.units.sentences import Sentence
@@ -88,7 +88,7 @@ def judge_outcome(dam: FlexibleDam, block: Block, run: DamRun) -> tuple[str, Sen
         return "unstable", Sentence.of("{why}: {remedy}", why=why, remedy=remedy)
     largest = max(float(largest_rotation(summary.by_name())) for summary in run.summaries)
     widths = [section.crack_width for section in dam.sections]
-    slips = [max(summary.slip_max, -summary.slip_min) for summary in run.summaries]
+    slips = [float(largest_slip(summary.by_name())) for summary in run.summaries]
     off = any(slip > width for slip, width in zip(slips, widths, strict=True))
     outcome = outcome_of(run.outcome, largest, off=off)
     if outcome == TOO_FAR:
