@@ -103,7 +103,11 @@ def test_a_search_that_finds_no_rest_says_why_and_nothing_of_sliding(typical_bot
     restless = replace(dam, start=replace(dam.start, stands=False, unrest=unrest))
     block = build_block(example("typical-base"))
     assert instability(block) is None
-    outcome, advice = flexible.judge_outcome(restless, block, SimpleNamespace(outcome="ok", summary=None))
+    still = dict.fromkeys(("rotation_max", "rotation_min", "slip_max", "slip_min"), 0.0)
+    raw = SimpleNamespace(by_name=lambda: still, end_time=0.0, slip=0.0)
+    outcome, advice = flexible.judge_outcome(
+        restless, block, SimpleNamespace(outcome="ok", summary=raw, summaries=(raw,))
+    )
     assert outcome == "unstable"
     assert said in str(advice)
     assert "slides" not in str(advice)

@@ -49,7 +49,7 @@ def test_every_row_by_the_definitions(some, limits):
         far = any(
             max(d, -u) > 1.0 for d, u in zip(row["peak_slip_downstream_m"], row["peak_slip_upstream_m"], strict=True)
         )
-        off = far and row["outcome"] in ("ok", "large rotation")
+        off = far and row["outcome"] in ("ok", "lost", "large rotation")
         failed = off or row["outcome"] in ("overturned", "unstable", "lost", "large rotation", "keeps sliding")
         assert (judged.slid_off, judged.failed) == (off, failed)
         for name, allowed in limits.items():
@@ -77,7 +77,14 @@ def test_failures_exceed_every_limit_and_what_is_not_known_is_neither():
         ("ok", {"slows": False}, "keeps sliding"),
         ("ok", {"stands": False, "rotation": 0.11}, "unstable"),
         ("lost", {"stands": False}, "unstable"),
-        ("lost", {"rotation": 0.11}, "lost"),
+        ("lost", {}, "lost"),
+        ("lost", {"rotation": 0.11}, "large rotation"),
+        ("ok", {"off": True}, "lost"),
+        ("ok", {"off": True, "rotation": 0.11}, "large rotation"),
+        ("ok", {"off": True, "rotation": 0.11, "finite": True}, "lost"),
+        ("ok", {"off": True, "slows": False}, "lost"),
+        ("ok", {"off": True, "stands": False}, "unstable"),
+        ("overturned", {"off": True}, "overturned"),
         ("blown up", {"stands": False}, "blown up"),
         ("event limit", {"rotation": 0.11}, "event limit"),
     ],

@@ -71,7 +71,7 @@ def test_small_rotations_that_are_large_are_no_result():
 @pytest.mark.parametrize(("rotation", "outcome"), [(0.09, "ok"), (0.11, "large rotation")])
 def test_rotations_beyond_the_elastic_model(typical_elastic, rotation, outcome):
     block = build_block(example("typical-base", *FAST))
-    numbers = {"rotation_max": 0.0, "rotation_min": -rotation}
+    numbers = {"rotation_max": 0.0, "rotation_min": -rotation, "slip_max": 0.0, "slip_min": 0.0}
     raw = SimpleNamespace(by_name=lambda: numbers)
     raw.end_time = raw.slip = 0.0
     run = SimpleNamespace(summary=raw, summaries=(raw,), outcome="ok")

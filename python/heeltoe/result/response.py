@@ -35,6 +35,7 @@ from heeltoe.result.numbers import (
     TimeByMode,
 )
 from heeltoe.result.outcome import Outcome
+from heeltoe.result.quantity import quantities_of
 from heeltoe.result.sequence import Stage
 from heeltoe.result.verdict import verdict
 from heeltoe.result.write import build_info, motion_json, static_json, write_table
@@ -98,6 +99,9 @@ class Chosen(Block):
 class Of(Generic[T]):
     """A number of a crack, or of the dam, as an attribute by the same name; none where the run never started."""
 
+    def __init__(self, name: str = "") -> None:
+        self._name = name
+
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
 
@@ -155,6 +159,12 @@ class Numbered(ABC):
     bond = Of[BlockBond | None]()
     drainage_by_motion = Of[list[float] | None]()
     overturned_about = Of[str | None]()
+
+
+# The field of a quantity is its row: it needs no other to be an attribute.
+for _quantity in quantities_of(CrackNumbers):
+    if not hasattr(Numbered, _quantity.key):
+        setattr(Numbered, _quantity.key, Of[float](_quantity.key))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
