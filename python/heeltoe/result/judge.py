@@ -96,8 +96,7 @@ class Judgement:
             return np.asarray(self.columns["slid_off"][:, 0] != 0.0)
         if _WIDTH not in self.columns or any(key not in self.columns for key in _PEAKS):
             return np.zeros(len(self), dtype=bool)
-        # Where it tips over the edge it turns too far for small rotations.
-        known = self._by_outcome(lambda outcome: outcome in (Outcome.OK, Outcome.LARGE_ROTATION, Outcome.LOST))
+        known = self._by_outcome(lambda outcome: outcome in (Outcome.OK, Outcome.LOST, Outcome.LARGE_ROTATION))
         down, up = (self.columns[key] for key in _PEAKS)
         return np.asarray(known & slides_off(down, up, self.columns[_WIDTH]).any(axis=1))
 

@@ -27,8 +27,8 @@ class Outcome(StrEnum):
     cycling        no     no     events follow each other without time passing
     blown up       no     no     the time stepping makes energy
     overturned     yes    yes    a block whose rotation may be of any size lies on its side
-    large rotation no     yes    a rotation that the model takes for small exceeds 0.1 rad
     lost           no     yes    the part above slides or lifts farther than its crack is wide
+    large rotation no     yes    a rotation that the model takes for small exceeds 0.1 rad
     keeps sliding  no     yes    the free motion after the record does not slow down
     ok             yes    no     none of these
     ============== ====== ====== =====================================================================
@@ -79,18 +79,14 @@ class Outcome(StrEnum):
         'use flexible.contact = "coulomb" or a smaller time_step',
     )
     OVERTURNED = "overturned", True, True, "the dam overturns", ""
+    LOST = (
+        *("lost", False, True),
+        "the part above slides or lifts farther than its crack is wide and leaves what it stood on",
+        "see its static safety",
+    )
     LARGE_ROTATION = (
         *("large rotation", False, True, f"the dam rotates by more than {LARGEST_ROTATION:g} rad, which is not small"),
         'the rigid model with analysis.rotation = "finite" says whether one block overturns',
-    )
-    LOST = (
-        *(
-            "lost",
-            False,
-            True,
-            "the part above slides or lifts farther than its crack is wide and leaves what it stood on",
-        ),
-        "see its static safety",
     )
     KEEPS_SLIDING = (
         *("keeps sliding", False, True, "the dam does not slow down on still ground"),
@@ -137,10 +133,10 @@ def decide(
     """
     if word in (Outcome.OK, Outcome.LOST) and not stands:
         return Outcome.UNSTABLE
-    if word not in (Outcome.OK, Outcome.LOST):
+    if word != Outcome.OK:
         return Outcome(word)
+    if off:
+        return Outcome.LOST
     if rotation > LARGEST_ROTATION and not finite:
         return Outcome.LARGE_ROTATION
-    if off or word == Outcome.LOST:
-        return Outcome.LOST
     return Outcome.OK if slows else Outcome.KEEPS_SLIDING

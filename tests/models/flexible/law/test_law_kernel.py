@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from heeltoe import read_case
-from heeltoe.kernel.dam import CrackedDam
 from heeltoe.kernel.friction import LAWS, friction_law
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from shared.dams import polygon
@@ -58,7 +57,7 @@ def dam(friction_law=None, elevation=0.0, across=2, friction=0.6, **options):
     }
     one = build_flexible_dam(read_case(fields))
     lines = tuple(replace(line, law=friction_law) for line in one.lines)
-    return replace(one, kernel=CrackedDam(one.reduced, lines, 3)), one.reduced
+    return replace(one, contactors=3, lines=lines), one.reduced
 
 
 def ground(steps, dt, strength=0.6 * G):

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, read_case
-from heeltoe.kernel.dam import CrackedDam
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.validation.random_dams import LEFT, MADE, Drawn
 from models.rigid.test_friction_laws import random_law
@@ -63,8 +62,7 @@ def draw(rng: np.random.Generator) -> Drawn | None:
     ground[:, 1] *= rng.integers(0, 2)
     laws = [random_law(rng) if rng.random() < 0.8 else None for _ in dam.lines]
     lines = tuple(replace(line, law=law) for line, law in zip(dam.lines, laws, strict=True))
-    kernel = CrackedDam(dam.reduced, lines, case.flexible.contactors)
-    return Drawn(case, replace(dam, kernel=kernel, lines=lines), step, ground)
+    return Drawn(case, replace(dam, lines=lines), step, ground)
 
 
 def check(seed: int) -> float | None:

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heeltoe.kernel.dam import CrackedDam
 from heeltoe.validation.random_dams import LEFT, MADE, draw
 from models.rigid.test_friction_laws import random_law
 
@@ -17,8 +16,7 @@ def check(seed):
     drawn = draw(rng)
     law = random_law(rng)
     lines = tuple(replace(line, law=law) for line in drawn.dam.lines)
-    kernel = CrackedDam(drawn.dam.reduced, lines, drawn.case.flexible.contactors)
-    run = replace(drawn, dam=replace(drawn.dam, kernel=kernel, lines=lines)).run()
+    run = replace(drawn, dam=replace(drawn.dam, lines=lines)).run()
     summary = run.summary
     assert all(np.isfinite(value) for value in summary.by_name().values())
     assert run.outcome in ("ok", "lost")
