@@ -68,7 +68,7 @@ def rows_and_runs(folder, study, crack="", model="rigid"):
         ('"section.height" = ["38 m", "44 m"]', "", "rigid"),
         # By integration.
         ('"analysis.rotation" = ["finite", "p-delta"]', "", "rigid"),
-        ('"crack.friction" = [0.8]', "", "flexible"),
+        ('"crack.friction" = [1.0]', "", "flexible"),
     ],
 )
 def test_a_row_says_of_the_crest_what_its_run_says(tmp_path, vary, crack, model):
@@ -76,6 +76,10 @@ def test_a_row_says_of_the_crest_what_its_run_says(tmp_path, vary, crack, model)
     moved = []
     for row, response in rows_and_runs(tmp_path, study, crack, model):
         assert row["outcome"] == response.outcome
+        if not response.ok:
+            # A dam that keeps sliding.
+            assert [row[name] for name in CREST_PEAKS] == [None, None]
+            continue
         peaks = crest_peaks(response.crest)
         assert {name: row[name] for name in CREST_PEAKS} == pytest.approx(peaks, rel=1e-9)
         moved.append(peaks["crest_displacement_m"])
