@@ -264,7 +264,9 @@ def test_dams_that_do_not_stand_are_a_part_of_their_own(tmp_path):
     assert fallen["interval"] == exact(falls, 60, 0.9)
     # The others alone are behind the curve.
     stands = table[table.outcome != "unstable"]
-    over = (stands.residual_slip_m.abs() > 0.001) | stands.outcome.isin(["overturned", "large rotation"])
+    over = (stands.residual_slip_m.abs() > 0.001) | stands.outcome.isin(
+        ["overturned", "lost", "large rotation", "keeps sliding"]
+    )
     assert (row["runs"], row["exceeding"]) == (60 - falls, int(over.sum()))
     words = " ".join(repr(study_answer(study, "si")).split())
     assert words.index("do not stand before the earthquake") < words.index("Half of the dams exceed")
