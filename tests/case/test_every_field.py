@@ -173,5 +173,7 @@ def test_what_is_not_told_to_be_idle_changes_something(model, records):
 def test_what_is_known_of_fields_is_of_fields_that_there_are():
     # Lift joints at equal distances are written instead of cracks, and are cracks in the case.
     plain = {path.replace("[0]", "") for path in ALL} | {f"joints.{name}" for name in Joints.model_fields}
+    # The bond of all joints has the fields of that of a crack.
+    plain |= {path.replace("crack.bond.", "joints.bond.") for path in plain if path.startswith("crack.bond.")}
     for known in READ_BY:
         assert any(path == known or path.startswith(f"{known}.") for path in plain), known

@@ -72,7 +72,7 @@ QUESTIONS = {
         "tests/mechanics/test_loads.py::test_uplift_patterns",
     ),
     "From which state does an elastic dam start?": (
-        f"{FLEXIBLE}/start.rs::find",
+        f"{FLEXIBLE}/start.rs::find_rest",
         f"{DAM}/test_start.py::test_it_is_an_equilibrium_with_friction",
     ),
     "Which modes of the elastic parts are kept?": (

@@ -7,7 +7,7 @@ import inspect
 from functools import cache
 from itertools import pairwise
 from textwrap import dedent
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal, get_args, get_origin
 
 from pydantic import (
     BaseModel,
@@ -76,9 +76,16 @@ class Fields(Named, BaseModel):
 
 @cache
 def _can_be_none(block: type[BaseModel], name: str) -> bool:
-    """Whether a field has no value by default."""
+    """Whether a field has no value by default, and "none" is no value of its own."""
     field = block.model_fields.get(name)
-    return field is not None and field.default is None
+    return field is not None and field.default is None and NONE not in _words(field.annotation)
+
+
+def _words(annotation: Any) -> set[Any]:
+    """Return the words that an annotation allows."""
+    if get_origin(annotation) is Literal:
+        return set(get_args(annotation))
+    return {word for part in get_args(annotation) for word in _words(part)}
 
 
 @cache

@@ -126,29 +126,27 @@ def crest_series(step: float, place: Floats, ground: Floats) -> CrestSeries:
 def in_band(acceleration: Floats, step: float) -> Floats:
     """Return what of an acceleration (n,), so many seconds from moment to moment, is within the band; beyond its ends
     it goes on as it is there."""
-    from scipy.signal import oaconvolve
-
     half = band_weights(step)
     reach = half.size - 1
     if not reach or not acceleration.size:
         return acceleration
-    passed: Floats = oaconvolve(np.pad(acceleration, reach, mode="edge"), np.concatenate([half[:0:-1], half]), "valid")
-    return passed
+    # By Fourier's transform; SciPy has a function for it, which takes longer to load than a block to run.
+    padded, weights = np.pad(acceleration, reach, mode="edge"), np.concatenate([half[:0:-1], half])
+    size = padded.size + weights.size - 1
+    passed: Floats = np.fft.irfft(np.fft.rfft(padded, size) * np.fft.rfft(weights, size), size)
+    return passed[2 * reach : padded.size]
 
 
 @lru_cache(maxsize=32)
 def band_weights(step: float) -> Floats:
     """Return the weights of the filter for the distances 0, 1, 2, ... between moments so many seconds apart, the same
     either way, together 1: how a blow goes forward and backward through it. Steps too long for the band pass all."""
-    from scipy.signal import butter, sosfilt
-
     if step * BAND_HZ > 0.25:
         return np.ones(1)
-    blow = np.zeros(math.ceil(_MEMORY_S / step) + 1)
-    blow[0] = 1.0
-    forward = sosfilt(butter(_ORDER, BAND_HZ, fs=1.0 / step, output="sos"), blow)
-    spectrum = np.abs(np.fft.rfft(forward, 2 * forward.size)) ** 2
-    half = np.fft.irfft(spectrum)[: forward.size]
+    size = math.ceil(_MEMORY_S / step) + 1
+    # Butterworth's gain by the bilinear transform, squared: once forward and once backward.
+    tangent = np.tan(np.linspace(0.0, np.pi / 2.0, size + 1)) / np.tan(np.pi * BAND_HZ * step)
+    half = np.fft.irfft(1.0 / (1.0 + tangent ** (2 * _ORDER)))[:size]
     weights: Floats = half / (2.0 * half.sum() - half[0])
     weights.flags.writeable = False
     return weights

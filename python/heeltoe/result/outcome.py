@@ -82,7 +82,7 @@ class Outcome(StrEnum):
     LOST = (
         *("lost", False, True),
         "the part above slides or lifts farther than its crack is wide and leaves what it stood on",
-        "see its static safety",
+        "the dam has failed: see its static safety",
     )
     LARGE_ROTATION = (
         *("large rotation", False, True, f"the dam rotates by more than {LARGEST_ROTATION:g} rad, which is not small"),
