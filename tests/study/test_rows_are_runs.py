@@ -46,9 +46,9 @@ VALUES = {
 
 
 def cracked_length_of(response):
-    """Return the length that has cracked in the end: of a plain crack its width."""
+    """Return what the earthquake has cracked of a bonded joint in the end; zero of a plain crack."""
     joint = getattr(response, "joint", None)
-    return response.crack_width_m if joint is None else joint.cracked_length_m
+    return 0.0 if joint is None else joint.cracked_length_m
 
 
 def number_of(response, name):

@@ -32,7 +32,7 @@ SHEARS_M = 0.01
 #: The headline numbers, in the order in which they are shown.
 HEADLINES = tuple(item for item in quantities_of(CrackNumbers) if item.short)
 
-#: What is cracked in the end: of a bonded joint what the earthquake cracks, of a crack its width.
+#: What the earthquake has cracked of a bonded joint in the end; zero of a crack without a bond.
 CRACKED = "cracked_length_m"
 
 

@@ -174,7 +174,7 @@ class Rested(NamedTuple):
         columns = {
             **headlines({name: np.array([[row[name] for row in rows]]) for name in rows[0]}),
             "crack_width_m": width,
-            CRACKED: np.where(joint, np.minimum([row["cracked_length"] for row in rows], width), width),
+            CRACKED: np.where(joint, np.minimum([row["cracked_length"] for row in rows], width), 0.0),
             **{key: [[value]] for key, value in crest_peaks(self.crest(case)).items()},
         }
         return judge({"outcome": [self.outcome], **columns}, allowances(case.limits, case.gravity))
