@@ -220,7 +220,7 @@ def test_bad_nodes(tmp_path, own):
     nodes, elements = numbered(own.upper)
     extra = np.vstack([nodes, [(1.0, 61.0), (2.0, 61.0)]])
     text = refused(tmp_path, extra, elements)
-    assert text == f"2 nodes belong to no element, the first of them is {len(nodes) + 1}; remove them"
+    assert text.startswith(f"2 nodes belong to no element, the first of them is {len(nodes) + 1}; remove them")
     nodes[4, 1] = np.nan
     assert refused(tmp_path, nodes, elements).startswith("node 5 has no finite coordinates")
 
