@@ -238,7 +238,19 @@ def crest_of(shaken: ShakenDam, run: DamRun) -> CrestSeries:
     """Return the way of the upstream edge of the crest, step by step."""
     step = run.summary.end_time / run.summary.steps
     time = np.arange(run.crest.size) * step
-    return crest_series(step, run.crest, np.interp(time, shaken.shaking.time, shaken.shaking.horizontal))
+    return crest_series(step, run.crest, _mean_around(time, step, shaken.shaking.time, shaken.shaking.horizontal))
+
+
+def _mean_around(moments: Floats, step: float, time: Floats, values: Floats) -> Floats:
+    """Return the mean of what is straight between knots over a step around each of some even moments: where a record
+    jumps, its value at a moment is that of either side by the last digit of a time."""
+    sums = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(time) * (values[1:] + values[:-1]))])
+    ends = np.append(moments - 0.5 * step, moments[-1] + 0.5 * step).clip(time[0], time[-1])
+    knot = np.searchsorted(time, ends, side="right").clip(1, time.size - 1) - 1
+    length, after = time[knot + 1] - time[knot], ends - time[knot]
+    slope = np.divide(values[knot + 1] - values[knot], length, out=np.zeros(ends.size), where=length > 0.0)
+    mean: Floats = np.diff(sums[knot] + after * (values[knot] + 0.5 * slope * after)) / np.diff(ends)
+    return mean
 
 
 def crack_responses(
