@@ -237,7 +237,7 @@ def histories_of(
 def crest_of(shaken: ShakenDam, run: DamRun) -> CrestSeries:
     """Return the way of the upstream edge of the crest, step by step."""
     step = run.summary.end_time / run.summary.steps
-    time: Floats = np.arange(run.crest.size) * step
+    time: Floats = step * np.arange(run.crest.size, dtype=np.float64)
     return crest_series(step, run.crest, _mean_around(time, step, shaken.shaking.time, shaken.shaking.horizontal))
 
 
