@@ -7,6 +7,7 @@ to it is what a rigid block of the dam leaves out.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,6 +28,9 @@ _MODES = 3
 STIFF_S = 0.02
 # What surrounds a dam answers well up to so many times the frequency of the last of its modes that matter.
 _BEYOND_MODES = 4.0 / 3.0
+# Waves within the depth of the water, and within the base on rock, that the stiffest dams of concrete do not reach: a
+# wider band would cost memory, and slow motions their accuracy.
+_SOUND_WAVES, _SHEAR_WAVES = 2.0, 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,11 +155,20 @@ def band_of(case: Case) -> float:
     the whole dam as a beam that carry its horizontal motion, three of them.
 
     It goes with the dam: one of the same shape that is so many times as large, of concrete so many times as stiff,
-    swings by the root of that more slowly. No mesh has a part in it.
+    swings by the root of that more slowly. No mesh has a part in it. A dam stiffer than all concretes is a block to
+    waves of which two lie within the depth of the water, or four within its base: it asks for no shorter ones.
     """
     modulus = case.concrete.modulus
     assert modulus is not None
-    return float(_BEYOND_MODES * np.sqrt(modulus) / beam(case).periods.min())
+    band = float(_BEYOND_MODES * np.sqrt(modulus) / beam(case).periods.min())
+    for water in (case.reservoir, case.tailwater):
+        if water is not None and water.compressible and water.depth > 0.0:
+            band = min(band, _SOUND_WAVES * water.wave_speed / water.depth)
+    if (rock := case.rock) is not None:
+        left, _, right, _ = case.outline.bounds
+        shear_speed = math.sqrt(rock.modulus / (2.0 * (1.0 + rock.poisson) * rock.density))
+        band = min(band, _SHEAR_WAVES * shear_speed / (right - left))
+    return band
 
 
 def _widths(corners: Floats, levels: Floats) -> Floats:
