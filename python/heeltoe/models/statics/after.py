@@ -71,7 +71,7 @@ def statics_after(case: Case, *runs: Response) -> Statics:
         return statics(case, beside=beside)
     if trusted is None:
         model, outcome = runs[0].model, runs[0].outcome
-        source = f"the {model} model ends {outcome!r}, zero is taken"
+        source = f"the {model} model ends '{outcome}', zero is taken"
         result = statics(case, 0.0, slip_source=source, beside=beside)
         return replace(result, warnings=(Notice("slip-untold", model=model, outcome=outcome), *result.warnings))
     source, ligament = slip_source(trusted), ligament_of(trusted)

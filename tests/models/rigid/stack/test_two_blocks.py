@@ -189,7 +189,7 @@ def test_a_dam_that_does_not_stand_says_at_which_crack():
 def test_a_block_that_turns_too_far_is_named():
     response = shaken(cracks(3.0, 3.0, level=92.0, reservoir=None, **{"uplift.pattern": "none"}), size=60.0)
     assert response.outcome != "ok"
-    assert "the block above the crack at 92 m rotates by" in str(response.advice)
+    assert "at the crack at 92 m: it rotates by" in str(response.advice)
 
 
 def test_too_many_events_say_so():

@@ -249,7 +249,9 @@ def _mean_around(moments: Floats, step: float, time: Floats, values: Floats) -> 
     knot = np.searchsorted(time, ends, side="right").clip(1, time.size - 1) - 1
     length, after = time[knot + 1] - time[knot], ends - time[knot]
     slope = np.divide(values[knot + 1] - values[knot], length, out=np.zeros(ends.size), where=length > 0.0)
-    mean: Floats = np.diff(sums[knot] + after * (values[knot] + 0.5 * slope * after)) / np.diff(ends)
+    change, span = np.diff(sums[knot] + after * (values[knot] + 0.5 * slope * after)), np.diff(ends)
+    # A run may end a step behind its record.
+    mean: Floats = np.divide(change, span, out=np.full(span.size, values[-1]), where=span > 0.0)
     return mean
 
 
