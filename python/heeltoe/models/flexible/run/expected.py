@@ -26,8 +26,8 @@ _BY_BOND, _WATERED = 2.0, 3e-6
 # Seconds of a step with several joints of which some soften, of the square of the forces on all of them. Measured with
 # 2 to 30 joints of 2 to 8 elements, within a factor of two.
 _JOINTS = 7e-9
-# Bytes of a step of the ground; copies of a frame.
-_GROUND, _COPIES = 100.0, 1.2
+# Bytes of a step of the ground, and of the way of the crest with its acceleration within the band; copies of a frame.
+_GROUND, _CREST, _COPIES = 100.0, 140.0, 1.2
 # Runs that a result takes by its evidence, in single ones, without refinement.
 _RUNS = {"full": 5.0, "step": 3.0, "none": 1.0}
 # The longest period of a free part in times that waves of compression take through its height.
@@ -71,7 +71,8 @@ def running(case: Case, end: float, frame_step: float, step: float | None = None
     seconds += steps * _WATERED * wave_bodies(case)
     frame = 16.0 + sum(part.modes + 6.0 * part.nodes for part in parts)
     frames = min(steps, end / frame_step) * frame * NUMBER * _COPIES
-    return Cost(seconds * (_RUNS[case.flexible.evidence] if runs is None else runs), _GROUND * steps + frames)
+    seconds *= _RUNS[case.flexible.evidence] if runs is None else runs
+    return Cost(seconds, (_GROUND + _CREST) * steps + frames)
 
 
 def analysing(
