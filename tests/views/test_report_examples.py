@@ -66,6 +66,7 @@ def test_pages_are_full(document):
         bands = np.diff(inked) - 1
         inner = bands[bands > 10.0 * len(page) / 255.0].sum()
         blank.append(1.0 - (inked[-1] + 1 - inner) / len(page))
-    # The last page ends where the report does; a figure or a table that is kept whole may need the next page.
+    # The last page ends where the report does; a figure or a table that is kept whole, up to a third of
+    # a page, may need the next one.
     assert np.mean(blank[:-1]) < 0.12
-    assert max(blank[:-1]) < 0.3
+    assert max(blank[:-1]) < 1.0 / 3.0
