@@ -63,9 +63,8 @@ demo: check $(VENV)/.built
 	@$(BIN)/heeltoe run examples/typical-base.toml --report --out out/demo
 	@$(ELAPSED)
 
-# Three processes for two cores: the tests of the app and of commands wait for other processes. In the order of the
-# folders those come first, and short files last.
-SIDE_BY_SIDE := -n 3 --dist loadfile --no-loadscope-reorder
+# In the order of the folders those that wait for other processes come first, and short files last.
+SIDE_BY_SIDE := -n 2 --dist loadfile --no-loadscope-reorder
 
 test: check $(VENV)/.built
 	cargo test --locked --quiet -p heeltoe

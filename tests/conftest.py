@@ -8,12 +8,14 @@ from collections.abc import Iterator
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 # Several processes test at once, and matrices are small: threads of the linear algebra would only wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
 from hypothesis import HealthCheck, settings
+from xdist.scheduler import LoadFileScheduling
 
 import heeltoe
 from heeltoe.errors.error import CATALOGUE as ERRORS
@@ -77,6 +79,19 @@ class FailuresAtOnce:
         if report.failed and terminal:
             # The letter of the test stands on the line before.
             terminal.write(f"\nFAILED {report.nodeid} ({report.when}, {report.duration:.0f} s)\n")
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> LoadFileScheduling | None:
+    """Give a process whole files, and all pages of the app to one process, which serves them once."""
+    return OneApp(config, log) if config.getoption("dist") == "loadfile" else None
+
+
+class OneApp(LoadFileScheduling):  # type: ignore[misc]
+    """Files as they are handed out, the pages of the app as one of them."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        file: str = super()._split_scope(nodeid)
+        return "pages" if file.endswith("_page.py") else file
 
 
 def pytest_testnodedown(node: object) -> None:

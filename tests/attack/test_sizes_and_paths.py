@@ -93,6 +93,7 @@ def test_halves_of_letters_are_refused():
     assert refusal(dam(reservoir={"depth": "\ud800"})).code == "wrong-quantity"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "arguments",
     [

@@ -19,6 +19,7 @@ SHORT = runpy.run_path(str(ROOT / "benchmarks" / "short.py"))
 FIRST_RUN = runpy.run_path(str(ROOT / "docs" / "first_run.py"))
 
 
+@pytest.mark.slow
 def test_the_verdict_of_the_readme_is_that_of_its_command():
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     assert f"heeltoe run {FIRST_RUN['CASE']}" in text

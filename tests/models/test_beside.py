@@ -130,7 +130,7 @@ def test_a_state_that_is_not_finite_is_null_in_json(both):
     assert data["beside"]["residual_slip_m"] is not None
 
 
-@pytest.mark.parametrize("elevation", [0, 30])
+@pytest.mark.parametrize("elevation", [0, pytest.param(30, marks=pytest.mark.slow)])
 def test_what_a_rigid_block_passes_and_the_dam_fails(elevation):
     """Its own limit of 50 mm, by the model that is run by itself."""
     quick = ("flexible.elements_across=4", "flexible.evidence=none", "motion.duration=12 s")

@@ -152,6 +152,7 @@ def test_the_water_rises_under_an_elastic_dam_while_the_ground_stands_still():
     assert result.energy.residual < 1e-12
 
 
+@pytest.mark.slow
 def test_an_elastic_dam_is_run_again_with_the_drains_that_are_left():
     case = elastic(POINTS, "statics.drain_diameter=2 m", "crack.friction=1")
     response = heeltoe.flexible(case)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from heeltoe import (
@@ -94,6 +94,7 @@ points = st.lists(st.tuples(st.floats(0.05, 0.4), st.floats(-12.0, 12.0)), min_s
 )
 
 
+@settings(max_examples=30)
 @given(motion=points, friction=st.floats(0.3, 1.2), vertical=st.booleans())
 def test_any_block_goes_on_as_with_zeros_behind_its_motion(motion, friction, vertical):
     case = read_case(SLENDER, [f"crack.friction={friction}", "analysis.event_limit=2000"])

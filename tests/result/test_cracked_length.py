@@ -90,6 +90,7 @@ def test_each_of_several_joints_has_its_own_check():
     assert len(lengths) == 2
 
 
+@pytest.mark.slow
 def test_a_suite_says_how_far_the_joint_cracks(records, strong):
     fields = copy.deepcopy(DAM)
     fields["motion"]["file"] = str(records / "strong.txt")

@@ -42,7 +42,7 @@ def faults(found):
 
 
 # Two or more earthquakes, or rock to reduce: longer than all others.
-LONG = ("aftershocks", "on-rock")
+LONG = ("aftershocks", "on-rock", "pine-flat")
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,18 @@ from shared.dams import ROOT
 BOOK = ROOT / "docs" / "validation"
 
 
-@pytest.mark.parametrize("name", [name for name, case in CASES.items() if not case.long])
+# Seconds each, and their parts have tests of their own.
+SECONDS = ("notched-beam", "bonded-cantilevers", "periods", "bonded-bar")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.slow if name in SECONDS else ())
+        for name, case in CASES.items()
+        if not case.long
+    ],
+)
 def test_reference_case(name):
     _judge(name)
 

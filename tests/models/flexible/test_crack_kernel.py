@@ -85,7 +85,7 @@ def twin(part, start, friction, a, dt, theta):
     return np.array(states), place
 
 
-@pytest.mark.parametrize("theta", [0.5, 0.52, 1.0])
+@pytest.mark.parametrize("theta", [*(pytest.param(value, marks=pytest.mark.slow) for value in (0.5, 1.0)), 0.52])
 @pytest.mark.parametrize("damping", ["relative", "stiffness", "modal", "thesis", "deformation"])
 def test_twin(theta, damping):
     one = dam(across=1, damping=damping)

@@ -71,7 +71,14 @@ del CASES["law, bonded to the rock"]["crack"]["friction"]
 CASES["kinks, bonded to the rock"] = dam(crack=HIGH | {"kinks": [["9 m", "0.5 m"]]})
 
 
-@pytest.mark.parametrize("name", CASES)
+# Where the crack lies matters to the coupling with the rock, hardly to what else a dam has.
+AT_BASE = [name for name in CASES if "bonded to the rock" not in name]
+QUICK = {*AT_BASE, "plain, bonded to the rock", "kinks, bonded to the rock"} - {"two cracks"}
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in CASES]
+)
 def test_the_ledger_closes_and_energy_leaves_in_the_rock(name):
     response = run(read_case(CASES[name]), "flexible")
     assert response.ok
@@ -130,7 +137,9 @@ def test_rock_that_neither_damps_nor_lets_waves_go_takes_nothing_and_is_warned_o
 
 
 @pytest.mark.parametrize(
-    "crack", [{"elevation": "0 m"}, {"elevation": "6 m"}], ids=["at the base", "bonded to the rock"]
+    "crack",
+    [{"elevation": "0 m"}, pytest.param({"elevation": "6 m"}, marks=pytest.mark.slow)],
+    ids=["at the base", "bonded to the rock"],
 )
 def test_the_energy_of_dam_water_and_rock_is_constant_without_losses(crack, monkeypatch):
     """Nothing slips, damps or leaves: once the ground rests, all that dam, water and rock hold stays there."""
@@ -418,6 +427,7 @@ def test_what_results_say_of_rigid_rock_is_in_the_table_of_its_page():
         assert [first, third] == pytest.approx([cells[3], cells[5]], abs=0.005)
 
 
+@pytest.mark.slow
 def test_a_rotation_on_rock_carries_no_bound():
     """Twice and four times the elements move it by more than its old bound of 3 % and two meshes, up to nine times."""
     fields = dam(flexible={"elements_across": 4, "evidence": "full", "time_step": "2e-4 s"})

@@ -47,7 +47,7 @@ def similar(length: float, **changes: Any) -> dict[str, Any]:
     } | copy.deepcopy(changes)
 
 
-@pytest.mark.parametrize("surroundings", ["rock and sound", "rock", "sound"])
+@pytest.mark.parametrize("surroundings", [pytest.param("rock and sound", marks=pytest.mark.slow), "rock", "sound"])
 def test_the_slip_of_a_similar_dam_is_so_many_times_as_far(surroundings):
     small, large = (read_case(_without(similar(length), surroundings)) for length in (1.0, 16.0))
     one, other = flexible(small, output_step=0.001), flexible(large, output_step=0.004)

@@ -220,8 +220,8 @@ FEWER_RUN_STEPS = (29, 79, 140)
 
 
 def test_windows_agree_with_the_twin():
-    verdict = windows(draw(seed=1, n=500), WINDOW_STEPS)
-    assert verdict.cases > 5000
+    verdict = windows(draw(seed=1, n=250), WINDOW_STEPS)
+    assert verdict.cases > 2500
     assert verdict.unresolved < 1e-3, verdict
     assert verdict.differ < 1e-3, verdict
 
@@ -249,11 +249,16 @@ def test_ten_thousand_blocks_agree_with_the_twin(seed):
     ("wrong", "least"),
     [
         (("friction_kinetic", 0.99), 0.2),
-        (("friction_static", 1.05), 0.01),
         (("restitution", 0.95), 0.01),
-        (("inertia", 1.02), 0.1),
-        (("toe_distance", 1.01), 0.15),
-        (("static_horizontal", 1.01), 0.1),
+        *(
+            pytest.param(wrong, least, marks=pytest.mark.slow)
+            for wrong, least in (
+                (("friction_static", 1.05), 0.01),
+                (("inertia", 1.02), 0.1),
+                (("toe_distance", 1.01), 0.15),
+                (("static_horizontal", 1.01), 0.1),
+            )
+        ),
     ],
     ids=lambda value: value[0] if isinstance(value, tuple) else None,
 )

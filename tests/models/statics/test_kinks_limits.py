@@ -71,7 +71,11 @@ def test_units_do_not_matter():
     ("depth", "uplift"),
     [
         ("99 m", {"pattern": "triangular"}),
-        ("102 m", {"pattern": "drained", "drain_position": 0.3, "drain_efficiency": 0.5}),
+        pytest.param(
+            "102 m",
+            {"pattern": "drained", "drain_position": 0.3, "drain_efficiency": 0.5},
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_it_opens_up_to_the_first_place_that_holds(depth, uplift):

@@ -246,8 +246,17 @@ def test_an_extreme_flood():
 # Faces
 
 
-@pytest.mark.parametrize("example", ALL_EXAMPLES, ids=lambda path: path.stem)
-@pytest.mark.parametrize("name", list(CRITERIA))
+EACH = [("USACE", path) for path in ALL_EXAMPLES] + [(name, BASE) for name in CRITERIA if name != "USACE"]
+ALL = [(name, path) for name in CRITERIA for path in ALL_EXAMPLES]
+
+
+@pytest.mark.parametrize(
+    ("name", "example"),
+    [
+        pytest.param(*pair, marks=() if pair in EACH else pytest.mark.slow, id=f"{pair[0]}-{pair[1].stem}")
+        for pair in ALL
+    ],
+)
 def test_examples(example, name):
     case = read_case(example, [f"statics.criteria={name}", "statics.seismic_coefficient=0.1"])
     result = heeltoe.statics(case, 0.05)

@@ -47,7 +47,10 @@ def around(typical):
     return WaterOfDam.before(intact, water), reduced_rock(intact.base, ROCK)
 
 
-@pytest.mark.parametrize("name", COMBINATIONS)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=pytest.mark.slow if name == "empty, rock" else ()) for name in COMBINATIONS],
+)
 def test_independent_program_in_the_frequency_domain(typical, around, name):
     """Full matrices of the dam, exact channel, rock by its wavenumber integral: within 2 % up to 15 Hz."""
     dam, intact = typical
