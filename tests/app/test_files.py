@@ -193,6 +193,7 @@ def ways_to(secret: Path) -> list[str]:
             up.replace(".", "%2e").replace("/", "%2F")]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_case_names_no_file_that_was_not_sent(folder, secret, opened):
     fields = ("motion.file", "motion.vertical.file", "flexible.mesh_above", "flexible.mesh_below")
     with serve(folder) as client, enter(client) as socket:

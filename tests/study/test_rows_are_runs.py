@@ -81,7 +81,7 @@ def assert_same(row, response):
 
 
 @pytest.mark.parametrize("model", DAMS)
-@settings(deadline=None, max_examples=8, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(deadline=None, max_examples=5, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_a_row_is_the_single_run_to_the_last_bit(model, data, tmp_path_factory):
     name = data.draw(st.sampled_from(DAMS[model]))

@@ -44,7 +44,7 @@ def rocking():
 
 
 # One example with parts of every kind and forces of a large dam, and one of a small block, in both systems of units.
-US = [(path, "us") for path in (BASE, BLOCK)]
+US = [pytest.param(BASE, "us", marks=pytest.mark.slow), (BLOCK, "us")]
 # Between them and these there is every figure that an example has.
 FEW = ("block", "rough-crack", "stepped-crack", "slender")
 
@@ -97,7 +97,9 @@ def test_units_that_nobody_knows(both):
     assert refused.value.code == "unknown-units"
 
 
-@pytest.mark.parametrize(("changes", "panels"), [(["motion.duration=8s"], 3), (ROCKING, 5)])
+@pytest.mark.parametrize(
+    ("changes", "panels"), [pytest.param(["motion.duration=8s"], 3, marks=pytest.mark.slow), (ROCKING, 5)]
+)
 def test_figures_of_a_rigid_block(tmp_path, changes, panels):
     response = rigid(example("typical-base", *changes))
     assert len(response_figure(response).axes) == panels

@@ -165,6 +165,7 @@ def test_the_uplift_of_a_sheet_says_its_pressures(joints):
     assert message.endswith("in kPa and m from the heel of the crack")
 
 
+@pytest.mark.slow
 def test_the_report_has_every_sheet(joints):
     case, result = joints
     document = statics_document(case, result, {}, command="heeltoe statics x.toml --report")

@@ -40,7 +40,7 @@ def studied(case, place, what):
 
 
 # The right head is that of the report of a single run of the same case.
-@pytest.mark.parametrize("what", ["suite", "study"])
+@pytest.mark.parametrize("what", [pytest.param("suite", marks=pytest.mark.slow), "study"])
 def test_the_head_is_that_of_a_run(case, tmp_path, what):
     run = build_report(case, heeltoe.run(case, "rigid"), units="si", command="")
     results = studied(case, tmp_path / what, what)

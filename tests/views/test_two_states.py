@@ -21,7 +21,7 @@ DAM = {
 OPENS = "of the crack, and water enters it"
 
 
-@pytest.mark.parametrize(("depth", "opens"), [("30 m", True), ("20 m", False)])
+@pytest.mark.parametrize(("depth", "opens"), [("30 m", True), pytest.param("20 m", False, marks=pytest.mark.slow)])
 def test_each_table_says_which_state_it_has(depth, opens):
     case = read_case(DAM | {"reservoir": {"depth": depth}})
     response = rigid(case)

@@ -440,6 +440,7 @@ def test_a_rotation_on_rock_carries_no_bound():
     assert flexible(read_case(on_rigid_rock)).evidence["rocking_upstream_rad"]["uncertainty"] > 0.0
 
 
+@pytest.mark.slow
 def test_a_limit_on_a_number_without_a_bound_is_met_for_certain_by_half_of_it_alone():
     fields = dam(flexible={"elements_across": 2, "evidence": "full", "time_step": "2e-4 s"})
     turned = flexible(read_case(fields))

@@ -87,6 +87,7 @@ def test_face_that_bends(water):
     assert np.abs(pressure[WET] - exact).max() < 0.02 * np.abs(exact).max()
 
 
+@pytest.mark.slow
 def test_step_of_acceleration():
     times = np.array([0.02, 0.04, 0.06, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0])
     full = all_shapes(1.0)
