@@ -46,6 +46,7 @@ def tab(tmp_path):
         yield ask
 
 
+@pytest.mark.slow
 def test_a_record_is_called_as_its_sender_calls_it(tab):
     assert CALLED in json.dumps(tab("motion look", form=FORM)["motions"])
     assert "error" not in tab("use motion", form=FORM)
@@ -68,6 +69,7 @@ def test_a_motion_in_the_case_is_a_step_that_is_taken_back(tab):
     assert tab("step case", forward=True)["fields"]["motion"]["file"] == CALLED
 
 
+@pytest.mark.slow
 def test_what_keeps_a_motion_from_being_in_force_is_told(tab):
     tab("edit case", changes={"crack.friction": "slippery"})
     messages = tab("use motion", form=FORM)
@@ -76,6 +78,7 @@ def test_what_keeps_a_motion_from_being_in_force_is_told(tab):
     assert CALLED in tab("rigid", values={})["shaking"]
 
 
+@pytest.mark.slow
 def test_a_motion_that_cannot_be_read_changes_nothing(tab):
     before = tab("case")["fields"]
     way = {**FORM["horizontal"], "unit": "parsec"}

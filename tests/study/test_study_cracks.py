@@ -55,6 +55,7 @@ def study(folder, model, case=DAM, neck="[0.4]"):
 
 
 # Silence that ends elsewhere makes the steps of an elastic dam a ten-thousandth longer or shorter.
+@pytest.mark.slow
 @pytest.mark.parametrize(("model", "more"), [(rigid, ""), (flexible, '[analysis]\nsilence = "0 s"\n')])
 def test_each_run_is_the_one_by_hand_at_every_crack(tmp_path, model, more):
     plan = plan_of(read_study(study(tmp_path, f'"{model.__name__}"', DAM + more)))

@@ -116,6 +116,7 @@ def test_terminal_says_the_worse_sign_the_worst_crack_and_what_is_not_met(termin
     assert table.count(" mm") == 4
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("no_figures")
 def test_page_one_says_what_the_terminal_and_the_static_checks_say(file, terminal, checks):
     answer, text = terminal

@@ -59,6 +59,7 @@ def check(figure):
             assert not a.padded(-0.5).overlaps(b.padded(-0.5)), (one, other)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("units", ["si", pytest.param("us", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("more", [pytest.param([], marks=pytest.mark.slow), EVERYTHING], ids=["plain", "everything"])
 @pytest.mark.parametrize("changes", SHAPES, ids=lambda changes: " ".join(changes) or "base")

@@ -190,6 +190,7 @@ def test_the_report_is_in_units_of_the_united_states_all_through(joints):
     assert "psi" in text
 
 
+@pytest.mark.slow
 def test_figures_of_every_load_case(joints):
     case, result = joints
     figures = statics_figures(result, "us")

@@ -53,6 +53,7 @@ def test_the_head_is_that_of_a_run(case, tmp_path, what):
     assert document.footer.startswith("Safety review · revision 2 · heeltoe ")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", ["suite", "study"])
 def test_the_dam_stands_below_its_heading(case, tmp_path, what):
     results = studied(case, tmp_path / what, what)

@@ -89,6 +89,7 @@ def test_what_the_slip_hangs_on_has_a_section(tmp_path, method, figure):
     assert section.blocks[1].name == figure
 
 
+@pytest.mark.slow
 def test_the_command_writes_it_beside_the_runs(tmp_path):
     out = tmp_path / "out"
     file = study_file(tmp_path, GRID)

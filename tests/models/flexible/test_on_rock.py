@@ -184,6 +184,7 @@ def test_rock_too_soft_for_its_shapes_is_warned_of(crack, monkeypatch):
     assert dict(notice.quantities)["error"] > full_rock_module.ENOUGH
 
 
+@pytest.mark.slow
 def test_a_larger_box_answers_the_same(monkeypatch):
     usual = run(read_case(dam()), "flexible").residual_slip_m
     monkeypatch.setattr(rock_module, "EXTENT", 1.5 * rock_module.EXTENT)

@@ -118,6 +118,7 @@ def test_rock_takes_and_never_gives(reduced):
         assert np.linalg.eigvalsh((mobility + mobility.conj().T) / 2.0)[0] > -1e-9 * np.abs(mobility).max()
 
 
+@pytest.mark.slow
 def test_larger_box_answers_the_same(full):
     larger = full_rock(BASE, ROCK, highest=40.0, extent=150.0)
     tractions = smooth_tractions(BASE)[:, :2]
