@@ -119,6 +119,7 @@ def test_a_tendon_bears_more_than_its_capacity_from_a_known_slip_on(model):
     assert f"{borne.yields_s:.3f} s" in warning.text()
 
 
+@pytest.mark.slow
 def test_the_report_has_the_time_at_which_a_tendon_goes_slack():
     case = block(0.5, 20000, LEANS | {"prestress": "200 kN/m", "capacity": "1 MN/m"})
     push = GroundMotion.from_points([0.0, 0.3, 0.3, 0.8], [-1.5 * G, -1.5 * G, 0.0, 0.0])

@@ -56,7 +56,15 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(
+            name, marks=pytest.mark.slow if name in ("two cracks", "water below the crack", "anchored") else ()
+        )
+        for name in CASES
+    ],
+)
 def test_the_ledger_closes_and_energy_leaves_with_the_water(name):
     response = run(read_case(CASES[name]), "flexible")
     assert response.ok

@@ -211,7 +211,7 @@ def test_crack_nodes_off_the_middle_of_their_sides():
     assert tied == pytest.approx(np.column_stack([x + 2.0, 3.0 * x + 0.5]))
 
 
-@settings(max_examples=25)
+@settings(max_examples=10)
 @given(dams(), st.integers(0, 9), st.floats(0.1, 1.0), st.floats(0.1, 1.0))
 def test_mirror_image(corners, tenths, up, down):
     assume(not flat(corners))

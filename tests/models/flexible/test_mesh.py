@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from heeltoe.errors.error import InputError
@@ -59,6 +59,7 @@ def test_another_number_of_elements_below():
     assert len(mesh.lower.elements) % 4 == 0
 
 
+@settings(max_examples=30)
 @given(dams(), st.integers(0, 9), st.integers(1, 5), st.integers(1, 5))
 def test_mesh_has_the_shape_of_the_section(corners, tenths, across, below):
     top = max(z for _, z in corners)
@@ -103,6 +104,7 @@ def test_rows_grow_away_from_the_crack(elevation, across, away, halvings):
     assert np.sum(np.isclose(mesh.upper.nodes[:, 1], far)) == 2 * across // 2**halvings + 1
 
 
+@settings(max_examples=30)
 @given(dams(), st.integers(0, 9))
 def test_graded_rows_have_the_shape_of_the_section(corners, tenths):
     assume(not flat(corners))
@@ -116,6 +118,7 @@ def test_graded_rows_have_the_shape_of_the_section(corners, tenths):
     assert len(mesh.upper.crack) == 33
 
 
+@settings(max_examples=30)
 @given(dams(), st.integers(0, 9))
 def test_mirror_image(corners, tenths):
     assume(not flat(corners))

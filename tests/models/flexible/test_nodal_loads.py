@@ -25,7 +25,7 @@ uplifts = st.sampled_from(
 )
 
 
-@settings(max_examples=50)
+@settings(max_examples=20)
 @given(dams(), st.integers(0, 9), waters, waters, uplifts, st.integers(1, 4), nappes)
 def test_resultants_are_those_of_the_rigid_body(corners, tenths, up, down, uplift, across, nappe):
     assume(not flat(corners))
@@ -53,7 +53,7 @@ def test_resultants_are_those_of_the_rigid_body(corners, tenths, up, down, uplif
     assert result[0] == pytest.approx(-result[1], rel=1e-9, abs=1e-12 * scale * top)
 
 
-@settings(max_examples=40)
+@settings(max_examples=15)
 @given(dams(), st.integers(0, 9), st.floats(0.01, 1.4), waters, st.integers(1, 4))
 def test_virtual_mass(corners, tenths, filling, down, across):
     assume(not flat(corners))

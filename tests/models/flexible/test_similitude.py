@@ -47,7 +47,9 @@ def similar(length: float, **changes: Any) -> dict[str, Any]:
     } | copy.deepcopy(changes)
 
 
-@pytest.mark.parametrize("surroundings", [pytest.param("rock and sound", marks=pytest.mark.slow), "rock", "sound"])
+@pytest.mark.parametrize(
+    "surroundings", [*(pytest.param(name, marks=pytest.mark.slow) for name in ("rock and sound", "rock")), "sound"]
+)
 def test_the_slip_of_a_similar_dam_is_so_many_times_as_far(surroundings):
     small, large = (read_case(_without(similar(length), surroundings)) for length in (1.0, 16.0))
     one, other = flexible(small, output_step=0.001), flexible(large, output_step=0.004)
@@ -75,6 +77,7 @@ def test_the_band_goes_with_the_dam():
     assert 10.0 < band_of(tall) < 30.0
 
 
+@pytest.mark.slow
 def test_the_rock_and_water_of_the_evidence_answer_half_as_much_again_of_the_band(monkeypatch):
     asked = []
     water_body = reduced.water_body

@@ -27,6 +27,11 @@ LIFT = {
 }
 ALL = [WEAKENING, {**WEAKENING, "form": "exponential"}, SPEED, COHESION, {**COHESION, "slip": "5 mm"}, BARTON, LIFT]
 IDS = ["linear", "exponential", "speed", "brittle", "gradual", "barton", "lift"]
+# One of each kind, and all of them in the slow part.
+FEW = [
+    pytest.param(law, marks=() if name in ("linear", "speed", "barton") else pytest.mark.slow, id=name)
+    for law, name in zip(ALL, IDS, strict=True)
+]
 TIME = np.linspace(0.0, 2.0, 401)
 SHAKING = sum(np.sin(2.0 * np.pi * TIME / period + k) for k, period in enumerate((0.5, 0.37, 0.21)))
 SHAKING *= 0.3 * G * np.sin(np.pi * TIME / 2.0) ** 2
@@ -52,7 +57,7 @@ def motion(factor=1.0, time=TIME):
 PUSH = GroundMotion.from_points([0.0, 0.05, 0.25, 0.3, 2.0], [0.0, -9.0, -9.0, 0.0, 0.0])
 
 
-@pytest.mark.parametrize("law", ALL, ids=IDS)
+@pytest.mark.parametrize("law", FEW)
 def test_a_dam_that_hardly_gives_is_the_rigid_one(law):
     # A low dam, which slides and stands on all of its crack: a stiff crack has linear stresses, the law of the block
     # goes by their mean.
@@ -67,7 +72,7 @@ def test_a_dam_that_hardly_gives_is_the_rigid_one(law):
         assert dam.friction_law[name] == pytest.approx(block.friction_law[name], rel=0.03)
 
 
-@pytest.mark.parametrize("law", ALL, ids=IDS)
+@pytest.mark.parametrize("law", FEW)
 def test_a_mirror_image_moves_the_other_way(law):
     mirrored = [(24.0 - x, z) for x, z in reversed(CORNERS)]
     one = flexible(case(law, flexible={"time_step": "0.2 ms"}), motion())

@@ -16,7 +16,10 @@ FACE = np.column_stack([0.0 * HEIGHTS, HEIGHTS])
 WET = HEIGHTS <= DEPTH
 
 
-@pytest.fixture(scope="module", params=[1.0, 0.9, 0.5, 0.0])
+@pytest.fixture(
+    scope="module",
+    params=[1.0, 0.5, *(pytest.param(reflection, marks=pytest.mark.slow) for reflection in (0.9, 0.0))],
+)
 def water(request):
     return request.param, reduced_water(FACE, DEPTH, wave_speed=SPEED, reflection=request.param, density=DENSITY)
 
