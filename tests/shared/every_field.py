@@ -226,11 +226,9 @@ BONDED: Fields = {
     "initial_energy": "200 N/m",
     "dynamic_factor": 1.1,
 }
-# What [statics] says of the bond of a joint counts before the bond itself.
-OWN_BOND: Fields = {f"statics.{name}": GONE for name in ("bonded", "cohesion", "tensile_strength")}
-HELPED |= {f"crack.bond.{name}": ({"crack.bond": BONDED, **OWN_BOND}, None) for name in BONDED}
+HELPED |= {f"crack.bond.{name}": ({"crack.bond": BONDED}, None) for name in BONDED}
 HELPED |= {
-    f"further_cracks[0].bond.{name}": (SEVERAL | {"further_cracks": [SECOND | {"bond": BONDED}], **OWN_BOND}, None)
+    f"further_cracks[0].bond.{name}": (SEVERAL | {"further_cracks": [SECOND | {"bond": BONDED}]}, None)
     for name in BONDED
 }
 HELPED |= {

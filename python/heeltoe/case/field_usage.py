@@ -249,6 +249,13 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
     yield flexible and options.contact == "idce", 'flexible.contact = "idce"', ("flexible.theta",)
     bonded = any(crack.bond is not None for crack in (case.crack, *case.further_cracks))
     yield not bonded, "no crack has a bond", ("limits.cracked_length",)
+    yield (
+        set(models) == {"statics"} and choice.has_own_bond,
+        "[statics] has a bond of its own",
+        tuple(
+            f"{crack}.bond.{name}" for crack in ("crack", "further_cracks") for name in ("tensile_strength", "cohesion")
+        ),
+    )
     unjudged = case.concrete.tensile_strength is None
     yield flexible and unjudged, "concrete.tensile_strength is not given", ("concrete.dynamic_tension",)
     water = any(body and body.depth for body in (case.reservoir, case.tailwater))

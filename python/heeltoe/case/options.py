@@ -273,6 +273,11 @@ class StaticsChoice(Fields):
     """Lift joints to judge, the base among them where it is listed: elevations, or tables with what differs there."""
 
     @property
+    def has_own_bond(self) -> bool:
+        """Whether the static checks count a bond of their own instead of that of the joint."""
+        return not self.model_fields_set.isdisjoint(("bonded", "cohesion", "tensile_strength"))
+
+    @property
     def pseudo_static(self) -> tuple[StaticsEarthquake, ...]:
         """The earthquakes of the pseudo-static checks; that of `seismic_coefficient` has no name."""
         if self.seismic_coefficient is None:

@@ -26,8 +26,7 @@ from heeltoe.models.statics.spectral import SpectralDemand
 from heeltoe.models.statics.water import StillWater, still_water, water_in_earthquake
 from heeltoe.units.sentences import Sentence
 
-# Fields of [statics] that say what of a joint is bonded; sources of slips that no run has found.
-_OWN_BOND = ("bonded", "cohesion", "tensile_strength")
+# Sources of slips that no run has found.
 NO_SLIP, OWN_SLIP = "no slip is given, taken as zero", "statics.residual_slip"
 _NO_RUN = (NO_SLIP, OWN_SLIP)
 
@@ -296,7 +295,7 @@ def bond_of(case: Case) -> JointBond:
     """Return the bond that the checks count, in all load cases by one rule: that of ``[statics]`` where the case gives
     one of its fields, else that of ``[crack.bond]`` over the whole joint."""
     width, choice, bond, law = case.cut.crack_width, case.statics, case.crack.bond, case.crack.law
-    if bond is not None and choice.model_fields_set.isdisjoint(_OWN_BOND):
+    if bond is not None and not choice.has_own_bond:
         return JointBond(0.0, bond.tensile_strength, bond.cohesion, "crack.bond")
     # The cohesion of a law is that of the whole crack, unless the case says how much of it is bonded.
     whole = law is not None and law.cohesion is not None and "bonded" not in choice.model_fields_set
