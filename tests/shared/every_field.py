@@ -242,7 +242,8 @@ ON_ROCK: Fields = {
     **dict.fromkeys(("anchors", "uplift.during_shaking", "uplift.opening", "flexible.elements_across_below"), GONE),
 }
 HELPED |= {
-    f"rock.{name}": (ON_ROCK, None) for name in ("modulus", "poisson", "density", "damping", "radiation", "massless")
+    f"rock.{name}": (ON_ROCK, None)
+    for name in ("modulus", "poisson", "density", "damping", "radiation", "bears_uplift", "massless")
 }
 HELPED["crack.kinks"] = (dict.fromkeys(_STRAIGHT_ALONE, GONE), [["8 m", "0.5 m"]])
 HELPED |= {

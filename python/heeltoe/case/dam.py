@@ -96,6 +96,9 @@ class Rock(Fields):
     """Damping ratio of the material at 5 Hz, in proportion to the stiffness; what leaves as waves comes on top."""
     radiation: Truth = True
     """Waves leave the rock; without it springs hold it far away, and nothing but its material damps."""
+    bears_uplift: Truth = True
+    """The water in a crack at the base presses on the rock as on the dam; without it the rock has settled to that
+    water before."""
     massless: Truth = False
     """The rock has no mass, and so no waves, as in older practice; damping of the rock is its material's alone."""
 

@@ -265,6 +265,11 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
         yield flexible and body is not None and not body.compressible, f"{side}.compressible is not set", fields
     springs = case.rock is not None and case.rock.massless
     yield flexible and springs, "rock.massless is set", ("rock.density", "rock.radiation")
+    lowest = case.single_crack_cases[-1]
+    bonded_to_rock = case.rock is not None and case.outline.area - lowest.cut.area > 1e-9 * case.outline.area
+    yield flexible and bonded_to_rock, "all cracks are above the base", ("rock.bears_uplift",)
+    dry_crack = case.rock is not None and lowest.uplift.pattern == "none"
+    yield flexible and dry_crack, "the crack on the rock has no uplift", ("rock.bears_uplift",)
     below = case.outline.area - case.cut.area > 1e-9 * case.outline.area
     across, across_below = "flexible.elements_across", "flexible.elements_across_below"
     yield elastic and not below, "nothing is below the crack", (across_below,)

@@ -125,6 +125,7 @@ depth = "95 m"                     # above the lowest point of the section
 # density = "2650 kg/m^3"
 # damping = 0.02                   # of the material at 5 Hz; waves that leave come on top
 # radiation = true                 # false: springs far away, and no waves leave
+# bears_uplift = true              # water in a crack at the base presses on the rock, too; false: it has settled to it
 # massless = false                 # true: no waves at all, as in older practice
 
 # [ice]

@@ -90,6 +90,28 @@ def test_the_ledger_closes_and_energy_leaves_in_the_rock(name):
     assert response.dam.contact_residual < (1e-4 if "twice" in name else 1e-9)
 
 
+def test_water_in_a_closed_crack_takes_over_a_part_of_what_the_rock_bears():
+    """Contact and water together press on the rock as the dam does without water in its crack: nothing moves."""
+    wet, dry, settled = (
+        build_flexible_dam(
+            read_case(dam(reservoir={"depth": "12 m"}, uplift=uplift, rock=ROCK | {"bears_uplift": bears}))
+        )
+        for uplift, bears in (
+            ({"pattern": "triangular"}, True),
+            ({"pattern": "none"}, True),
+            ({"pattern": "triangular"}, False),
+        )
+    )
+    assert wet.start.open_contacts == dry.start.open_contacts == (0,)
+    (at_rest,), (without,), (gone,) = wet.static, dry.static, settled.static
+    assert np.abs(at_rest - without).max() < 1e-6 * np.abs(without).max()
+    assert np.abs(gone - without).max() > 0.01 * np.abs(without).max()
+    # The contact has less to bear by the uplift: a triangle, the head of 12 m at the heel.
+    carried = np.sum(dry.crack_forces[0][1]) - np.sum(wet.crack_forces[0][1])
+    width = wet.section.crack_width
+    assert abs(carried) == pytest.approx(0.5 * 1000.0 * 9.80665 * 12.0 * width, rel=1e-6)
+
+
 def test_nodes_that_are_watched_twice_slide_as_those_that_are_watched_once():
     plain, twice = (run(read_case(CASES[name]), "flexible").residual_slip_m for name in ("plain", "watched twice"))
     assert twice == pytest.approx(plain, rel=1e-3)

@@ -58,7 +58,7 @@ def _across(
     alone: Case, faces: Sequence[BodyMesh], rock: RockBody | None, profile: Floats | None = None
 ) -> tuple[Floats, ...]:
     """Return the forces of the water on the nodes of either face, across the crack [N]. The rock bears those of a dam
-    on it the other way round; to what it bears at rest it has settled, and it moves by their changes."""
+    on it the other way round."""
     result = []
     for side, mesh in enumerate(faces):
         forces = uplift_forces(mesh, alone, above=side == 0, profile=profile)
@@ -67,6 +67,13 @@ def _across(
     if rock is not None:
         result.append(np.pad(-result[-1], rock.beyond))
     return tuple(result)
+
+
+def water_on_rock(alone: Case, faces: Sequence[BodyMesh], rock: RockBody) -> Floats:
+    """Return what the water in a crack at rest does to the rock below, in the modes of the rock (m,)."""
+    across = _across(alone, faces, rock)[-1]
+    load: Floats = rock.shapes[:, across.size :] @ across
+    return load
 
 
 def crack_anchors(alone: Case, faces: Sequence[BodyMesh], rock: RockBody | None = None) -> tuple[CrackAnchor, ...]:

@@ -23,7 +23,7 @@ from heeltoe.models.flexible.body.bond import kernel_bond
 from heeltoe.models.flexible.body.bonded import NOT_OF_DAM, BondedDam, bonded_dam, case_key
 from heeltoe.models.flexible.body.damping import Damping, damping_of
 from heeltoe.models.flexible.body.elastic import Body, crack_forces
-from heeltoe.models.flexible.body.inside import crack_anchors, following_water
+from heeltoe.models.flexible.body.inside import crack_anchors, following_water, water_on_rock
 from heeltoe.models.flexible.body.modes import Modes
 from heeltoe.models.flexible.body.reservoir import WaterBody, water_body
 from heeltoe.models.flexible.body.rock import RockBody, founded, rock_body
@@ -207,6 +207,9 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
         whole = founded(case, bonded, larger=larger)
         rock = rock_body(case, bodies[-1], larger=larger)
     reservoir = water.result()
+    if rock is not None and case.rock is not None and case.rock.bears_uplift:
+        last = len(sections) - 1
+        rock = replace(rock, pressed=water_on_rock(case.single_crack_cases[last], bonded.faces(last), rock))
     if whole is not None:
         damping = damping.founded(whole.held, whole.bent)
         modes = (*modes[:-1], whole.modes)
@@ -321,14 +324,14 @@ def damped(dam: FlexibleDam, factor: float) -> FlexibleDam:
 
 
 def _reduced_rock(rock: RockBody, section: CutSection, part: ReducedBody) -> ReducedBody:
-    """Return the rock as a body of the kernel: nobody shakes it, and it has settled under its own weight. Its dashpots
-    and its share in the water are as many as those of a `part` of the dam, and none."""
+    """Return the rock as a body of the kernel: no ground shakes it, and it has settled under its own weight. Its
+    dashpots and its share in the water are as many as those of a `part` of the dam, and none."""
     none, size = np.zeros(rock.omega_squared.size), rock.omega_squared.size
     return ReducedBody(
         omega_squared=rock.omega_squared,
         damping_sticking=none,
         damping_free=none,
-        load=none,
+        load=rock.pressed,
         participation_horizontal=none,
         participation_vertical=none,
         start=none,

@@ -50,6 +50,8 @@ class RockBody:
         (k, 2) where these are, x and z [m].
     error
         That of the rock in few unknowns, see there.
+    pressed
+        (m,) what the water in the crack at rest does to it.
     beyond
         How many of them are beyond the heel, and beyond the toe.
     """
@@ -59,6 +61,7 @@ class RockBody:
     shapes: Floats
     points: Floats
     error: float
+    pressed: Floats
     beyond: int = 2 * BEYOND
 
 
@@ -177,7 +180,8 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
     reduced = _rock_below(points, case.rock, larger, larger * band_of(case), beyond=2 * BEYOND)
     count = reduced.omega_squared.size
     shapes = reduced.shapes.T.reshape(count, -1, 2).swapaxes(1, 2).reshape(count, -1)
-    return RockBody(reduced.omega_squared, reduced.damping, np.ascontiguousarray(shapes), points, reduced.error)
+    still = np.zeros(count)
+    return RockBody(reduced.omega_squared, reduced.damping, np.ascontiguousarray(shapes), points, reduced.error, still)
 
 
 def _rock_below(points: Floats, rock: Rock, larger: float, highest: float, *, beyond: int = 0) -> ReducedRock:
