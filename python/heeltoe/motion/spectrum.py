@@ -16,8 +16,6 @@ from heeltoe.motion.ground_motion import GroundMotion
 _SHORTEST = 1e-4
 #: 200 periods from 0.02 s to 10 s, evenly spread on a logarithmic axis.
 PERIODS: Floats = np.geomspace(0.02, 10.0, 200)
-# Ordinates up to so many times that at period zero are those of the ground.
-_AMPLIFIED = 1.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,31 +79,3 @@ def response_spectrum(motion: GroundMotion, periods: ArrayLike | None = None, da
         raise InputError("spectrum-period", "periods", least=f"{_SHORTEST:g} s")
     displacement, total = peak_responses(motion.time, motion.acceleration, period, damping)
     return Spectrum(motion.name, period, damping, displacement, total)
-
-
-def rigid_share(periods: Floats, ordinates: Floats, peak: float, period: float) -> float:
-    """Return the part of a mode's answer that follows the ground at once: 0 for a long period, 1 for a short one.
-
-    Between two frequencies the share rises with the logarithm of the frequency: from that of the largest
-    pseudo-acceleration over the largest pseudo-velocity, to a third of it and two thirds of the one above which
-    ordinates are those of the ground (Gupta 1990; NRC Regulatory Guide 1.92, revision 3, section C.1.4.1).
-
-    Parameters
-    ----------
-    periods
-        (k,) rising [s], above zero.
-    ordinates
-        (k,) pseudo-acceleration [m/s2].
-    peak
-        Ordinate at period zero [m/s2].
-    period
-        Of the mode [s].
-    """
-    amplified = np.flatnonzero(ordinates > _AMPLIFIED * peak)
-    if not amplified.size:
-        return 1.0
-    low = float(ordinates.max() / np.max(ordinates * periods))
-    high = (low + 2.0 / float(periods[amplified[0]])) / 3.0
-    if high <= low:
-        return float(1.0 / period >= low)
-    return float(np.clip(np.log(1.0 / (period * low)) / np.log(high / low), 0.0, 1.0))

@@ -107,7 +107,7 @@ def response_spectrum(case: Case, before: Solved, demand: SpectralDemand) -> tup
     """
     contact, water, source = _in_earthquake(case, before)
     name = "response spectrum"
-    first = Sentence.of(
+    mode = Sentence.of(
         "first mode with water and rock {period_s:.3g s}, {damping:.3g} of damping: {acceleration:.3g} g by "
         "{spectrum}, whose zero period has {zero:.3g} g",
         period_s=demand.period_s,
@@ -116,23 +116,12 @@ def response_spectrum(case: Case, before: Solved, demand: SpectralDemand) -> tup
         spectrum=plain(demand.spectrum),
         zero=demand.peak_ground_acceleration_m_s2 / case.gravity,
     )
-    second = Sentence("the second mode has no peak and counts with the higher ones")
-    if demand.second_mode is not None:
-        second = Sentence.of(
-            "second mode {period_s:.3g s}, {damping:.3g} of damping: {acceleration:.3g} g",
-            period_s=demand.second_mode.period_s,
-            damping=demand.second_mode.damping_ratio,
-            acceleration=demand.second_mode.pseudo_acceleration_m_s2 / case.gravity,
-        )
     taken = (
         Sentence(f"uplift: {source}"),
-        first,
-        second,
-        Sentence.of(
-            "higher modes follow the ground at once (static correction), and so do {share:.2g} of the first one; what "
-            "follows it is added, all else is combined by the root of the sum of squares, with the signs of the first "
-            "mode; no vertical motion",
-            share=demand.rigid_share,
+        mode,
+        Sentence(
+            "higher modes follow the ground at once (static correction); both by the root of the sum of squares, with "
+            "the signs of the first mode; no vertical motion"
         ),
     )
     solved = []
@@ -143,7 +132,7 @@ def response_spectrum(case: Case, before: Solved, demand: SpectralDemand) -> tup
             case.crack.apparent_friction,
             bond_of(case).cohesion,
             (*taken, *_about_bond(case)),
-            sources_of(case) | {name: Sentence("two modes and static correction, concrete and water together")},
+            sources_of(case) | {name: Sentence("first mode and static correction, concrete and water together")},
             peak_of(case.crack),
         )
         force = scaled(name, demand.push(), sign)

@@ -1,8 +1,5 @@
-"""Forces of an earthquake on a section by its response spectrum: two modes of the dam with water and rock, and a static
-correction for all higher ones (Fenves and Chopra 1987, who take one mode).
-
-A mode of short period answers for a part at the moment at which the ground accelerates most, as the higher modes do:
-these parts are added, the others are combined by the root of their squares (Gupta 1990)."""
+"""What an earthquake asks of a section by its response spectrum: the first mode of the dam with water and rock, and a
+static correction for all higher ones (Fenves and Chopra 1987)."""
 
 from __future__ import annotations
 
@@ -34,18 +31,6 @@ class Push(Block):
         return cls(horizontal_n=across, vertical_n=up, moment_about_heel_nm=moment, lift_moment_nm=lift)
 
 
-class SecondMode(Block):
-    """The second mode of the dam without a crack, with its water and its rock."""
-
-    period_s: Annotated[float, Number("Period of the second mode.", "s")]
-    damping_ratio: Annotated[float, Number("Effective damping ratio of the second mode.")]
-    pseudo_acceleration_m_s2: Annotated[float, Number("Ordinate of the spectrum at that period and damping.", "m/s²")]
-    rigid_share: Annotated[
-        float, Number("Part of the answer of that mode at the moment of the largest acceleration of the ground.")
-    ]
-    push: Annotated[Push, Number("Push of inertia and moving water on what is above the crack, by the second mode.")]
-
-
 class SpectralDemand(Block):
     """Forces of an earthquake on what is above a section, at the first mode's largest push downstream."""
 
@@ -55,47 +40,22 @@ class SpectralDemand(Block):
     ]
     damping_ratio: Annotated[float, Number("Effective damping ratio of that mode.")]
     pseudo_acceleration_m_s2: Annotated[float, Number("Ordinate of the spectrum at that period and damping.", "m/s²")]
-    rigid_share: Annotated[
-        float, Number("Part of the answer of that mode at the moment of the largest acceleration of the ground.")
-    ]
     peak_ground_acceleration_m_s2: Annotated[float, Number("Ordinate of the spectrum at period zero.", "m/s²")]
     first_mode: Annotated[
         Push, Number("Push of inertia and moving water on what is above the crack, by the first mode.")
-    ]
-    second_mode: Annotated[
-        SecondMode | None, Number("The second mode; null where waves that leave take so much that it has no peak.")
     ]
     static_correction: Annotated[Push, Number("The same of all higher modes, which follow the ground at once.")]
 
     @property
     def together(
         self,
-    ) -> Annotated[
-        Push,
-        Number(
-            "All together, with the signs of the first mode: root of the sum of the squares of what each mode does by "
-            "itself and of the sum of what moves with the ground."
-        ),
-    ]:
-        """All together."""
-        modes = [(self.rigid_share, vars(self.first_mode))]
-        if self.second_mode is not None:
-            modes.append((self.second_mode.rigid_share, vars(self.second_mode.push)))
-        return Push(
-            **{
-                name: math.copysign(
-                    math.hypot(
-                        sum((share * push[name] for share, push in modes), start=rest),
-                        *(math.sqrt(1.0 - share**2) * push[name] for share, push in modes),
-                    ),
-                    modes[0][1][name],
-                )
-                for name, rest in vars(self.static_correction).items()
-            }
-        )
+    ) -> Annotated[Push, Number("Root of the sum of squares of both, with the signs of the first mode.")]:
+        """Both together."""
+        first, rest = vars(self.first_mode), vars(self.static_correction)
+        return Push(**{name: math.copysign(math.hypot(value, rest[name]), value) for name, value in first.items()})
 
     def push(self) -> Resultant:
-        """Return all three together as a force."""
+        """Return both together as a force."""
         push = self.together
         return Resultant(
             "response spectrum",
