@@ -231,7 +231,7 @@ def _scaling_to_sa(case: Case, sa: str) -> dict[str, Any]:
     if not at:
         if case.concrete.modulus is None:
             raise InputError("suite-no-period", "--sa", "T1")
-        from heeltoe.models.flexible.surroundings.first_mode import first_period
+        from heeltoe.models.flexible.surroundings.lowest_modes import first_period
 
         period = f"{first_period(case, '--sa'):.6g} s"
     parse_acceleration(acceleration, "--sa")

@@ -65,7 +65,7 @@ def statics(
         str | None,
         typer.Option(
             metavar="motion|SPECTRUM",
-            help="Check an earthquake by its response spectrum, too, with the first mode of the dam with water and "
+            help="Check an earthquake by its response spectrum, too, with two modes of the dam with water and "
             "rock: that of the case's motion, or a design spectrum, as heeltoe motion --match takes it.",
         ),
     ] = None,

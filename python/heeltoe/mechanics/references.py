@@ -110,6 +110,7 @@ REFERENCES = {
         'G. Fenves and A. K. Chopra, "Simplified earthquake analysis of concrete gravity dams", Journal of Structural '
         "Engineering, ASCE 113 (1987), 1688-1708"
     ),
+    "rigid response": "A. K. Gupta, Response Spectrum Method in Seismic Analysis and Design of Structures (1990)",
     "follows opening": (
         'F. Javanmardi, P. Léger and R. Tinawi, "Seismic structural stability of concrete gravity dams considering '
         'transient uplift pressures in cracks", Engineering Structures 27 (2005), 616-628'

@@ -7,8 +7,8 @@ import pytest
 
 import heeltoe
 from heeltoe import dam_periods, read_case
-from heeltoe.models.flexible.surroundings import first_mode
-from heeltoe.models.flexible.surroundings.first_mode import first_period
+from heeltoe.models.flexible.surroundings import lowest_modes
+from heeltoe.models.flexible.surroundings.lowest_modes import first_period
 from shared.dams import EXAMPLES, HEIGHT, example
 
 # A joint that holds, and half a second of a push: the dam rings.
@@ -39,7 +39,7 @@ def test_the_first_period_is_that_at_which_the_dam_rings():
 
 
 def test_a_suite_is_scaled_at_the_period_on_the_rock_of_the_dam(monkeypatch):
-    monkeypatch.setattr(first_mode, "first_period", lambda case, field: 0.5 if case.rock else 0.4)
+    monkeypatch.setattr(lowest_modes, "first_period", lambda case, field: 0.5 if case.rock else 0.4)
     suite = heeltoe.run_suite(example("on-rock"), "elcentro-1940-180-nga", model="rigid", sa="0.5 g")
     assert suite.manifest["study"]["motions"]["scale"]["period"] == "0.5 s"
 

@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from heeltoe import InputError, en_1998, read_case, statics_of_sections, synthetic, with_response_spectrum
+from heeltoe import InputError, en_1998, read_case, statics_of_sections, with_response_spectrum
 from heeltoe.case.shaking import resolve
-from heeltoe.models.flexible.surroundings.first_mode import SectionForces, first_mode
-from heeltoe.motion.spectrum import response_spectrum
+from heeltoe.models.flexible.surroundings.lowest_modes import SectionForces, lowest_modes
 from shared.command import command
 from shared.dams import BLOCK, HEIGHT, example
 
@@ -28,9 +27,12 @@ DESIGN = "en1998:0.02 g,B"
 G = 9.80665
 
 
-def cantilever() -> tuple[float, float]:
-    """Share of its mass in the first mode of a cantilever, and the height of that push over its own."""
-    root = 1.875104068711961
+# Of the frequencies of a cantilever.
+ROOTS = (1.875104068711961, 4.694091132974175)
+
+
+def cantilever(root: float) -> tuple[float, float]:
+    """Share of its mass in a mode of a cantilever, and the height of that push over its own."""
     at = np.linspace(0.0, 1.0, 20001)
     ratio = (np.cosh(root) + np.cos(root)) / (np.sinh(root) + np.sin(root))
     shape = np.cosh(root * at) - np.cos(root * at) - ratio * (np.sinh(root * at) - np.sin(root * at))
@@ -38,71 +40,84 @@ def cantilever() -> tuple[float, float]:
     return float(mean**2 / square), float(lever / mean)
 
 
-def test_a_cantilever_by_hand():
-    joints = with_response_spectrum(statics_of_sections(read_case(TOWER)), DESIGN)
-    (joint,) = joints.joints
-    mass, (share, height) = 2.0 * 60.0 * 2400.0, cantilever()
-    period = 2.0 * math.pi * 60.0**2 / 1.875104**2 * math.sqrt(2400.0 / (20e9 * 2.0**2 / 12.0))
-    acceleration = float(en_1998(0.02 * G, "B")([period])[0])
-    ground = 0.02 * G * 1.2
-    shear = mass * math.hypot(share * acceleration, (1.0 - share) * ground)
-    moment = mass * 60.0 * math.hypot(share * height * acceleration, (0.5 - share * height) * ground)
+@pytest.mark.parametrize("modulus", [20e9, 2e12])
+def test_a_cantilever_by_hand(modulus):
+    """Both modes of Euler and Bernoulli; both slow, then both partly going with the ground."""
+    case = read_case(TOWER).with_(f"concrete.modulus={modulus} Pa")
+    (joint,) = with_response_spectrum(statics_of_sections(case), DESIGN).joints
+    mass, ground = 2.0 * 60.0 * 2400.0, 0.02 * G * 1.2
+    periods = [2.0 * math.pi * 60.0**2 / root**2 * math.sqrt(2400.0 / (modulus * 2.0**2 / 12.0)) for root in ROOTS]
+    accelerations = en_1998(0.02 * G, "B")(periods)
+    # Largest acceleration and velocity of that spectrum meet at 0.5 s; (2 + 2 * 33) / 3 Hz.
+    with_ground = [min(1.0, max(0.0, math.log(0.5 / period) / math.log(34.0 / 3.0))) for period in periods]
+    pushes = []
+    for length in (False, True):
+        parts = [share * (60.0 * height if length else 1.0) for share, height in map(cantilever, ROOTS)]
+        whole = 30.0 if length else 1.0
+        moved = [mass * part * acceleration for part, acceleration in zip(parts, accelerations, strict=True)]
+        summed = mass * ground * (whole - sum(parts)) + np.dot(moved, with_ground)
+        pushes.append(math.hypot(summed, *np.array(moved) * np.sqrt(1.0 - np.square(with_ground))))
+    shear, moment = pushes
     result = joint.statics.response_spectrum
-    assert result.period_s == pytest.approx(period, rel=0.005)
-    assert result.damping_ratio == pytest.approx(0.05, rel=0.01)
+    for mode, period, share in zip((result.first_mode, result.second_mode), periods, with_ground, strict=True):
+        # Shear takes its part of the second period.
+        assert mode.period_s == pytest.approx(period, rel=0.005 if mode is result.first_mode else 0.015)
+        assert mode.damping_ratio == pytest.approx(0.05, rel=0.03)
+        assert mode.rigid_share == pytest.approx(share, abs=0.01)
     downstream, upstream = (case for case in joint.statics.cases if case.name.startswith("response spectrum"))
-    assert downstream.shear_force_n == pytest.approx(shear, rel=0.005)
-    assert upstream.shear_force_n == pytest.approx(-shear, rel=0.005)
-    assert result.push().moment == pytest.approx(-moment, rel=0.005)
+    assert downstream.shear_force_n == pytest.approx(shear, rel=0.01)
+    assert upstream.shear_force_n == pytest.approx(-downstream.shear_force_n, rel=1e-9)
+    assert result.push().moment == pytest.approx(-moment, rel=0.01)
     weight = mass * G
     assert downstream.normal_force_n == pytest.approx(weight, rel=1e-9)
-    assert downstream.sliding_factor == pytest.approx(weight / shear, rel=0.005)
-    assert downstream.resultant_from_heel_m == pytest.approx(1.0 + moment / weight, rel=0.005)
+    assert downstream.sliding_factor == pytest.approx(weight / shear, rel=0.01)
+    if modulus == 20e9:
+        assert downstream.resultant_from_heel_m == pytest.approx(1.0 + moment / weight, rel=0.01)
 
 
 def test_a_stiff_dam_moves_with_the_ground():
-    mode = first_mode(example("typical-height", COARSE, "concrete.modulus=1e5 GPa"), "spectrum")
+    modes = lowest_modes(example("typical-height", COARSE, "concrete.modulus=1e5 GPa"), "spectrum")
     case = example("typical-height", COARSE)
     block = with_response_spectrum(statics_of_sections(case.with_("statics.seismic_coefficient=0.1")), DESIGN)
     forces = next(c for c in block.joints[0].statics.cases if c.name == "pseudo-static downstream").forces
     pushed = sum(force.horizontal for force in forces if force.name in ("inertia", "hydrodynamic"))
     # Those of the block, but for the water's mass on elements.
-    assert mode.rigid[0] == pytest.approx(pushed / (0.1 * case.gravity), rel=0.01)
-    assert mode.period < 0.01
+    assert modes.rigid[0] == pytest.approx(pushed / (0.1 * case.gravity), rel=0.01)
+    assert modes.first.period < 0.01
 
 
-def made_to_order(case, request):
-    return [synthetic(f"synthetic:M6.5,20km,seed={seed + 1}") for seed in range(10)]
+def made_to_order(request):
+    return [f"synthetic:M6.5,20km,seed={seed + 1}" for seed in range(10)]
 
 
-def measured(case, request):
-    paths = sorted(request.getfixturevalue("records").glob("ensemble/*"))
-    cases = [case.with_(f"motion.file={path}") for path in paths]
-    return [resolve(other.motion, other.gravity, other.base_directory)[0] for other in cases]
+def measured(request):
+    return [str(path) for path in sorted(request.getfixturevalue("records").glob("ensemble/*"))[::3]]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("motions", [made_to_order, measured])
-def test_time_histories_have_the_same_peaks_in_the_mean(motions, request):
-    """Ten motions and more on the dam on rock before water with sound, bonded: by the frequency domain, beside the
-    spectrum."""
-    case = example("on-rock", COARSE)
+@pytest.mark.parametrize(("dam", "crack"), [("on-rock", "0 m"), ("typical-base", "0 m"), ("typical-height", "20 m")])
+def test_time_histories_have_the_same_peaks_in_the_mean(dam, crack, motions, request):
+    """Ten motions and more on a dam, bonded, by the frequency domain, beside the spectrum: on rock before water with
+    sound, on rigid rock, cracked above its base."""
+    case = example(dam, COARSE, f"crack.elevation={crack}")
     section = SectionForces.of(case, 6.0)
-    mode = first_mode(case, "spectrum")
     step, count = 0.02, 2048
     frequencies = np.fft.rfftfreq(count, step)
     sampled = np.linspace(0.05, 15.0, 200)
     answers = CubicSpline(sampled, [section.at(2.0 * np.pi * frequency) for frequency in sampled])
     transfer = np.where((frequencies > 0.05) & (frequencies < 15.0), answers(frequencies).T, 0.0)
     ratios = []
-    for motion in motions(case, request):
+    for file in motions(request):
+        shaken = case.with_(f'motion.file="{file}"')
+        motion, _ = resolve(shaken.motion, shaken.gravity, shaken.base_directory)
         ground = np.interp(step * np.arange(count), motion.time, motion.acceleration, right=0.0)
         histories = np.fft.irfft(transfer * np.fft.rfft(ground), count)
-        acceleration = response_spectrum(motion, [mode.period], mode.damping).pseudo_acceleration[0]
-        by_spectrum = np.hypot(acceleration * mode.push, motion.pga * (mode.rigid - mode.push))
-        ratios.append(by_spectrum[[0, 2]] / np.abs(histories[[0, 2]]).max(axis=1))
+        push = with_response_spectrum(statics_of_sections(shaken)).joints[0].statics.response_spectrum.push()
+        ratios.append(np.abs([push.horizontal, push.moment]) / np.abs(histories[[0, 2]]).max(axis=1))
     assert len(ratios) >= 10
     assert np.mean(ratios, axis=0) == pytest.approx(1.0, abs=0.1)
+    assert np.min(np.mean(ratios, axis=0)) > 0.94
 
 
 def test_checks_stand_before_what_comes_after():
@@ -135,8 +150,8 @@ def test_rock_and_water_change_what_is_asked():
         with_response_spectrum(statics_of_sections(case), "motion").joints[0].statics.response_spectrum
         for case in (dam, dam.with_("rock.modulus=20 GPa"))
     )
-    assert soft.period_s > 1.1 * rigid.period_s
-    assert soft.damping_ratio > 1.5 * rigid.damping_ratio
+    assert soft.first_mode.period_s > 1.1 * rigid.first_mode.period_s
+    assert soft.first_mode.damping_ratio > 1.5 * rigid.first_mode.damping_ratio
 
 
 @pytest.mark.parametrize(

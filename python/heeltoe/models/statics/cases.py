@@ -107,21 +107,27 @@ def response_spectrum(case: Case, before: Solved, demand: SpectralDemand) -> tup
     """
     contact, water, source = _in_earthquake(case, before)
     name = "response spectrum"
-    mode = Sentence.of(
-        "first mode with water and rock {period_s:.3g s}, {damping:.3g} of damping: {acceleration:.3g} g by "
-        "{spectrum}, whose zero period has {zero:.3g} g",
-        period_s=demand.period_s,
-        damping=demand.damping_ratio,
-        acceleration=demand.pseudo_acceleration_m_s2 / case.gravity,
-        spectrum=plain(demand.spectrum),
-        zero=demand.peak_ground_acceleration_m_s2 / case.gravity,
+    modes = tuple(
+        Sentence.of(
+            "{which} mode with water and rock {period_s:.3g} s, {damping:.3g} of damping: {acceleration:.3g} g by "
+            "{spectrum}, whose zero period has {zero:.3g} g",
+            which=which,
+            period_s=mode.period_s,
+            damping=mode.damping_ratio,
+            acceleration=mode.pseudo_acceleration_m_s2 / case.gravity,
+            spectrum=plain(demand.spectrum),
+            zero=demand.peak_ground_acceleration_m_s2 / case.gravity,
+        )
+        for which, mode in (("first", demand.first_mode), ("second", demand.second_mode))
+        if mode is not None
     )
     taken = (
         Sentence(f"uplift: {source}"),
-        mode,
+        *modes,
         Sentence(
-            "higher modes follow the ground at once (static correction); both by the root of the sum of squares, with "
-            "the signs of the first mode; no vertical motion"
+            "higher modes follow the ground at once (static correction); what goes with the ground is summed (Gupta "
+            "1990), the rest joins it by the root of the sum of squares, with the signs of the first mode; no vertical "
+            "motion"
         ),
     )
     solved = []

@@ -228,7 +228,7 @@ def with_demand(judged: Statics, case: Case, demand: SpectralDemand) -> Statics:
         warnings=by_gravity([*spoken, *unread]),
         cases=(*judged.cases[:during], *cases, *judged.cases[during:]),
         checks=(*judged.checks[:judged_during], *checks, *judged.checks[judged_during:]),
-        references=(*judged.references, REFERENCES["response spectrum"]),
+        references=(*judged.references, REFERENCES["response spectrum"], REFERENCES["rigid response"]),
         response_spectrum=demand,
     )
 

@@ -461,7 +461,7 @@ def _with_first_period(study: Study, case: Case) -> Study:
         return study
     if case.concrete.modulus is None:
         raise InputError("suite-no-period", "motions.scale.period", "T1")
-    from heeltoe.models.flexible.surroundings.first_mode import first_period
+    from heeltoe.models.flexible.surroundings.lowest_modes import first_period
 
     # Six digits say what the spectrum is read at, in words and in files.
     first = float(f"{first_period(case, 'motions.scale.period'):.6g}")

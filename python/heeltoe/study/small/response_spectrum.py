@@ -1,18 +1,21 @@
-"""Static checks with an earthquake by its response spectrum: first mode with water and rock, static correction."""
+"""Static checks with an earthquake by its response spectrum: two modes with water and rock, static correction."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
+import numpy as np
+
+from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve
 from heeltoe.errors.error import InputError, expect
-from heeltoe.models.flexible.surroundings.first_mode import first_mode
+from heeltoe.models.flexible.surroundings.lowest_modes import Mode, lowest_modes
 from heeltoe.models.statics.joints import Joints
 from heeltoe.models.statics.model import with_demand
-from heeltoe.models.statics.spectral import Push, SpectralDemand
+from heeltoe.models.statics.spectral import Push, SpectralDemand, SpectralMode
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.motion.targets import target_of
 
@@ -21,15 +24,33 @@ OF_MOTION = "motion"
 # Ordinates of a design spectrum fall with damping by eta = sqrt(10 / (5 + 100 xi)), at least 0.55 (EN 1998-1, 3.2.2.2).
 _LEAST_ETA = 0.55
 
-# Name of a spectrum, its pseudo-acceleration at a period and a damping ratio, and that at period zero [m/s2].
-_Spectrum = tuple[str, Callable[[float, float], float], float]
+# Where all motions have joined the ground, and the periods up to that at which their spectra are looked at.
+_RIGID_HZ = 33.0
+_PERIODS = np.geomspace(1.0 / _RIGID_HZ, 10.0, 200)
+
+
+@dataclass(frozen=True)
+class _Spectrum:
+    """A spectrum: its name, its pseudo-acceleration [m/s2] at a period [s] and a damping ratio, that at period zero,
+    and the frequency [Hz] up to which no oscillator goes with the ground."""
+
+    name: str
+    ordinate: Callable[[float, float], float]
+    peak: float
+    slow: float
+
+    def rigid_share(self, period: float) -> float:
+        """Return which part of an oscillator's response goes with the ground, as its acceleration does (Gupta 1990)."""
+        rigid = (self.slow + 2.0 * _RIGID_HZ) / 3.0
+        return float(np.clip(math.log(1.0 / (period * self.slow)) / math.log(rigid / self.slow), 0.0, 1.0))
 
 
 def with_response_spectrum(joints: Joints, spectrum: str = OF_MOTION, *, field: str = "spectrum") -> Joints:
     """Return static checks with two more load cases: an earthquake by its response spectrum, both ways.
 
-    The dam is elastic and bonded, with water and rock as the case has them: its first mode by its period and its
-    effective damping, all higher modes by a static correction.
+    The dam is elastic and bonded, with water and rock as the case has them: its two lowest modes by their periods and
+    effective damping, all higher ones by a static correction. The part of a mode
+    that goes with the ground adds to that correction with its sign, the rest by the root of the sum of squares.
 
     Parameters
     ----------
@@ -66,14 +87,22 @@ def _spectrum_of(case: Case, spectrum: str, field: str) -> _Spectrum:
         def of_motion(period: float, damping: float) -> float:
             return float(response_spectrum(motion, [period], damping).pseudo_acceleration[0])
 
-        return motion.name, of_motion, motion.pga
+        slow = _slow(_PERIODS, response_spectrum(motion, _PERIODS).pseudo_acceleration)
+        return _Spectrum(motion.name, of_motion, motion.pga, slow)
     target = target_of(spectrum, field, case.gravity)
     peak = float(target([target.shortest])[0])
 
     def of_target(period: float, damping: float) -> float:
         return float(target([period])[0]) * _eta(damping) / _eta(target.damping)
 
-    return target.name, of_target, peak
+    periods = _PERIODS[(target.shortest <= _PERIODS) & (target.longest >= _PERIODS)]
+    return _Spectrum(target.name, of_target, peak, _slow(periods, target(periods)))
+
+
+def _slow(periods: Floats, accelerations: Floats) -> float:
+    """Return the frequency at which the largest acceleration and the largest velocity of a spectrum meet [Hz]."""
+    fastest = float(np.max(accelerations * periods, initial=0.0))
+    return float(np.max(accelerations)) / fastest if fastest > 0.0 else 1.0
 
 
 def _eta(damping: float) -> float:
@@ -81,15 +110,24 @@ def _eta(damping: float) -> float:
 
 
 def _demand(case: Case, spectrum: _Spectrum, field: str) -> SpectralDemand:
-    name, ordinate, peak = spectrum
-    mode = first_mode(case, field)
-    acceleration = ordinate(mode.period, mode.damping)
+    modes = lowest_modes(case, field)
+    first, second = modes.first, modes.second
+    shares = first.push if second is None else first.push + second.push
+
+    def of_mode(mode: Mode) -> SpectralMode:
+        acceleration = spectrum.ordinate(mode.period, mode.damping)
+        return SpectralMode(
+            period_s=mode.period,
+            damping_ratio=mode.damping,
+            pseudo_acceleration_m_s2=acceleration,
+            rigid_share=spectrum.rigid_share(mode.period),
+            push=Push.of(acceleration * mode.push),
+        )
+
     return SpectralDemand(
-        spectrum=name,
-        period_s=mode.period,
-        damping_ratio=mode.damping,
-        pseudo_acceleration_m_s2=acceleration,
-        peak_ground_acceleration_m_s2=peak,
-        first_mode=Push.of(acceleration * mode.push),
-        static_correction=Push.of(peak * (mode.rigid - mode.push)),
+        spectrum=spectrum.name,
+        peak_ground_acceleration_m_s2=spectrum.peak,
+        first_mode=of_mode(first),
+        second_mode=None if second is None else of_mode(second),
+        static_correction=Push.of(spectrum.peak * (modes.rigid - shares)),
     )

@@ -46,12 +46,20 @@ def _demand(demand: SpectralDemand, units: str) -> str:
     """Say what an earthquake asks of a section by its spectrum."""
     push = demand.push()
     return written(
-        "{spectrum}; first mode of {period:.3f s} with {damping:.1f %} of damping; shear {shear:.4g kN/m}, moment "
-        "about the heel that of {arm:.3g m} of arm",
+        "{spectrum}; {modes}; shear {shear:.4g kN/m}, moment about the heel that of {arm:.3g m} of arm",
         units,
         spectrum=demand.spectrum,
-        period=demand.period_s,
-        damping=demand.damping_ratio,
+        modes=" and ".join(
+            written(
+                "{which} mode of {period:.3f s} with {damping:.1f %} of damping",
+                units,
+                which=which,
+                period=mode.period_s,
+                damping=mode.damping_ratio,
+            )
+            for which, mode in (("first", demand.first_mode), ("second", demand.second_mode))
+            if mode is not None
+        ),
         shear=abs(push.horizontal),
         arm=abs(push.moment / push.horizontal),
     )
