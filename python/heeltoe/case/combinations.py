@@ -9,17 +9,36 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Any, Literal, Protocol
 
+from heeltoe.case.crack.crack import Crack, FurtherCrack
 from heeltoe.case.crack.kinks import climbs
+from heeltoe.case.dam import Anchor
+from heeltoe.case.options import StaticsChoice
 from heeltoe.errors.error import InputError, shown
-
-if TYPE_CHECKING:
-    from heeltoe.case.model import Case
 
 # Fields of a case that have a feature, with their values.
 FeatureFields = Iterator[tuple[str, object]]
-Finder = Callable[["Case"], FeatureFields]
+
+
+class Featured(Protocol):
+    """What rules read of a case; blocks of options are read by their names."""
+
+    @property
+    def crack(self) -> Crack: ...
+    @property
+    def further_cracks(self) -> tuple[FurtherCrack, ...]: ...
+    @property
+    def anchors(self) -> tuple[Anchor, ...]: ...
+    @property
+    def aftershocks(self) -> tuple[Any, ...]: ...
+    @property
+    def statics(self) -> StaticsChoice: ...
+    def path_as_written(self, path: str) -> str:
+        """Return the path of a field as the file of the case has it."""
+
+
+Finder = Callable[[Featured], FeatureFields]
 
 
 @dataclass(frozen=True)
@@ -99,13 +118,13 @@ UNSUPPORTED = "unsupported"
 _MODELS = ("flexible", "rigid", "decoupled")
 
 
-def _cracks(case: Case, fewest: int = 2) -> FeatureFields:
+def _cracks(case: Featured, fewest: int = 2) -> FeatureFields:
     if len(case.further_cracks) + 1 >= fewest:
         yield case.path_as_written("further_cracks"), len(case.further_cracks) + 1
 
 
 def _of_cracks(name: str) -> Finder:
-    def find(case: Case) -> FeatureFields:
+    def find(case: Featured) -> FeatureFields:
         for place, crack in enumerate((case.crack, *case.further_cracks)):
             value = getattr(crack, name, None)
             if value:
@@ -118,7 +137,7 @@ def _of_cracks(name: str) -> Finder:
 def _options(*fields: str, unlike: tuple[object, ...] = (None,), among: tuple[object, ...] = ()) -> Finder:
     """Return what finds fields whose values are unlike some, or among others."""
 
-    def find(case: Case) -> FeatureFields:
+    def find(case: Featured) -> FeatureFields:
         for path in fields:
             block, _, name = path.partition(".")
             owner = getattr(case, block)
@@ -130,7 +149,7 @@ def _options(*fields: str, unlike: tuple[object, ...] = (None,), among: tuple[ob
 
 
 def _anchors(*names: str) -> Finder:
-    def find(case: Case) -> FeatureFields:
+    def find(case: Featured) -> FeatureFields:
         for place, anchor in enumerate(case.anchors):
             for name in names:
                 # A place at the heel is one, no stiffness is none.
@@ -140,22 +159,22 @@ def _anchors(*names: str) -> Finder:
     return find
 
 
-def _aftershocks(case: Case) -> FeatureFields:
+def _aftershocks(case: Featured) -> FeatureFields:
     if case.aftershocks:
         yield "aftershocks", None
 
 
-def _closing_drains(case: Case) -> FeatureFields:
+def _closing_drains(case: Featured) -> FeatureFields:
     if case.statics.drain_diameter is not None:
         yield "statics.drain_diameter", None
 
 
-def _cohesive_law(case: Case) -> FeatureFields:
+def _cohesive_law(case: Featured) -> FeatureFields:
     if case.crack.law is not None and case.crack.law.cohesion is not None:
         yield "crack.law.cohesion", None
 
 
-def _cohesion_of_checks(case: Case) -> FeatureFields:
+def _cohesion_of_checks(case: Featured) -> FeatureFields:
     if case.statics.cohesion:
         yield "statics.cohesion", None
 
@@ -375,14 +394,14 @@ RULES = (
 )
 
 
-def conflicts(case: Case) -> Iterator[InputError]:
+def conflicts(case: Featured) -> Iterator[InputError]:
     """Walk the features of a case that do not go together, whatever is done with it."""
     for rule in RULES:
         if not rule.users and rule.verdict == "refused":
             yield from _errors(case, rule, "")
 
 
-def check(case: Case, user: str) -> None:
+def check(case: Featured, user: str) -> None:
     """Refuse a case that has what a model or table does not support; `user` is a key of :data:`USERS`.
 
     Raises
@@ -395,12 +414,12 @@ def check(case: Case, user: str) -> None:
         raise errors[0].with_others(errors[1:])
 
 
-def supports(case: Case, user: str) -> bool:
+def supports(case: Featured, user: str) -> bool:
     """Whether a model or table supports all features of a case."""
     return not any(True for rule in _rules_for(user) for _ in _broken(case, rule))
 
 
-def warned(case: Case, feature: str, user: str) -> bool:
+def warned(case: Featured, feature: str, user: str) -> bool:
     """Whether a feature of a case has less effect in a model than its field says, which a warning tells."""
     rules = [rule for rule in RULES if rule.verdict == "warned" and rule.feature == feature and user in rule.users]
     return any(True for rule in rules for _ in _broken(case, rule))
@@ -427,18 +446,18 @@ def _rules_for(user: str) -> Iterator[Rule]:
     return (rule for rule in RULES if (user in rule.users or not rule.users) and rule.verdict == "refused")
 
 
-def _unsupported(case: Case, user: str) -> Iterator[InputError]:
+def _unsupported(case: Featured, user: str) -> Iterator[InputError]:
     for rule in _rules_for(user):
         yield from _errors(case, rule, user if rule.users else "")
 
 
-def _broken(case: Case, rule: Rule) -> FeatureFields:
+def _broken(case: Featured, rule: Rule) -> FeatureFields:
     """Walk the fields with the feature of a rule, where the case has the other one, too."""
     if not rule.other or any(True for _ in FEATURES[rule.other].find(case)):
         yield from FEATURES[rule.feature].find(case)
 
 
-def _at_another_crack(case: Case, rule: Rule, path: str) -> float | None:
+def _at_another_crack(case: Featured, rule: Rule, path: str) -> float | None:
     """Return the elevation of the crack that has the other feature of a rule, if both are of cracks and no crack has
     both [m]."""
     paths = [
@@ -453,7 +472,7 @@ def _at_another_crack(case: Case, rule: Rule, path: str) -> float | None:
     return cracks[owners[0]].elevation
 
 
-def _errors(case: Case, rule: Rule, user: str) -> Iterator[InputError]:
+def _errors(case: Featured, rule: Rule, user: str) -> Iterator[InputError]:
     for path, value in _broken(case, rule):
         name = rule.feature if value is None else f"{rule.feature} ({shown(value)})"
         remedy = FEATURES[rule.feature].removal

@@ -472,7 +472,8 @@ def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
         _ = case.single_crack_cases  # raises where two meet
     section = case.cut
     for alone, path in zip(case._cases_as_written(), case.crack_paths, strict=True):
-        wrong = kinks_misfit(alone, path)
+        kinks = alone.crack.kinks
+        wrong = kinks_misfit(kinks, alone.cut, alone.outline, alone.crack_line, f"{path}.kinks") if kinks else None
         if wrong is None and case.further_cracks:
             wrong = alone.crack.bond_misfit(f"{path}.")  # with the friction that it inherits
         if wrong is not None:

@@ -4,26 +4,38 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import shapely
 
+from heeltoe.base.arrays import Floats
 from heeltoe.errors.error import InputError, shown
 from heeltoe.geometry.section import CutSection, on_line
 
-if TYPE_CHECKING:
-    from heeltoe.case.model import Case
+Kinks = tuple[tuple[float, float], ...]
 
 # Of a piece of the line, to the straight line from heel to toe and to the horizontal [rad]: on a steeper one a node
 # has no place that is told by its distance from the heel.
 _STEEPEST = math.radians(60.0)
 
 
-def kinks_misfit(alone: Case, crack: str) -> InputError | None:
-    """Return what is wrong with the kinks of a crack in its section, of the case with it `alone`."""
-    section, kinks, field = alone.cut, alone.crack.kinks, f"{crack}.kinks"
-    if not kinks:
-        return None
+def kinks_misfit(
+    kinks: Kinks, section: CutSection, outline: shapely.Polygon, line: Floats, field: str
+) -> InputError | None:
+    """Return what is wrong with the kinks of a crack.
+
+    Parameters
+    ----------
+    kinks
+        Along and above the straight line from heel to toe [m].
+    section
+        The part above that line.
+    outline
+        The whole section [m].
+    line
+        Corners of the crack from heel to toe (x, z), shape (k, 2) [m].
+    field
+        Path of the kinks, for the error.
+    """
     distances = [distance for distance, _ in kinks]
     if distances[0] <= 0.0 or any(a >= b for a, b in pairwise(distances)):
         return InputError("kinks-order", field, shown(distances))
@@ -37,18 +49,18 @@ def kinks_misfit(alone: Case, crack: str) -> InputError | None:
             return InputError(
                 "kinks-steep", field, f"{math.degrees(steepest):.3g} deg", start=f"{start:g} m", most=limit
             )
-    if alone.outline.area - section.area <= 1e-9 * section.area:
+    if outline.area - section.area <= 1e-9 * section.area:
         return InputError("kinks-base", field)
-    if not alone.outline.buffer(on_line(alone.outline)).covers(shapely.LineString(alone.crack_line)):
+    if not outline.buffer(on_line(outline)).covers(shapely.LineString(line)):
         return InputError("kinks-leave", field, shown([list(kink) for kink in kinks]))
     return None
 
 
-def climbs(kinks: tuple[tuple[float, float], ...]) -> bool:
+def climbs(kinks: Kinks) -> bool:
     """Whether a crack with these kinks leaves the straight line from heel to toe."""
     return any(height for _, height in kinks)
 
 
-def corners(section: CutSection, kinks: tuple[tuple[float, float], ...]) -> list[tuple[float, float]]:
+def corners(section: CutSection, kinks: Kinks) -> list[tuple[float, float]]:
     """Return the corners of a crack from heel to toe, along and above the straight line between them [m]."""
     return [(0.0, 0.0), *kinks, (section.crack_width, 0.0)]
