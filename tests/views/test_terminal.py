@@ -73,7 +73,7 @@ def test_both_systems_say_the_same(results):
         return [float(number) * sizes[unit] for number, unit in re.findall(r"(-?[\d.]+) (mm|m|in|ft)\b", line)]
 
     case = read_case(BASE, FAST)
-    for label in ("Residual slip, +", "Peak slip downstream", "Opening, upstream face"):
+    for label in ("Residual slip, +", "Peak slip downstream", "Opening at the upstream face"):
         si, us = (lengths(shown(results["both"], units, case), label) for units in ("si", "us"))
         assert len(si) == len(us) > 0
         assert us == pytest.approx(si, rel=0.02, abs=1e-5)

@@ -15,6 +15,7 @@ from heeltoe.models.run import AUTO, cost_of, earthquake, live, models_of, run
 from heeltoe.models.statics.after import ligament_of, slip_source
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.comparison import meaning
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 
 #: What takes longer than this by its estimate [s] does not begin by itself.
@@ -88,7 +89,7 @@ def flexible(say: Callable[[str], None], case: Case, changes: Mapping[str, Any],
 
 def _elastic(case: Case, response: Response, units: str) -> dict[str, Any]:
     """Return what the page shows of an elastic dam, and what the static checks go on from."""
-    known = response.outcome == "ok"
+    known = response.outcome == Outcome.OK
     left = {
         "case": case.without_evidence().model_dump_json(),
         "source": slip_source(response),

@@ -19,6 +19,7 @@ from heeltoe.mechanics.drains import close_by_slip, drainage_left
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import Part
 from heeltoe.result.numbers import ElasticDam
+from heeltoe.result.outcome import Outcome
 
 if TYPE_CHECKING:
     from heeltoe.kernel.dam import DamRun
@@ -61,7 +62,7 @@ def drained(case: Case, earthquake: Earthquake, run: Callable[[Earthquake], Rest
 
     def slips(drainage: Drainage) -> list[float]:
         runs.append(run(replace(earthquake, drainage=drainage)))
-        return _left(runs[-1].run, parts) if runs[-1].outcome != "unstable" else []
+        return _left(runs[-1].run, parts) if runs[-1].outcome != Outcome.UNSTABLE else []
 
     shares = _left_by_motion(case, parts, slips)
     return runs[-1], shares

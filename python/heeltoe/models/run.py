@@ -32,6 +32,7 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.contract import SHEARS_M
 from heeltoe.result.judge import Judgement
 from heeltoe.result.limits import check_limits, judge_response
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Chosen, Response
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice, by_gravity
@@ -452,7 +453,7 @@ def _slid_off(response: Response, judgement: Judgement) -> tuple[Notice, ...]:
         slip = max(abs(crack.peak_slip_downstream_m), abs(crack.peak_slip_upstream_m))
         if off and slip > crack.crack_width_m:
             notices.append(Notice("slid-off", slip_m=slip, width_m=crack.crack_width_m))
-        elif response.outcome == "ok" and slip > _FAR * crack.crack_width_m:
+        elif response.outcome == Outcome.OK and slip > _FAR * crack.crack_width_m:
             notices.append(Notice("slid-far", share=slip / crack.crack_width_m))
     return tuple(notices)
 
@@ -482,13 +483,13 @@ def _decoupled(case: Case, earthquake: Earthquake, output_step: float | None) ->
     from heeltoe.models.decoupled.model import block_of_chain, run_decoupled
 
     response = run_decoupled(case, earthquake, output_step)
-    if response.outcome != "ok" or not response.impacts or not case.crack.restitution:
+    if response.outcome != Outcome.OK or not response.impacts or not case.crack.restitution:
         return response
     # Blows are where the block and the dam differ most, and the restitution is seldom known.
     dead = case.model_copy(update={"crack": case.crack.model_copy(update={"restitution": 0.0})})
     other = block_of_chain(dead, earthquake.silent(response.silence_s), output_step)
     slip, without = response.residual_slip_m, other.residual_slip_m
-    if other.outcome != "ok" or abs(slip - without) <= max(_DECIDES * abs(slip), _SLIGHT_M):
+    if other.outcome != Outcome.OK or abs(slip - without) <= max(_DECIDES * abs(slip), _SLIGHT_M):
         return response
     notice = Notice("restitution-decides", slip_m=slip, restitution=case.crack.restitution, dead_slip_m=without)
     return replace(response, warnings=(notice, *response.warnings))

@@ -128,10 +128,10 @@ def twin_of(
     :data:`HAIR`, where that differs from the slip of the `response`; None where the slip is determined. The slip of a
     twin without a result is None."""
     bounce = max(alone.crack.restitution for alone in case.single_crack_cases)
-    if bounce < BOUNCY or response.outcome != "ok" or not response.impacts:
+    if bounce < BOUNCY or response.outcome != Outcome.OK or not response.impacts:
         return None
     twin = run(earthquake.silent(response.silence_s).scaled(1.0 + HAIR))
-    if twin.outcome != "ok":
+    if twin.outcome != Outcome.OK:
         return bounce, None
     return None if determined(response.residual_slip_m, twin.residual_slip_m) else (bounce, twin.residual_slip_m)
 
@@ -302,7 +302,7 @@ def rows_until_rest(
 
 def reach_of_block(response: Response) -> float:
     """Return what :func:`until_rest` asks of the run of a block."""
-    return rests_from(response) if response.outcome == "ok" else -math.inf
+    return rests_from(response) if response.outcome == Outcome.OK else -math.inf
 
 
 def where_of(case: Case, alone: Case) -> Sentence | str:
@@ -337,9 +337,11 @@ def about_the_anchors(anchors: Sequence[AnchorForce]) -> Iterator[Notice]:
 def about_the_end(response: Response, *, asked: bool) -> Iterator[Notice]:
     """Say where the dam is not at rest when its run ends, or, where the case has `asked` for a silence, that there was
     no need to wait."""
-    if response.outcome != "ok" or comes_to_rest(response):
+    if response.outcome != Outcome.OK or comes_to_rest(response):
         if asked and not response.silence_s:
-            ended = "nothing moves when the ground motion ends" if response.outcome == "ok" else "the run ends before"
+            ended = (
+                "nothing moves when the ground motion ends" if response.outcome == Outcome.OK else "the run ends before"
+            )
             yield Notice("fields-idle", field="analysis.silence", fields="analysis.silence", why=ended)
         return
     when = Sentence("when the ground motion ends")

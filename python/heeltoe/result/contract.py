@@ -31,6 +31,12 @@ SHEARS_M = 0.01
 
 #: The headline numbers, in the order in which they are shown.
 HEADLINES = tuple(item for item in quantities_of(CrackNumbers) if item.short)
+#: Those of them that are lengths, which a narrow table has.
+LENGTHS = tuple(item for item in HEADLINES if item.kind != "rotation")
+#: That by which a dam is judged first.
+RESIDUAL_SLIP = HEADLINES[0]
+#: The openings, of the upstream face before the downstream one.
+OPENINGS = tuple(item for item in HEADLINES if item.kind == "opening")
 
 #: What the earthquake has cracked of a bonded joint in the end; zero of a crack without a bond.
 CRACKED = "cracked_length_m"

@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
-from heeltoe.result.contract import CRACKED, JOINT_METER_M
+from heeltoe.result.contract import CRACKED, JOINT_METER_M, OPENINGS, RESIDUAL_SLIP
 from heeltoe.result.outcome import Outcome
+from heeltoe.result.quantity import Quantity
 
 Flags = NDArray[np.bool_]
 
@@ -31,13 +32,16 @@ class Limit(NamedTuple):
     unit: str = "m"
 
 
+def _limit_on(item: Quantity) -> Limit:
+    return Limit(item.label, item.heading, (item.key,), item.unit)
+
+
 #: Everything that a case or a study can limit. `opening` stands in studies alone.
 LIMITS = {
-    "residual_slip": Limit("residual slip", "residual slip", ("residual_slip_m",)),
+    "residual_slip": _limit_on(RESIDUAL_SLIP),
     "peak_slip": Limit("largest slip", "peak slip", ("peak_slip_downstream_m", "peak_slip_upstream_m")),
-    "opening": Limit("opening at either face", "opening", ("opening_upstream_m", "opening_downstream_m")),
-    "opening_upstream": Limit("opening at the upstream face", "upstream opening", ("opening_upstream_m",)),
-    "opening_downstream": Limit("opening at the downstream face", "downstream opening", ("opening_downstream_m",)),
+    "opening": Limit("opening at either face", "opening", tuple(item.key for item in OPENINGS)),
+    **{item.key.removesuffix("_m"): _limit_on(item) for item in OPENINGS},
     "cracked_length": Limit("cracked length", "cracked length", (CRACKED,)),
     "rotation": Limit("rotation", "rotation", ("rocking_downstream_rad", "rocking_upstream_rad"), "rad"),
     "crest_displacement": Limit("crest displacement", "crest displacement", ("crest_displacement_m",)),

@@ -66,6 +66,11 @@ class Quantity(Number):
         return LEAST_RAD if self.kind == "rotation" else LEAST_M
 
     @cached_property
+    def heading(self) -> str:
+        """Its short label on one line."""
+        return self.short.replace("\n", " ")
+
+    @cached_property
     def full(self) -> str:
         """Its label, with which way is positive."""
         return f"{self.label}, + downstream" if self.signed else self.label

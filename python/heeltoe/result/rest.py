@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from heeltoe.base.arrays import Floats
-from heeltoe.result.contract import JOINT_METER_M
+from heeltoe.result.contract import JOINT_METER_M, OPENINGS
 
 # Not at run time: a response says its verdict in its JSON.
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ def last_change(time: Floats, slip: Floats, gap_heel: Floats, gap_toe: Floats) -
     A part that turns opens and closes one of its faces, so that no motion of it is missed.
     """
     since = max(time[-1] - LAST_S, time[-1] / 2.0)
-    moved = {"slip": slip, "opening at the upstream face": gap_heel, "opening at the downstream face": gap_toe}
+    moved = {"slip": slip, **dict(zip((item.label for item in OPENINGS), (gap_heel, gap_toe), strict=True))}
     changes = {name: float(np.ptp(values[time >= since])) for name, values in moved.items()}
     what = max(changes, key=lambda name: changes[name])
     return LastChange(float(time[-1] - since), what, changes[what])

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.rest import comes_to_rest, last_of, motion_end, rests_from
 from heeltoe.result.sequence import sequence_sentence
 from heeltoe.result.tension import tension_sentence
@@ -41,7 +42,7 @@ def verdict(response: Response, units: str = "si", *, brief: bool = False) -> st
         failure = f"No result to trust ({response.outcome}): {advice(response, units)}."
         rest = (_signs(response, units), _limits(response, units))
         return " ".join(sentence for sentence in (failure, *rest) if sentence)
-    if response.outcome == "overturned":
+    if response.outcome == Outcome.OVERTURNED:
         about = response.overturned_about
         way = "downstream" if about == "toe" else "upstream"
         sentences = [
@@ -80,7 +81,7 @@ def _signs(response: Response, units: str) -> str:
         return ""
     own, other = sorted(response.signs, key=lambda way: not way.governs)
     does = "it ends without a result"
-    if other.outcome == "overturned":
+    if other.outcome == Outcome.OVERTURNED:
         does = "it overturns, too"
     elif other.residual_slip_m is not None:
         slip = abs(other.residual_slip_m)

@@ -25,11 +25,11 @@ from heeltoe.models.runner import largest_rotation, rows_until_rest
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.crest import LOOKS_S, band_weights
-from heeltoe.result.outcome import LARGEST_ROTATION
+from heeltoe.result.outcome import LARGEST_ROTATION, Outcome
 
 # What ends blocks that run together, whether they are walked exactly, and whether rotations may be of any size.
 _Kind = tuple[Limits, bool, bool]
-_OK, _REST = OUTCOMES.index("ok"), MODES.index("rest")
+_OK, _REST = OUTCOMES.index(Outcome.OK), MODES.index("rest")
 # Large enough to keep all cores busy, small enough for a progress bar to move.
 _CHUNK = 4096
 

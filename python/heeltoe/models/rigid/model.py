@@ -54,7 +54,7 @@ def run_rigid(
     run, drainage = walk_with_drainage(case, block, shaking, moments)
     moments = moments[: run.mode.size]
     end = run.summary.end_time
-    if run.outcome == "overturned" and moments[-1] < end:
+    if run.outcome == Outcome.OVERTURNED and moments[-1] < end:
         # Where it lies is between two moments: the last one is that just before, which a walk still passes.
         run, drainage = walk_with_drainage(case, block, shaking, np.append(moments, np.nextafter(end, 0.0)))
         # A walk that ends there all the same has no state at the last moment.

@@ -11,6 +11,7 @@ from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.mechanics.beam import Swing, swing_of
 from heeltoe.models.rigid.criterion import FAR_M, LEAST_M, Fit, Likeness, fits
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import AS_ELASTIC, Notice
@@ -149,7 +150,7 @@ def _remedy(case: Case) -> str:
 def _unlike(case: Case, response: Response) -> str | None:
     """Say what of a case or its run is not in the study at all."""
     reasons: dict[str, Any] = {
-        f"its block ended as {response.outcome}": response.outcome != "ok",
+        f"its block ended as {response.outcome}": response.outcome != Outcome.OK,
         "the ground moves vertically, too": response.vertical is not None,
         "it has anchors": case.anchors,
         "its crack is inclined": case.crack.inclination,

@@ -14,6 +14,7 @@ from heeltoe.kernel.block import BlockRun
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.mechanics.drains import close_by_slip, drainage_left, with_drainage
+from heeltoe.result.outcome import Outcome
 
 #: A block of a case, run through a motion, with the moments wanted, from where the run before has left it.
 Walk = Callable[[Case, Block, Shaking, Floats, "BlockRun | None"], BlockRun]
@@ -36,7 +37,7 @@ def walk_in_stages(
         shares.append(share)
         now = case if share == 1.0 else with_drainage(case, share)
         runs.append(walk(now, block if now is case else build_block(now), part, own, runs[-1] if runs else None))
-        if runs[-1].outcome != "ok":
+        if runs[-1].outcome != Outcome.OK:
             break
     if min(shares) == 1.0:
         return walk(case, block, shaking, moments, None), shares

@@ -20,6 +20,7 @@ from heeltoe.models.rigid.slip_history import law_histories, law_result, roughne
 from heeltoe.result.contract import HEADLINES, ground_histories, headlines, slip_by_mode, time_by_mode
 from heeltoe.result.crest import LOOKS_S, CrestMotion, CrestSeries, crest_series
 from heeltoe.result.numbers import AnchorForce, BlockNumbers
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.quantity import computed
 from heeltoe.result.response import CrackResponse, Energy
 
@@ -109,7 +110,7 @@ def numbers_of(
         friction_law=None if case.crack.law is None else law_result(case, block, run),
         roughness=roughness_result(case.crack, run),
         bond=None if bonded is None else bonded.numbers,
-        overturned_about=about if run.outcome == "overturned" else None,
+        overturned_about=about if run.outcome == Outcome.OVERTURNED else None,
         anchors=anchors_of(case, run),
     )
 

@@ -81,8 +81,8 @@ def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:
 def _about_rare_choices(case: Case, run: BlockRun) -> list[Notice]:
     """Say where a choice for a rare situation is given, and the run never came into one."""
     met = {
-        "event_limit": (run.outcome == "event limit", "the run has fewer events"),
-        "paradox": (run.outcome == "paradox" or run.summary.jams > 0.0, "no paradox was met"),
+        "event_limit": (run.outcome == Outcome.EVENT_LIMIT, "the run has fewer events"),
+        "paradox": (run.outcome == Outcome.PARADOX or run.summary.jams > 0.0, "no paradox was met"),
     }
     return [
         Notice("fields-idle", field=f"analysis.{name}", fields=f"analysis.{name}", why=why)

@@ -12,6 +12,7 @@ from heeltoe.mechanics.drains import drainage_left
 from heeltoe.models.statics.joints import Joints, statics_of_sections
 from heeltoe.models.statics.model import Statics, statics
 from heeltoe.result.numbers import BlockBond, BondState
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import CrackResponse, Response
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.sequence import Stage, stages
@@ -62,8 +63,8 @@ def statics_after(case: Case, *runs: Response) -> Statics:
         One run, or several of the same earthquake, the better model first: the first that ended as it should says
         how far the block has slipped. Where none did, an overturned one counts, as nothing stands after that.
     """
-    trusted = next((run for run in runs if run.outcome == "ok"), None)
-    overturned = next((run for run in runs if run.outcome == "overturned"), None)
+    trusted = next((run for run in runs if run.outcome == Outcome.OK), None)
+    overturned = next((run for run in runs if run.outcome == Outcome.OVERTURNED), None)
     beside = tuple(run.model for run in runs)
     if trusted is None and overturned is not None:
         return statics(case, overturned_about=overturned.overturned_about, beside=beside)
@@ -110,7 +111,7 @@ _AFTER = "post-seismic"
 def judged_stages(case: Case, response: Response) -> tuple[Stage, ...]:
     """Return what each motion of a sequence does, and how the dam that it leaves meets the static checks."""
     judged = [_judged(case, stage) for stage in stages(response, response.motion.parts)]
-    if response.outcome == "overturned" and judged:
+    if response.outcome == Outcome.OVERTURNED and judged:
         fallen = f"the motion overturns the block about its {response.overturned_about}: nothing stands after it"
         judged[-1] = replace(judged[-1], at_rest=False, static={**judged[-1].static, "ok": False, "missed": [fallen]})
     return tuple(judged)

@@ -211,7 +211,7 @@ def _rigid(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads
     outcome = _outcomes(plan.case, table, width)
     results.put(rows, outcome, _of_table(table, width, named))
     # Bounces may amplify the last digit: twins show it.
-    bouncy = (numbers[dam, _RESTITUTION] >= BOUNCY) & (outcome == "ok") & (table["impacts"] > 0.0)
+    bouncy = (numbers[dam, _RESTITUTION] >= BOUNCY) & (outcome == Outcome.OK) & (table["impacts"] > 0.0)
     again = np.flatnonzero(bouncy)
     if again.size:
         with results.timed("kernel"):

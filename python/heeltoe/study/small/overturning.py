@@ -27,6 +27,7 @@ from heeltoe.errors.error import InputError, expect
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, CriticalAccelerations, build_block
 from heeltoe.models.rigid.walk import walk
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.write import build_info
 
 #: What a pulse does to a block, by the numbers of a map.
@@ -198,8 +199,8 @@ def _pulse(kind: str, frequency: float, amplitude: float, wait: float) -> Shakin
 
 def _end(case: Case, block: Block, shaking: Shaking) -> int:
     run = walk(case, block, shaking)
-    if run.outcome == "overturned":
+    if run.outcome == Outcome.OVERTURNED:
         return 2 if run.summary.impacts else 3
-    if run.outcome != "ok":
+    if run.outcome != Outcome.OK:
         return 4
     return int(max(run.summary.largest_gap_heel, run.summary.largest_gap_toe) > 0.0)

@@ -17,6 +17,7 @@ from heeltoe.errors.sanitize import plain
 from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.result.history import LEAST_DAMAGE, CrackHistory, node_lengths
 from heeltoe.models.flexible.result.response import FlexibleResponse
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Units, unit_system
 from heeltoe.views.animation.bodies import Moments, Part, elastic_parts, rigid_parts
@@ -214,7 +215,7 @@ def _anchor_line(anchor: Anchor, case: Case, parts: tuple[Part, ...]) -> AnchorL
 def chosen_exaggeration(response: Response, parts: tuple[Part, ...], section: CutSection) -> float:
     """Return the exaggeration that shows the motion of the parts well; an overturned dam is drawn as it is."""
     largest = max(float(np.abs(part.displacements(part.outline)).max()) for part in parts)
-    return 1.0 if response.outcome == "overturned" else automatic(largest, section)
+    return 1.0 if response.outcome == Outcome.OVERTURNED else automatic(largest, section)
 
 
 def automatic(largest: float, section: CutSection) -> float:
@@ -294,7 +295,7 @@ def _sign(response: Response) -> str:
 
 def _subtitle(response: Response) -> str:
     peak = response.motion.pga / response.gravity
-    ending = "" if response.outcome == "ok" else f"; {response.outcome}"
+    ending = "" if response.outcome == Outcome.OK else f"; {response.outcome}"
     shaken = ", in which the motion of the crack shakes the part above" if response.model == "decoupled" else ""
     curves = "; curves of the crack that leads" if response.several else ""
     motion = f"{plain(response.motion.name)} {_sign(response)}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from heeltoe.models.rigid.varying import varies
 from heeltoe.result.contract import HEADLINES
+from heeltoe.result.outcome import Outcome
 from heeltoe.units.write import NOTHING
 from heeltoe.views.content.subject import Labels, Run, Subject
 from heeltoe.views.content.tree import Block, Code, Inline, Section, Table, paragraph
@@ -144,7 +145,7 @@ def _spread(subject: Subject, run: Run) -> list[Block]:
 def _convergence(subject: Subject, run: Run) -> list[Block]:
     summary, known = run.response.summary, subject.known
     result = summary["evidence"]
-    if run.response.outcome == "unstable":
+    if run.response.outcome == Outcome.UNSTABLE:
         said = paragraph("A dam that does not stand has no slip to be certain of: it was run once, at one step.")
     elif result is None:
         said = paragraph("Whether time step and mesh are fine enough was not asked (", Code("flexible.evidence"), ").")

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from heeltoe.result.contract import HEADLINES
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import advice, limited, verdict
 from heeltoe.units.sentences import written
@@ -222,6 +223,6 @@ def _end(run: Run) -> str:
     seconds = digits(run.response.end_time_s, 4)
     if not run.response.ok:
         return f"stopped at {seconds} s"
-    if run.response.outcome == "overturned":
+    if run.response.outcome == Outcome.OVERTURNED:
         return f"overturned at {seconds} s"
     return "at rest" if comes_to_rest(run.response) else f"still moving at {seconds} s"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.units.sentences import written
 from heeltoe.views.content.drawings import in_rows
@@ -55,12 +56,11 @@ _STARTS = {
     ("rocking", "upstream"): "Rocking upstream, about the heel, starts at",
 }
 _OF_CRACKS: Labels = (
-    ("Residual slip, + downstream", "residual_slip_m", "displacement"),
-    ("Peak slip downstream", "peak_slip_downstream_m", "displacement"),
-    ("Largest rotation downstream", "rocking_downstream_rad", None),
-    ("Largest rotation upstream", "rocking_upstream_rad", None),
-    ("Opening, upstream face", "opening_upstream_m", "displacement"),
-    ("Opening, downstream face", "opening_downstream_m", "displacement"),
+    *(
+        (item.full.capitalize(), item.key, None if item.kind == "rotation" else "displacement")
+        for item in HEADLINES
+        if item.way > 0
+    ),
     ("Strikes of nodes", "impacts", None),
     ("Lost in friction", "crack_energy.friction_j", None),
     ("Lost in impacts", "crack_energy.impact_j", None),

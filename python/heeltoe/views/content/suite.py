@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from heeltoe.result.judge import LIMITS
+from heeltoe.result.outcome import Outcome
 from heeltoe.units.sentences import quantity
 from heeltoe.units.write import NOTHING, digits, length, measured
 from heeltoe.views.content.study_subject import StudySubject
@@ -14,17 +15,7 @@ from heeltoe.views.words.numbers import Amount, in_one_unit
 from heeltoe.views.words.studies import JUDGED, STATISTICS
 
 # The demands that are lengths people look for.
-_DEMANDS = {
-    f"{name}_m": LIMITS[name].label
-    for name in (
-        "residual_slip",
-        "peak_slip",
-        "opening_upstream",
-        "opening_downstream",
-        "cracked_length",
-        "crest_displacement",
-    )
-}
+_DEMANDS = {f"{name}_m": limit.label for name, limit in LIMITS.items() if limit.unit == "m"}
 _ACCELERATION = "crest_acceleration_g"
 
 
@@ -147,7 +138,7 @@ def _records(row: Mapping[str, Any], units: str) -> Table:
     ]
     rows: list[tuple[Inline, ...]] = []
     for record, (slip, other) in zip(reversed(ranked), in_one_unit(cells, units), strict=True):
-        ended = "" if record["outcome"] == "ok" else f" ({record['outcome']})"
+        ended = "" if record["outcome"] == Outcome.OK else f" ({record['outcome']})"
         rows.append(
             (
                 Code(record["motion"]),

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.result.judge import LIMITS
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Scale, Units
 from heeltoe.units.write import length
@@ -166,7 +167,7 @@ def draw_openings(axes: Axes, response: Response, units: Units) -> None:
 def shown_rotation(response: Response) -> float | None:
     """Return up to which rotation [rad] a block that overturns is drawn: enough for its rocking before; None for one
     that stays up."""
-    if response.outcome != "overturned":
+    if response.outcome != Outcome.OVERTURNED:
         return None
     rotation = response.histories["rotation_rad"]
     turns = np.flatnonzero(np.diff(np.sign(rotation)) != 0)

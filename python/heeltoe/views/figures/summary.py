@@ -6,6 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from heeltoe.case.model import Case
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Units, unit_system
 from heeltoe.views.figures.canvas import Canvas
@@ -54,7 +55,7 @@ def summary_figure(case: Case, shown: tuple[Response, ...], units: str = "si") -
         ground.set_title("")
         ground.set_ylabel("ground [g]")
         ground.tick_params(labelbottom=False)
-        if shown[0].outcome == "overturned":
+        if shown[0].outcome == Outcome.OVERTURNED:
             draw_rotation(slip, shown[0], system)
             time_axis(slip, shown[0])
             slip.set_xlabel("time [s]")

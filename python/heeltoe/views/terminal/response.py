@@ -11,6 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from heeltoe.case.model import Case
+from heeltoe.result.contract import LENGTHS
 from heeltoe.result.numbers import BondState
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import verdict
@@ -31,13 +32,6 @@ _REASON = re.compile(r": [^:]*(?=\. Trust )")
 # So many cracks have a row of their own.
 _ROWS = 6
 _GRAVITIES = ("grave", "caution", "note")
-_SHOWN = (
-    ("residual slip", "residual_slip_m", 1.0, "slip"),
-    ("peak down", "peak_slip_downstream_m", 1.0, "slip"),
-    ("peak up", "peak_slip_upstream_m", -1.0, "slip"),
-    ("opening up", "opening_upstream_m", 1.0, "opening"),
-    ("opening down", "opening_downstream_m", 1.0, "opening"),
-)
 
 
 def print_response(response: Response, console: Console, units: str = "si", details: Case | None = None) -> None:
@@ -103,14 +97,14 @@ def _table(response: Response, units: str) -> Table:
         shown = _shown(run.cracks)
         for crack in shown:
             where = f"at {written('{at_m:g m}', units, at_m=crack.elevation)}" if run.several else ""
-            amounts = [Amount(sign * crack[key], kind) for _, key, sign, kind in _SHOWN]
+            amounts = [Amount(item.way * crack[item.key], item.kind) for item in LENGTHS]
             bond = _bond(crack)
             cracked = [NOTHING if bond is None else length(bond.cracked_length_m, units)] if bonded else []
             cells.append([f"{NAMES.get(run.model, run.model)} {where}".strip(), *amounts, *cracked])
         others = [crack for crack in run.cracks if not any(crack is one for one in shown)]
         if others:
             largest = [
-                Amount(max(sign * (crack[key] or 0.0) for crack in others), kind) for _, key, sign, kind in _SHOWN
+                Amount(max(item.way * (crack[item.key] or 0.0) for crack in others), item.kind) for item in LENGTHS
             ]
             lengths = [bond.cracked_length_m for crack in others if (bond := _bond(crack)) is not None]
             cracked = [length(max(lengths), units) if lengths else NOTHING] if bonded else []
@@ -118,8 +112,8 @@ def _table(response: Response, units: str) -> Table:
     # A line of 80 characters holds the names of all columns beside that of a model.
     table = quiet_table(close=True)
     table.add_column("", no_wrap=True)
-    for label, *_ in _SHOWN:
-        table.add_column(label.removesuffix(" slip") if bonded else label, justify="right")
+    for item in LENGTHS:
+        table.add_column(item.heading.removesuffix(" slip") if bonded else item.heading, justify="right")
     if bonded:
         table.add_column("cracked", justify="right")
     for row in in_one_unit(cells, units):
@@ -134,7 +128,7 @@ def _shown(cracks: Sequence[Any]) -> Sequence[Any]:
 
     def moved(crack: Any) -> tuple[float, float]:
         bond = _bond(crack)
-        return max(abs(crack[key] or 0.0) for _, key, _, _ in _SHOWN), bond.cracked_length_m if bond else 0.0
+        return max(abs(crack[item.key] or 0.0) for item in LENGTHS), bond.cracked_length_m if bond else 0.0
 
     least = sorted(map(moved, cracks))[-_ROWS]
     return [crack for crack in cracks if moved(crack) >= least][:_ROWS]

@@ -13,6 +13,7 @@ from rich.table import Table
 from heeltoe.errors.sanitize import plain
 from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.result.contract import CRACKED, HEADLINES
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import advice
@@ -186,7 +187,7 @@ def _written(row: Mapping[str, Any], column: _Column, units: str) -> str:
 
 
 def _end(response: Response) -> str:
-    if response.outcome != "ok":
+    if response.outcome != Outcome.OK:
         return response.outcome
     return "at rest" if comes_to_rest(response) else "moving"
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from heeltoe.errors.sanitize import plain
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.result.contract import HEADLINES
+from heeltoe.result.contract import HEADLINES, LENGTHS
 from heeltoe.result.numbers import Tension
 from heeltoe.result.response import Response
 from heeltoe.result.tension import place_phrase
@@ -18,7 +18,7 @@ from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
 #: Figures that each of several cracks has.
 OF_CRACKS = ("response", "slip-by-mode", "friction", "forces", "bearing", "path", "joint", "crack", "pressure")
 # Of a table of several cracks.
-CRACK_COLUMNS = ("crack at", "residual slip", "peak down", "peak up", "opening up", "opening down", "strikes")
+CRACK_COLUMNS = ("crack at", *(item.heading for item in LENGTHS), "strikes")
 
 
 def crack_rows(response: Response, units: str) -> list[list[str]]:
@@ -27,10 +27,7 @@ def crack_rows(response: Response, units: str) -> list[list[str]]:
     for place, crack in enumerate(response.cracks):
         at = written("{at_m:g m}", units, at_m=crack.elevation)
         mark = " (leads)" if place == response.asked else ""
-        slips = (crack.residual_slip_m, crack.peak_slip_downstream_m, -crack.peak_slip_upstream_m)
-        openings = (crack.opening_upstream_m, crack.opening_downstream_m)
-        amounts = [*(Amount(slip, "slip") for slip in slips), *(Amount(opening, "opening") for opening in openings)]
-        cells.append([f"{at}{mark}", *amounts])
+        cells.append([f"{at}{mark}", *(Amount(item.way * item.of(crack), item.kind) for item in LENGTHS)])
     rows = in_one_unit(cells, units)
     return [[*row, str(crack.impacts)] for crack, row in zip(response.cracks, rows, strict=True)]
 
