@@ -87,7 +87,7 @@ def modal_peaks(case: heeltoe.Case, records: list[GroundMotion]) -> np.ndarray:
 
 
 def peaks_by_frequency(case: heeltoe.Case, records: list[GroundMotion], farthest: float = 6.0) -> np.ndarray:
-    """Return the same frequency by frequency, up to so many times the first frequency of the dry dam."""
+    """Return the same frequency by frequency, up to a multiple of the first frequency of the dry dam."""
     section = SectionForces.of(case, farthest)
     sampled = np.linspace(0.02, farthest, _SAMPLES) * section.first
     answers = CubicSpline(sampled, [section.at(2.0 * np.pi * frequency)[_AT] for frequency in sampled])
@@ -96,7 +96,7 @@ def peaks_by_frequency(case: heeltoe.Case, records: list[GroundMotion], farthest
         step = min(0.01, float(np.diff(motion.time).min()))
         count = 2 ** int(np.ceil(np.log2((motion.time[-1] + _QUIET) / step)))
         frequencies = np.fft.rfftfreq(count, step)
-        # What is above moves with the ground that waves no longer know.
+        # Above that frequency the dam moves with the ground, which waves do not reach.
         within = np.clip(frequencies, sampled[0], sampled[-1])
         transfer = answers(within).T
         ground = np.interp(step * np.arange(count), motion.time, motion.acceleration, right=0.0)

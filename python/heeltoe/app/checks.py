@@ -27,7 +27,7 @@ _NOT_IN_RESPONSE: Any = {
     "uplift": True,
     "crack": {"friction", "restitution", "bond"},
 }
-# What the page says of checks whose slip is not that of the elastic dam with the sliders as they stand.
+# The page marks checks whose slip is not that of the elastic dam with the present sliders.
 _BLOCK_SLIP = (
     "Provisional: the slip after the earthquake is that of the rigid block, until the elastic dam has run with the "
     "sliders as they stand."
@@ -91,7 +91,7 @@ def _judged(case: Case, left: Sequence[Mapping[str, Any]]) -> tuple[Joints, str]
             slip, held = elastic["slips_m"].get(level), elastic["ligaments_m"].get(level)
             if slip is None:
                 return judge(alone)
-            # What still holds has not slid.
+            # A crack that holds has not slid.
             kept, ligament = (slip, None) if held is None else (0.0, (held[0], held[1]))
             return judge(alone, kept, slip_source=elastic["source"], ligament=ligament, beside=("flexible",))
 

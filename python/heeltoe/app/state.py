@@ -1,4 +1,4 @@
-"""What a session holds: the case as it was typed, studies, and files on offer."""
+"""State of a session: the case as typed, studies, and files on offer."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Draft:
     fields
         As a case file has them.
     errors
-        What is wrong with them.
+        Errors in them.
     case
         The case in force that goes with them: theirs where they are sound, else the last one that was.
     undo, redo
@@ -45,7 +45,7 @@ class Made:
     number, title
         For the page.
     folder
-        Of its file, its case, its records and its runs.
+        Folder of its file, its case, its records and its runs.
     job
         The number of its run.
     """
@@ -65,7 +65,7 @@ class Offer:
     path
         Where it is.
     name
-        What the browser calls it.
+        Name that the browser shows.
     """
 
     path: Path

@@ -17,7 +17,7 @@ class FrozenDict(Mapping[str, Any]):
         self._values = dict(values)
         for name, value in values.items():
             if isinstance(value, np.ndarray):
-                # Of an array a view.
+                # An array becomes a view.
                 self._values[name] = view = value.view()
                 view.flags.writeable = False
             elif type(value) is list:

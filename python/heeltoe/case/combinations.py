@@ -22,7 +22,7 @@ FeatureFields = Iterator[tuple[str, object]]
 
 
 class Featured(Protocol):
-    """What rules read of a case; blocks of options are read by their names."""
+    """Fields of a case that rules read; blocks of options are read by their names."""
 
     @property
     def crack(self) -> Crack: ...

@@ -47,7 +47,7 @@ class Suite(SuiteRule):
     sa: AccelerationField | None = None
     """Scale each record to this spectral acceleration at `period`, 5 % damping."""
     period: PeriodField | None = None
-    """Of `sa`: "0.3 s", or "T1", the default, for the first period of the dam, intact, with its water and its rock."""
+    """Period of `sa`: "0.3 s", or "T1", the default, for the first period of the intact dam with its water and rock."""
     match: str | None = Field(default=None, strict=True, min_length=1)
     """Target spectrum to which each record is matched before it is scaled: `en1998:0.3g,B`, `asce7:0.9g,0.4g,8s`, or a
     file, relative to the case file."""

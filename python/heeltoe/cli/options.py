@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RunOptions:
-    """What is asked for beside the case, as it was typed."""
+    """Options of a command beside the case, as typed."""
 
     model: str
     spread: str | None
@@ -31,7 +31,7 @@ class RunOptions:
 
     @property
     def suffix(self) -> str:
-        """Of tables."""
+        """Units of tables."""
         return ".csv" if self.csv else ".parquet"
 
     def check(self) -> None:

@@ -1,4 +1,4 @@
-"""What an anchor bears as its upper end moves, and whether anchors hold what friction and weight do not."""
+"""Force of an anchor as its upper end moves, and whether anchors hold a block that friction and weight do not."""
 
 from __future__ import annotations
 

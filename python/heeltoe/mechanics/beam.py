@@ -26,7 +26,7 @@ _SHEAR = 5.0 / 6.0
 _MODES = 3
 #: No earthquake shakes what swings faster than this [s].
 STIFF_S = 0.02
-# What surrounds a dam answers well up to so many times the frequency of the last of its modes that matter.
+# Rock and water answer well up to this multiple of the frequency of the last mode of the dam that matters.
 _BEYOND_MODES = 4.0 / 3.0
 # Waves within the depth of the water, and within the base on rock, that the stiffest dams of concrete do not reach: a
 # wider band would cost memory, and slow motions their accuracy.

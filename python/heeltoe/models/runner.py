@@ -96,7 +96,7 @@ def advice_of(
     why
         Why the static loads move the dam, where they do.
     unless_it_stands
-        What to do where they do, or may.
+        Remedy where they do, or may.
     stopped
         Where the run stopped.
     silence
@@ -191,7 +191,7 @@ def keeps_sliding(slips: Floats, silence: float, as_fast: float = _AS_FAST) -> N
     silence
         How long it is [s].
     as_fast
-        What the last quarter is at least of the quarter before, of one that does not slow down.
+        Least ratio of the last quarter to the quarter before it, of motion that does not slow down.
     """
     steps = np.diff(slips)
     one_way = np.all(steps > 0.0, axis=-1) | np.all(steps < 0.0, axis=-1)

@@ -1,4 +1,4 @@
-"""How the crest moves: what people, gates and instruments up there feel, from the motion as it is computed.
+"""Motion of the crest as people, gates and instruments there feel it, from the computed motion.
 
 A blow lasts as long as a program resolves it, and so its acceleration alone is no number of a dam. Accelerations are
 those up to :data:`BAND_HZ`: they pass a Butterworth filter of order 4 forward and backward, ``1 / (1 + (f/50 Hz)^8)``,

@@ -78,7 +78,7 @@ class Judgement:
     columns
         Their numbers by JSON name, (n, cracks), of a dam as a whole (n, 1).
     limits
-        What is allowed, by the name of the limit, SI, accelerations in g.
+        Allowed values by the name of the limit, SI, accelerations in g.
     """
 
     outcome: NDArray[Any]
@@ -180,7 +180,7 @@ def judge(columns: Mapping[str, Any], limits: Mapping[str, float]) -> Judgement:
         ``outcome``, (n,) words, and numbers by their JSON names, (n,) or (n, cracks): those that the limits limit,
         ``residual_slip_m``, and ``crack_width_m`` with the peak slips or ``slid_off``.
     limits
-        What is allowed, by the name of the limit, SI, accelerations in g.
+        Allowed values by the name of the limit, SI, accelerations in g.
     """
     outcome = np.array([_ROWS[word] for word in np.asarray(columns["outcome"], dtype=object).tolist()], dtype=object)
     numbers = {

@@ -82,7 +82,7 @@ class LimitCheck(Block):
 
 
 def allowances(limits: Limits, gravity: float) -> dict[str, float]:
-    """Return what limits allow, by name: lengths in m, rotations in rad, accelerations in g of so many m/s2."""
+    """Return the allowed values by name: lengths in m, rotations in rad, accelerations in g of `gravity` [m/s2]."""
     return {
         name: value.si(gravity) / gravity if isinstance(value, Acceleration) else float(value)
         for name, value in limits
@@ -163,5 +163,5 @@ def _uncertainty(name: str, crack: CrackResponse) -> float:
     worth = evidence[key]
     if worth is None:
         return 0.0
-    # Without a bound it may be off by as much as it is.
+    # Without a bound the error may be as large as the value.
     return abs(float(numbers[key] if worth.uncertainty is None else worth.uncertainty))

@@ -501,7 +501,7 @@ class HeadlineWorth(Block):
 
 
 class RotationWorth(Block):
-    """What a rotation is worth [rad]: as any headline number, but with a bound only where there is one."""
+    """Evidence of a rotation [rad]: as of any headline number, but with a bound only where there is one."""
 
     value: Annotated[float, Number("The number to trust: that of the run, or the mean where single runs scatter.")]
     run: Annotated[float, Number("The number of the run itself.")]

@@ -96,7 +96,7 @@ class Outcome(StrEnum):
 
     @property
     def exit_code(self) -> int:
-        """What a command that runs one case exits with."""
+        """Exit code of a command that runs one case."""
         return 0 if self.has_result else NO_RESULT
 
     @property

@@ -16,7 +16,7 @@ import numpy as np
 from heeltoe.base.arrays import Floats
 from heeltoe.base.blocks import Block, Number, entries
 
-#: A hundredth of a millimetre and a thousandth of a milliradian: nobody measures less on a dam.
+#: A hundredth of a millimetre and a thousandth of a milliradian: no instrument on a dam measures less.
 LEAST_M, LEAST_RAD = 1e-5, 1e-6
 
 
@@ -27,7 +27,7 @@ class Quantity(Number):
     Attributes
     ----------
     label
-        What people call it.
+        Name for people.
     short
         The same above a narrow column.
     kind
@@ -37,7 +37,7 @@ class Quantity(Number):
     signed
         Whether it goes both ways, positive downstream.
     column
-        What the kernels call it. A block has no openings, but rotations of a base that stays straight.
+        Name in the kernels. A block has no openings, but rotations of a base that stays straight.
     sense
         -1 where the kernels count it the other way.
     compute
@@ -62,7 +62,7 @@ class Quantity(Number):
 
     @property
     def least(self) -> float:
-        """What is less than this is next to nothing, in its unit."""
+        """Smallest value that counts, in its unit."""
         return LEAST_RAD if self.kind == "rotation" else LEAST_M
 
     @cached_property

@@ -268,7 +268,7 @@ def _falls(case: Case, slip: float) -> float:
 
 @dataclass(frozen=True)
 class JointBond:
-    """What the checks count of the bond of a joint before the earthquake, from a place to the toe.
+    """Bond of a joint that the checks count before the earthquake, from a place to the toe.
 
     Attributes
     ----------
@@ -277,7 +277,7 @@ class JointBond:
     tensile_strength, cohesion
         Static [Pa].
     source
-        What says so.
+        Field that gives it.
     """
 
     start: float

@@ -1,4 +1,4 @@
-"""What an earthquake asks of a section by its response spectrum: the two lowest modes of the dam with water and rock,
+"""Forces of an earthquake on a section by its response spectrum: two modes of the dam with water and rock,
 and a static correction for all higher ones (Fenves and Chopra 1987 have it for one)."""
 
 from __future__ import annotations

@@ -52,12 +52,12 @@ def exact_bounds(count: float, of: float, confidence: float) -> tuple[float, flo
 
 @dataclass(frozen=True, eq=False)
 class Knowledge:
-    """What is known of a curve ``P = Phi(a + b z)``, z = (ln x - middle) / scale.
+    """Likelihood of a curve ``P = Phi(a + b z)``, z = (ln x - middle) / scale.
 
     Attributes
     ----------
     middle, scale
-        Of the logarithm of the strength.
+        Middle and scale of the logarithm of the strength.
     z, exceeding, under
         (k,) runs at each strength.
     estimate
@@ -133,9 +133,9 @@ def knowledge_of(seen: Witnesses, median: float, dispersion: float) -> Knowledge
     Parameters
     ----------
     seen
-        What is known of the runs.
+        Runs and their results.
     median, dispersion
-        Of the curve; the median as its logarithm.
+        Median and dispersion of the curve; the median as its logarithm.
     """
     if seen.events < 2:
         return None

@@ -90,9 +90,9 @@ def fit_test(seen: Witnesses, median: float, dispersion: float, record: float | 
     Parameters
     ----------
     seen
-        What is known of the runs.
+        Runs and their results.
     median, dispersion
-        Of the curve; the median as its logarithm.
+        Median and dispersion of the curve; the median as its logarithm.
     record, other
         Parts of the dispersion, as :class:`heeltoe.study.answers.fragility.Curve` has them.
     """
@@ -118,7 +118,7 @@ def _made(seen: Witnesses, group: Groups, median: float, record: float, other: f
     """Return the chi-squares of studies that the curve made."""
     random = np.random.default_rng(0)
     offset = median + record * random.standard_normal((_MADE, seen.events))
-    # What is together of an event in a group, counts together.
+    # Runs of one event in a group count together.
     key, cell = np.unique(group.place * seen.events + seen.event, return_inverse=True)
     place, event = np.divmod(key, seen.events)
     runs = _summed(cell, seen.runs)

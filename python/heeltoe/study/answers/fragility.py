@@ -34,7 +34,7 @@ class Share:
     Attributes
     ----------
     strength
-        Of the motion, SI.
+        Strength of the motion, SI.
     runs, exceeding
         How many runs there are, and how many of them exceed the limit.
     share, interval

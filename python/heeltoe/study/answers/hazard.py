@@ -58,11 +58,11 @@ class Motions:
     group
         (n,) of :data:`_GROUPS` in which it lies.
     edges
-        Of the groups, SI.
+        Edges of the groups, SI.
     ends, rates
         Logarithms of the weakest and the strongest motion, and how often a year they are exceeded.
     slope
-        Of the first stretch.
+        Slope of the first stretch.
     """
 
     logarithm: Floats

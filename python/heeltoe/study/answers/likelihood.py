@@ -163,7 +163,7 @@ def greatest(z: Floats, exceeding: Floats, under: Floats, scale: float) -> Float
     exceeding, under
         (r, k) how many runs exceed there, and how many do not, in r fits side by side.
     scale
-        Of the logarithm of the strength over z, by which b has its limits.
+        Scale of the logarithm of the strength over z, by which b has its limits.
     """
     share = exceeding.sum(axis=1) / (exceeding + under).sum(axis=1)
     at = np.column_stack([ndtri(np.clip(share, 1e-3, 1.0 - 1e-3)), np.ones(len(share))])

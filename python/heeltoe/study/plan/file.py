@@ -123,7 +123,7 @@ class Scale(Fields):
     """What `values` are: factors on the record; or what the scaled motion has: its peak acceleration, its peak
     velocity, its spectral acceleration at `period` with 5 % damping, its Arias intensity."""
     period: PeriodField | None = None
-    """Of `sa`: the period at which it is; "T1" for the first period of the dam, intact, with its water and its rock."""
+    """Period of `sa`; "T1" for the first period of the dam, intact, with its water and its rock."""
     values: Values
     """A list, through which every motion goes, or a distribution of which each run draws one."""
 
@@ -191,19 +191,19 @@ class FragilityLimits(Fields):
     """What a dam is said to have failed beyond, each a list of limits."""
 
     residual_slip: Annotated[tuple[Slip, ...], BeforeValidator(_listed)] = ()
-    """Of the slip that remains, either way."""
+    """Limits on the slip that remains, either way."""
     peak_slip: Annotated[tuple[Slip, ...], BeforeValidator(_listed)] = ()
-    """Of the largest slip, either way."""
+    """Limits on the largest slip, either way."""
     opening: Annotated[tuple[Slip, ...], BeforeValidator(_listed)] = ()
-    """Of the largest opening at either face."""
+    """Limits on the largest opening at either face."""
     rotation: Annotated[tuple[Rotation, ...], BeforeValidator(_listed)] = ()
-    """Of the largest rotation: plain numbers in rad, or with their unit."""
+    """Limits on the largest rotation: plain numbers in rad, or with their unit."""
     cracked_length: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
-    """Of the length of a bonded joint that cracks; a little less than its width stands for a joint cracked through."""
+    """Limits on the length of a bonded joint that cracks; a little less than its width stands for cracked through."""
     crest_displacement: Annotated[tuple[Slip, ...], BeforeValidator(_listed)] = ()
-    """Of the horizontal displacement of the crest, either way, relative to the ground."""
+    """Limits on the horizontal displacement of the crest, either way, relative to the ground."""
     crest_acceleration: Annotated[tuple[AccelerationField, ...], BeforeValidator(_listed)] = ()
-    """Of the horizontal acceleration of the crest with that of the ground, either way."""
+    """Limits on the horizontal acceleration of the crest with that of the ground, either way."""
 
 
 class Fragility(Fields):
@@ -214,7 +214,7 @@ class Fragility(Fields):
     measure: Measure = "pga"
     """How strong the motion is."""
     period: Annotated[Duration, Field(ge=0.01, le=20.0)] | None = None
-    """Of `sa`: the period at which it is."""
+    """Period of `sa`."""
     confidence: Annotated[DimensionlessNumber, Field(ge=0.5, lt=1.0)] = 0.9
     """Probability of the intervals."""
 
@@ -261,7 +261,7 @@ class Study(Shown, Fields):
     samples: Count | None = None
     """How many dams are drawn, where the method draws any; `sensitivity` runs each once for each field, and twice."""
     seed: Annotated[int, Field(strict=True, ge=0, le=2**63 - 1)] = 1
-    """Of what is drawn: the same seed, the same runs."""
+    """Seed of the draws: the same seed gives the same runs."""
     vary: dict[str, Values] = Field(default_factory=dict)
     """Fields of the case by their paths: a list of values, or a distribution."""
     correlation: tuple[tuple[str, str, Annotated[DimensionlessNumber, Field(gt=-1.0, lt=1.0)]], ...] = ()

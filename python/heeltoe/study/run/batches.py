@@ -123,7 +123,7 @@ def _of_table(
         "end_time_s": table["end_time"],
         "energy_residual": table["energy_residual"],
         "impacts": table["impacts"],
-        # What is cracked from the start cracks no farther.
+        # A crack that is there from the start cracks no farther.
         CRACKED: np.minimum(table["cracked_length"], width) if joint else np.zeros_like(width),
     }
     return OfCrack(named, width)

@@ -204,7 +204,7 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
 
 
 def _anchor_line(anchor: Anchor, case: Case, parts: tuple[Part, ...]) -> AnchorLine:
-    """Return an anchor as it is drawn; its head goes with the nearest point of the outline of a part."""
+    """Return an anchor for the drawing; its head goes with the nearest point of the outline of a part."""
     head, foot = anchor_line(anchor, case.cut, 0.22 * (case.cut.crest_elevation - case.cut.base_elevation))
     far = [np.hypot(*(part.points[part.outline] - np.array(head)).T) for part in parts]
     place = int(np.argmin([distance.min() for distance in far]))

@@ -1,4 +1,4 @@
-"""What the report of a study is about."""
+"""Subject of the report of a study."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from heeltoe.views.words.numbers import Numbers
 
 @dataclass(frozen=True, eq=False)
 class StudySubject:
-    """What the report is about.
+    """Subject of the report.
 
     Attributes
     ----------
@@ -27,9 +27,9 @@ class StudySubject:
     numbers
         Writes the numbers of the study's JSON.
     figures
-        Of the study, by name.
+        Figures of the study, by name.
     command
-        What was typed; empty if it was not typed.
+        Typed command; empty without one.
     """
 
     results: StudyResults

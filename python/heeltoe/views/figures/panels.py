@@ -79,7 +79,7 @@ def draw_limits(axes: Axes, response: Response, names: Sequence[str], scale: Sca
     Parameters
     ----------
     names
-        Of the fields of ``limits``.
+        Names of the fields of ``limits``.
     scale
         The unit of the axis.
     """

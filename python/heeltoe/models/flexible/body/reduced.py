@@ -110,7 +110,7 @@ class FlexibleDam(BondedDam):
     reduced
         The bodies in their modes, as the kernel takes them.
     contactors
-        Of each element of a crack.
+        Contactors on each element of a crack.
     start
         The state before the earthquake.
     static

@@ -25,7 +25,7 @@ from heeltoe.result.outcome import Outcome, decide
 SOFTENING = "softening_length_m"
 #: Factors on the shaking: as it is, and up to 1 % either way.
 SCALES = (1.0, 0.99, 0.995, 1.005, 1.01)
-# Rock and water that reach farther do so this many times, and answer well up to so many times the frequency.
+# Rock and water that reach farther do so by this factor, and answer well up to a frequency that is higher by it.
 _LARGER = 1.5
 # Twice as many elements along the crack cost about so many times as much; half the step twice.
 _WORK_OF_MESH = 4.0

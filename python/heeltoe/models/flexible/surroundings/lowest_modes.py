@@ -36,9 +36,9 @@ from heeltoe.models.flexible.surroundings.reduction import Complexes
 from heeltoe.models.flexible.surroundings.response import CrestResponse, IntactDam, WaterOfDam, crest_response
 from heeltoe.models.flexible.surroundings.rock import ReducedRock, reduced_rock
 
-# Frequencies among which the first peak is looked for, up to so many times that of the dry dam on a rigid base.
+# Number of frequencies among which the first peak is sought, up to this multiple of that of the dry dam.
 _FARTHEST, _COUNT = 1.5, 91
-# The second peak is looked for at so many frequencies, up to so many times where a beam has its second mode.
+# The second peak is sought at this number of frequencies, up to a multiple of the second frequency of a beam.
 _BEYOND, _SECONDS = 1.4, 120
 # A frequency so low that the dam moves with the ground, in parts of the first one.
 _STILL = 1e-3
@@ -55,11 +55,11 @@ class SectionForces:
     upper
         The part above the crack.
     heel
-        Of the crack, x and z [m].
+        Heel of the crack, x and z [m].
     ratio
         Damping ratio of the concrete.
     water, waves, rock
-        What is around the dam; the second are those of compressible water, if there is any.
+        Surroundings of the dam; the second are the waves of compressible water, if there is any.
     first
         First frequency of the dry dam on a rigid base [Hz].
     """
@@ -75,7 +75,7 @@ class SectionForces:
 
     @classmethod
     def of(cls, case: Case, farthest: float) -> SectionForces:
-        """Return those of a case; water and rock answer well up to so many times the first frequency."""
+        """Return those of a case; water and rock answer well up to a multiple of the first frequency."""
         parts = dam(case, dam_mesh(case))
         intact = IntactDam.of(parts)
         first = 1.0 / float(intact_periods(parts, 1, water=False)[0])
@@ -137,7 +137,7 @@ class Mode:
 
 @dataclass(frozen=True, eq=False)
 class LowestModes:
-    """What a response spectrum analysis takes of an intact dam.
+    """Modes of an intact dam for a response spectrum analysis.
 
     Attributes
     ----------
@@ -163,7 +163,7 @@ def lowest_modes(case: Case, field: str) -> LowestModes:
     case
         Water and rock count as it has them.
     field
-        What asks for it, for errors.
+        Field that asks for it, for errors.
 
     Raises
     ------
@@ -183,7 +183,7 @@ def lowest_modes(case: Case, field: str) -> LowestModes:
 
 
 def _second_mode(section: SectionForces, first: Mode, farthest: float) -> Mode | None:
-    """Return the mode of the second peak, looked for up to so many times the first frequency of the dry dam."""
+    """Return the mode of the second peak, sought up to a multiple of the first frequency of the dry dam."""
     frequencies = np.linspace(1.0 / first.period, farthest * section.first, _SECONDS)
     crest = section.crest_motion(frequencies)
     # The crest goes by the first mode as far as it does at that resonance.
@@ -216,7 +216,7 @@ def first_period(case: Case, field: str) -> float:
     case
         A dam with a modulus.
     field
-        What asks for it, for errors.
+        Field that asks for it, for errors.
 
     Raises
     ------

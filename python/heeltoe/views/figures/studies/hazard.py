@@ -20,7 +20,7 @@ from heeltoe.views.words.studies import limits_of
 
 #: Events of a hazard that figure and table show, and the letters of a name.
 _SHOWN, _LONGEST = 12, 28
-#: An axis of probabilities that ends at less than so many times its beginning has two numbers in each decade.
+#: An axis of probabilities that spans less than this factor has two numbers in each decade.
 _NARROW = 300.0
 #: Of the last rate of the hazard curve, the least that its axis shows.
 _LEAST = 1e-3
