@@ -86,6 +86,7 @@ def test_a_motion_that_cannot_be_read_changes_nothing(tab):
     assert tab("case")["fields"] == before
 
 
+@pytest.mark.slow
 def test_aftershocks_are_added_moved_and_removed(tab):
     first = tab("motion")["motions"][0]["title"]
     assert tab("use motion", form=FORM, to=1)["place"] == 1

@@ -96,6 +96,7 @@ def test_a_row_is_the_single_run_to_the_last_bit(model, data, tmp_path_factory):
     assert_same(*row_and_run(tmp_path_factory.mktemp("rows"), example(name, *changes), model))
 
 
+@pytest.mark.slow
 def test_a_study_of_one_row_says_what_the_run_with_its_evidence_says(tmp_path):
     case = example("typical-base", "motion.duration=2.6 s", "flexible.elements_across=4", "crack.friction=0.9")
     text = case_text(case.model_dump(mode="json", exclude_unset=True))

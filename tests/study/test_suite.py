@@ -31,7 +31,7 @@ def dam():
     return example("typical-base", "flexible.elements_across=4", "flexible.evidence=none", *ALLOWED)
 
 
-@pytest.mark.parametrize("model", ["rigid", "flexible"])
+@pytest.mark.parametrize("model", ["rigid", pytest.param("flexible", marks=pytest.mark.slow)])
 def test_the_records_are_the_single_runs_to_the_last_bit(dam, records, model):
     (answer,) = heeltoe.run_suite(dam, records, model=model, pga="0.7 g").suite["models"]
     assert len(answer["records"]) == 5  # vertical components shake no dam by themselves

@@ -46,7 +46,7 @@ def rocking():
 # One example with parts of every kind and forces of a large dam, and one of a small block, in both systems of units.
 US = [pytest.param(BASE, "us", marks=pytest.mark.slow), (BLOCK, "us")]
 # Between them and these there is every figure that an example has.
-FEW = ("block", "rough-crack", "stepped-crack", "slender")
+FEW = ("block", "rough-crack", "stepped-crack")
 
 
 @pytest.mark.parametrize(

@@ -122,6 +122,7 @@ def test_stiff_water_is_the_mass_that_does_not_squeeze():
     assert response.residual_slip_m == pytest.approx(mass.residual_slip_m, rel=0.1)
 
 
+@pytest.mark.slow
 def test_pressure_on_the_face_of_a_stiff_dam_in_a_slow_motion():
     """8 G / pi^2 rho a h at the foot, G Catalan's constant: what incompressible water has before a vertical wall."""
     slow = [[f"{0.05 * k:.2f} s", f"{0.1 * np.sin(np.pi * k / 40.0) ** 2:.9f} g"] for k in range(41)]

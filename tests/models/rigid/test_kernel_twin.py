@@ -267,9 +267,10 @@ def test_a_wrong_kernel_differs_from_the_twin(wrong, least):
     assert windows(draw(seed=3, n=100, wrong=wrong), WINDOW_STEPS[:2]).differ > least
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("height", "width", "friction", "order", "coarsest"),
-    [(0.2, 0.5, 0.2, 2.0, 10), pytest.param(1.0, 0.25, 1.2, 1.0, 5, marks=pytest.mark.slow)],
+    [(0.2, 0.5, 0.2, 2.0, 10), (1.0, 0.25, 1.2, 1.0, 5)],
     ids=["sliding", "rocking with impacts"],
 )
 def test_order_of_the_twin(height, width, friction, order, coarsest):
