@@ -106,12 +106,20 @@ while time.monotonic() < end: time.sleep(0.01)
 """
 
 
-def test_work_stops_though_a_library_loses_the_exception():
+# As an elastic run waits for both signs, which are on threads of their own.
+WAITING = """
+from threading import Event
+Event().wait(120.0)
+"""
+
+
+@pytest.mark.parametrize("work", [SWALLOWING, WAITING], ids=["a library loses the exception", "it waits for a thread"])
+def test_work_stops_though(work):
     workers = Workers()
 
     async def cancel():
         first = await workers.until_cancelled(os.getpid)
-        running = asyncio.ensure_future(workers.until_cancelled(exec, SWALLOWING, {}))
+        running = asyncio.ensure_future(workers.until_cancelled(exec, work, {}))
         await asyncio.sleep(0.5)
         running.cancel()
         assert await workers.until_cancelled(os.getpid) == first

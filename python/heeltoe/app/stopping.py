@@ -1,7 +1,7 @@
 """Work that can be stopped from another process: the process stays, and with it what is dear to build.
 
 A thread listens for the numbers of what shall stop and interrupts the main thread, which the kernels, too, look out
-for; it works the same wherever Python runs, as signals between processes do not."""
+for; signals between processes do not work wherever Python runs."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import signal
 from collections.abc import Callable
 from contextlib import suppress
 from multiprocessing.connection import Connection
-from threading import Lock, Thread
+from threading import Lock, Thread, main_thread
 from typing import Any
 
 # Time between two interrupts of the same work [s].
@@ -47,7 +47,16 @@ def _hear(numbers: Connection) -> None:
                 _STATE.unwanted.add(numbers.recv())
             with _STATE.lock:
                 if _STATE.running in _STATE.unwanted:
-                    _thread.interrupt_main()
+                    _interrupt()
+
+
+def _interrupt() -> None:
+    """Send the main thread a signal: a note of one does not wake it where it waits for another thread."""
+    main = main_thread().ident
+    if hasattr(signal, "pthread_kill") and main is not None:
+        signal.pthread_kill(main, signal.SIGINT)
+    else:
+        _thread.interrupt_main()
 
 
 def _interrupted(*_: Any) -> None:
