@@ -23,9 +23,10 @@ from heeltoe.models.flexible.mesh.rows import ROWS
 
 # Seconds of the equations of a dam, of each d m and of each k^3 of them.
 _SET_UP, _SOLVED, _RESTED = 0.15, 8e-7, 2e-6
-# Seconds and bytes of the modes of water with sound on one side, and bytes for each second that sound takes through its
-# depth: the deeper, the more of its resonances are below the highest frequency, and each has samples of its own.
-_WATER, _WATER_BY_DEPTH = (0.35, 1.9e7), 4.1e8
+# Seconds and bytes of the modes of water with sound on one side, and bytes for each period of the highest frequency
+# that sound takes through its depth: the deeper, the more of its resonances are below it, and each has samples of its
+# own.
+_WATER, _WATER_BY_DEPTH = (0.35, 1.9e7), 2.7e7
 # The same of rock with n elements along its base, of n^2.5 and of n^2: measured with 8 to 24, for waves as for a fine
 # mesh. Each step takes as long as with so many bodies of water.
 _ROCK, _ROCK_ACROSS, _ROCK_STEPS = (0.4, 2.3e7), (1.8e-3, 3.6e5), 4
@@ -130,7 +131,8 @@ def surroundings_of(case: Case) -> Cost:
     """Return what the modes of the bodies with waves around a dam cost."""
     cost = Cost(0.0, 0.0)
     for water in _waters(case):
-        cost += Cost(_WATER[0], _WATER[1] + _WATER_BY_DEPTH * water.depth / water.wave_speed)
+        periods = band_of(case) * water.depth / water.wave_speed
+        cost += Cost(_WATER[0], _WATER[1] + _WATER_BY_DEPTH * periods)
     if case.rock is not None:
         across = float(_rock_elements(case, case.rock))
         cost += Cost(_ROCK[0] + _ROCK_ACROSS[0] * across**2.5, _ROCK[1] + _ROCK_ACROSS[1] * across**2)
