@@ -12,6 +12,7 @@ from scipy.interpolate import CubicSpline
 from heeltoe import InputError, en_1998, read_case, statics_of_sections, with_response_spectrum
 from heeltoe.case.shaking import resolve
 from heeltoe.models.flexible.surroundings.lowest_modes import SectionForces, lowest_modes
+from heeltoe.study.small.response_spectrum import _spectrum_of
 from shared.command import command
 from shared.dams import BLOCK, HEIGHT, example
 
@@ -27,7 +28,7 @@ DESIGN = "en1998:0.02 g,B"
 G = 9.80665
 
 
-# Of the frequencies of a cantilever.
+# Roots of the frequency equation of a cantilever.
 ROOTS = (1.875104068711961, 4.694091132974175)
 
 
@@ -190,3 +191,13 @@ def test_from_the_command_line(tmp_path):
     assert (tmp_path / "forces-response-spectrum-downstream.png").exists()
     table = command("statics", HEIGHT, *options, "--vary", "crack.friction=0.8,1.0", "--json", "-")
     assert all(run["response_spectrum"] is not None for run in json.loads(table.stdout)["runs"])
+
+
+@pytest.mark.parametrize("rows", ["0.02 0.5\n0.030303030303030304 0.5\n", "0.0 0.2\n0.01 0.3\n5 0.1\n"])
+def test_short_and_falling_tables_have_a_share(rows, tmp_path):
+    """A table that ends before any oscillator is slow has no frequency above which its modes go with the ground."""
+    path = tmp_path / "spectrum.csv"
+    path.write_text("period [s],Sa [g]\n" + rows.replace(" ", ","))
+    spectrum = _spectrum_of(example("typical-base"), str(path), "spectrum")
+    assert 0.0 <= spectrum.rigid_share(0.025) <= 1.0
+    assert 0.0 <= spectrum.rigid_share(1.0 / 33.0) <= 1.0

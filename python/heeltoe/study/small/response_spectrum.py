@@ -42,6 +42,8 @@ class _Spectrum:
     def rigid_share(self, period: float) -> float:
         """Return which part of an oscillator's response goes with the ground, as its acceleration does (Gupta 1990)."""
         rigid = (self.slow + 2.0 * _RIGID_HZ) / 3.0
+        if rigid <= self.slow:
+            return float(1.0 / period >= self.slow)
         return float(np.clip(math.log(1.0 / (period * self.slow)) / math.log(rigid / self.slow), 0.0, 1.0))
 
 
@@ -49,8 +51,8 @@ def with_response_spectrum(joints: Joints, spectrum: str = OF_MOTION, *, field: 
     """Return static checks with two more load cases: an earthquake by its response spectrum, both ways.
 
     The dam is elastic and bonded, with water and rock as the case has them: its two lowest modes by their periods and
-    effective damping, all higher ones by a static correction. The part of a mode
-    that goes with the ground adds to that correction with its sign, the rest by the root of the sum of squares.
+    effective damping, all higher ones by a static correction. The part of a mode that goes with the ground adds to that
+    correction with its sign, the rest by the root of the sum of squares.
 
     Parameters
     ----------
@@ -95,7 +97,7 @@ def _spectrum_of(case: Case, spectrum: str, field: str) -> _Spectrum:
     def of_target(period: float, damping: float) -> float:
         return float(target([period])[0]) * _eta(damping) / _eta(target.damping)
 
-    periods = _PERIODS[(target.shortest <= _PERIODS) & (target.longest >= _PERIODS)]
+    periods = np.clip(_PERIODS, target.shortest, target.longest)
     return _Spectrum(target.name, of_target, peak, _slow(periods, target(periods)))
 
 
