@@ -12,8 +12,8 @@ from heeltoe.warnings.notice import Notice
 #: By the depth of the reservoir over the height of the dam, from and to: how many were studied, which share of them
 #: slides less far with rock and sound, and between how many times as far the middle half of them slides.
 CLASSES = (
-    (0.6, 0.8, 45, 0.58, (0.23, 1.48)),
-    (0.8, 1.0, 50, 0.76, (0.4, 0.95)),
+    (0.6, 0.8, 45, 0.62, (0.23, 1.47)),
+    (0.8, 1.0, 50, 0.78, (0.4, 0.94)),
 )
 # What else the dams had in common, from and to.
 _HEIGHT_M, _FRICTION, _PEAK_G = (30.0, 150.0), (0.7, 1.1), (0.3, 0.6)
