@@ -85,7 +85,11 @@ class Energy(Block):
     ] = 0.0
     numerical_j: Annotated[float, Number("Energy lost by the time stepping itself; zero for a block.", _J)] = 0.0
     gained_j: Annotated[
-        float, Number("Sum of what contact added in steps in which its work was positive; it should be nothing.", _J)
+        float,
+        Number(
+            "What contact added in steps of positive work, and bonds beyond what they held; it should be nothing.",
+            _J,
+        ),
     ] = 0.0
 
 

@@ -92,6 +92,31 @@ def test_a_joint_cracks_and_says_so():
     assert any("fracture" in entry for entry in entries) == (broken > 1e-3 * abs(response.energy.input_j))
 
 
+@pytest.mark.parametrize(
+    ("tensile", "friction", "factor"), [("0.4 MPa", 1.3, 2.0), ("0.2 MPa", 1.3, 1.5), ("0.8 MPa", 1.0, 1.5)]
+)
+def test_a_joint_that_breaks_makes_no_energy_whatever_the_step(tensile, friction, factor):
+    """The right values are no energy made, and at least the case's own G_f on all that is cracked.
+
+    These joints slip while they are held under tension: friction of a negative force would give energy.
+    """
+    fields = dam(tensile_strength=tensile, cohesion="1.05 MPa")
+    fields["crack"]["friction"] = friction
+    fields["motion"]["points"] = [[t, f"{factor * float(a.split()[0])} g"] for t, a in PULSES]
+    whole = run(read_case(fields), "flexible")
+    fields["flexible"]["time_step"] = f"{whole.summary['time_step_s'] / 4.0} s"
+    quarter = run(read_case(fields), "flexible")
+    for response in (whole, quarter):
+        energy, joint = response.energy, response.joint
+        assert joint.cracked_length_m > 0.999 * response.crack_width_m
+        assert energy.fracture_j >= 200.0 * joint.cracked_length_m * (1.0 - 1e-3)
+        assert energy.gained_j < 0.01 * energy.fracture_j
+        assert energy.friction_j > 0.0
+        assert energy.residual < 1e-9
+        assert "energy-made" not in {notice.code for notice in response.warnings}
+    assert quarter.energy.gained_j < 0.1 * whole.energy.gained_j + 1e-6
+
+
 def test_two_lines_of_which_the_first_has_all_the_energy_are_one():
     one, same, two = (
         run(read_case(dam(**more)), "flexible")

@@ -69,6 +69,8 @@ pub(super) struct Bond {
     friction: f64,
     /// Stiffest springs (N/m) across and along that the step follows.
     stiffest: [f64; 2],
+    /// Energy (J) that it may give back as the step begins.
+    held: f64,
     /// After the step, if this is the last pass.
     next: After,
     /// Mean tension, shear strength beside friction, and shear of the step (N).
@@ -158,6 +160,19 @@ impl Bond {
         self.next = next;
     }
 
+    /// Energy (J) that it may give back after the step: that of its two springs.
+    fn may_give_back(&self) -> f64 {
+        let After {
+            damage,
+            widest,
+            gap,
+            shear,
+            ..
+        } = self.next;
+        let [closed, open] = [0.0, gap].map(|gap| self.bears(damage, gap, widest)[0]);
+        0.5 * (gap * (closed + open) + shear * shear / self.stiffest[1])
+    }
+
     /// Take over what has been found.
     fn settle(&mut self) {
         let After {
@@ -211,6 +226,8 @@ pub(super) struct Bonds {
     sum: Vec<f64>,
     /// What they have taken in the step from each component of each contact.
     pub taken: Vec<f64>,
+    /// What they have given in the step beyond what they held; they ought to give no more (J).
+    pub made: f64,
     /// Damage of each contact, 1 where it has no bond.
     pub damage: Vec<f64>,
     passes: u32,
@@ -249,6 +266,7 @@ impl Bonds {
                         gap: 0.0,
                         friction: line.friction[0].max(line.friction[1]),
                         stiffest: [0.0; 2],
+                        held: 0.0,
                         next: After::default(),
                         mean: [0.0; 3],
                         rigid: !shaken,
@@ -274,6 +292,7 @@ impl Bonds {
             own: Vec::new(),
             sum: vec![0.0; 2 * first],
             taken: vec![0.0; 2 * first],
+            made: 0.0,
             cracks,
             passes: 0,
         })
@@ -475,15 +494,24 @@ impl Bonds {
         let m = solver.status.len();
         let way = |k: usize| step.theta * solver.u[k] + (1.0 - step.theta) * before[k];
         self.taken.fill(0.0);
+        self.made = 0.0;
         for (bonds, cracked) in self.cracks.iter_mut().zip(&mut self.cracked) {
             for bond in bonds.iter_mut() {
                 let k = bond.contact;
-                // What the tension that it is shifted by adds to friction is the bond's, too.
+                // Friction is that of pressure. Of what slips under tension all shear is the bond's; of what is pressed
+                // that, too, which the tension that it is shifted by adds to friction.
                 let rubs = problem.mu_slip[k] * self.shift[m + k] * solver.status[k].sign();
-                let bond_share = self.shift[k] + rubs;
+                let bond_share = if solver.p[m + k] < 0.0 {
+                    solver.p[k]
+                } else {
+                    self.shift[k] + rubs
+                };
                 self.taken[k] = -bond_share * way(k);
                 self.taken[m + k] = -self.shift[m + k] * way(m + k);
-                cracked.energy += self.taken[k] + self.taken[m + k];
+                let (taken, held) = (self.taken[k] + self.taken[m + k], bond.may_give_back());
+                self.made += (held - bond.held - taken).max(0.0);
+                bond.held = held;
+                cracked.energy += taken;
             }
         }
         self.settle();

@@ -264,7 +264,7 @@ impl<'a> Moreau<'a> {
             ledger.turnover += work[0].abs() + work[1].abs();
             gained += work[0] + work[1];
         }
-        ledger.gained += gained.max(0.0);
+        ledger.gained += gained.max(0.0) + crack.bonds.as_ref().map_or(0.0, |bonds| bonds.made);
     }
 
     /// Let the bonds be where the step has brought them.
@@ -276,6 +276,7 @@ impl<'a> Moreau<'a> {
         if let Some(bonds) = &mut crack.bonds {
             if self.quiet {
                 bonds.taken.fill(0.0);
+                bonds.made = 0.0;
             } else {
                 bonds.book(
                     &crack.problem,

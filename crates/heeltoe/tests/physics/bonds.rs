@@ -194,6 +194,62 @@ fn shear_under_pressure_takes_its_energy_beside_friction() {
 }
 
 #[test]
+fn shear_under_tension_is_the_bonds_and_friction_takes_none() {
+    // Held by half its tensile strength, then pushed along until it gives way.
+    let bond = BondLaw {
+        energy: [1e6, 300.0],
+        ..BOND
+    };
+    let pulled = -(GRAVITY + 0.5 * LENGTH * BOND.tensile / HELD.mass);
+    let mut ground = lines(&[0.0, pulled], 4_000, 1.0, 1);
+    ground.extend(
+        lines(&[0.0, 600.0], 20_000, 1.0, 0)
+            .iter()
+            .map(|along| [along[0], pulled]),
+    );
+    for dt in [1e-4, 2.5e-5] {
+        let steps = (1e-4_f64 / dt).round() as usize;
+        let finer: Vec<_> = ground
+            .iter()
+            .flat_map(|a| std::iter::repeat_n(*a, steps))
+            .collect();
+        let pair = Pair {
+            omega: [100.0, 0.0],
+            ..HELD
+        };
+        let run = shake(&bonded(&pair, bond), &finer, dt);
+        let crack = &run.cracks[0];
+        let reach = 2.0 * bond.energy[1] / bond.cohesion;
+        let (slips, normal, along) = (
+            column(&run, "slip"),
+            column(&run, "normal_force"),
+            column(&run, "friction_force"),
+        );
+        let mut softened = 0;
+        for k in 1..slips.len() {
+            if normal[k] < 0.0 && slips[k] - slips[k - 1] < -1e-7 && slips[k] > -0.3 * reach {
+                let mean = -0.5 * (slips[k] + slips[k - 1]);
+                let bears = LENGTH * bond.cohesion * (1.0 - mean / reach) + pair.friction * normal[k];
+                near(along[k].abs(), bears, 0.01 * bears);
+                softened += 1;
+            }
+        }
+        assert!(softened > 50, "{softened}");
+        assert!(
+            crack.ledger.friction.abs() < 1e-6 * crack.cracked.energy,
+            "{:?}",
+            crack.ledger
+        );
+        assert!(
+            crack.ledger.gained < 0.01 * crack.cracked.energy,
+            "{:?}",
+            crack.ledger
+        );
+        assert!(crack.ledger.residual() < 1e-11, "{:?}", crack.ledger);
+    }
+}
+
+#[test]
 fn a_strength_beyond_reach_holds() {
     let strong = BondLaw {
         tensile: 1e7,
@@ -282,6 +338,10 @@ fn random_joints_close_their_books() {
         let held = crack.cracked.lengths[2] + crack.cracked.lengths[3] == 0.0;
         assert!(held || crack.ledger.residual() < 1e-9, "{k}: {:?}", crack.ledger);
         assert!(crack.residual < 1e-6, "{k}: {}", crack.residual);
+        // Breaking only takes, and friction never gives.
+        let made = crack.ledger.gained;
+        assert!(held || made <= 0.01 * crack.cracked.energy, "{k}: {:?}", crack.ledger);
+        assert!(held || crack.ledger.friction > -1e-9 * crack.ledger.turnover, "{k}: {:?}", crack.ledger);
         let healed =
             |[before, after]: [&[f64]; 2]| before.iter().zip(after).any(|(before, after)| after < before);
         let damages: Vec<&[f64]> = run.frames.damage.chunks_exact(2).collect();
