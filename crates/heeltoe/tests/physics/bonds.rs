@@ -340,8 +340,16 @@ fn random_joints_close_their_books() {
         assert!(crack.residual < 1e-6, "{k}: {}", crack.residual);
         // Breaking only takes, and friction never gives.
         let made = crack.ledger.gained;
-        assert!(held || made <= 0.01 * crack.cracked.energy, "{k}: {:?}", crack.ledger);
-        assert!(held || crack.ledger.friction > -1e-9 * crack.ledger.turnover, "{k}: {:?}", crack.ledger);
+        assert!(
+            held || made <= 0.01 * crack.cracked.energy,
+            "{k}: {:?}",
+            crack.ledger
+        );
+        assert!(
+            held || crack.ledger.friction > -1e-9 * crack.ledger.turnover,
+            "{k}: {:?}",
+            crack.ledger
+        );
         let healed =
             |[before, after]: [&[f64]; 2]| before.iter().zip(after).any(|(before, after)| after < before);
         let damages: Vec<&[f64]> = run.frames.damage.chunks_exact(2).collect();
