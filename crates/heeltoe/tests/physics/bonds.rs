@@ -338,18 +338,6 @@ fn random_joints_close_their_books() {
         let held = crack.cracked.lengths[2] + crack.cracked.lengths[3] == 0.0;
         assert!(held || crack.ledger.residual() < 1e-9, "{k}: {:?}", crack.ledger);
         assert!(crack.residual < 1e-6, "{k}: {}", crack.residual);
-        // Breaking only takes, and friction never gives.
-        let made = crack.ledger.gained;
-        assert!(
-            held || made <= 0.01 * crack.cracked.energy,
-            "{k}: {:?}",
-            crack.ledger
-        );
-        assert!(
-            held || crack.ledger.friction > -1e-9 * crack.ledger.turnover,
-            "{k}: {:?}",
-            crack.ledger
-        );
         let healed =
             |[before, after]: [&[f64]; 2]| before.iter().zip(after).any(|(before, after)| after < before);
         let damages: Vec<&[f64]> = run.frames.damage.chunks_exact(2).collect();
