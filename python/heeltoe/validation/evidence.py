@@ -24,6 +24,7 @@ from heeltoe.models.flexible.evidence.refinement import answer
 from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake
+from heeltoe.result.contract import CRACKED, HEADLINES, RESIDUAL_SLIP
 from heeltoe.result.judge import leading_crack
 from heeltoe.result.numbers import EvidenceNumbers
 from heeltoe.validation.row import Row
@@ -31,8 +32,8 @@ from heeltoe.validation.sources import ENDS_WITH_MOTION
 from heeltoe.validation.thesis_dams import record_named
 
 #: Dams with a straight crack and constant friction, with a friction law, a crack with two kinks, or two cracks; plain
-#: ones on elastic rock before water with sound.
-Kind = Literal["plain", "law", "kinks", "two cracks", "rock and water"]
+#: ones on elastic rock before water with sound, and those with a bond on the crack.
+Kind = Literal["plain", "law", "kinks", "two cracks", "rock and water", "bonds"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 #: So many of those that are called converged must stay where they are.
 COVERED = 0.95
@@ -71,6 +72,9 @@ class Judged:
         Elements along its crack in the end.
     by_mesh, by_step
         By how much twice the elements and a quarter of the step move the value [m]; None where it is not converged.
+    others
+        The same of each further number with a bound, by its key, whether the slip is converged or not: its value,
+        uncertainty, and what mesh and step move it by.
     """
 
     kind: Kind
@@ -86,6 +90,7 @@ class Judged:
     across: int
     by_mesh: float | None
     by_step: float | None
+    others: dict[str, tuple[float, float, float, float]]
 
     @property
     def covered(self) -> bool:
@@ -153,13 +158,22 @@ def draw(seed: int, kind: Kind = "plain") -> Case:
     if kind == "two cracks":
         friction = float(own.uniform(0.6, 1.4))
         fields["further_cracks"] = [{"elevation": f"{height * own.uniform(0.4, 0.85)} m", "friction": friction}]
-    if kind == "rock and water":
+    if kind in ("rock and water", "bonds"):
         fields["reservoir"] |= {"compressible": True, "floor_reflection": float(own.choice([0.3, 0.75, 0.9, 1.0]))}
         fields["rock"] = {
             "modulus": f"{10.0 ** own.uniform(0.5, 1.8):.4g} GPa",
             "poisson": float(own.uniform(0.1, 0.35)),
             "density": f"{own.uniform(2200.0, 2800.0):.5g} kg/m^3",
-            "damping": float(own.choice([0.0, 0.02, 0.05])),
+            "damping": float(own.choice([0.0, 0.02, 0.05] if kind == "rock and water" else [0.02, 0.05])),
+        }
+    if kind == "bonds":
+        # Of old lift joints and of good ones; energies are those of mass concrete.
+        tensile = float(own.uniform(0.2, 1.5))
+        fields["crack"]["bond"] = {
+            "tensile_strength": f"{tensile:.3f} MPa",
+            "cohesion": f"{tensile * own.uniform(1.3, 2.5):.3f} MPa",
+            "fracture_energy": f"{own.uniform(100.0, 300.0):.4g} N/m",
+            "shear_energy": f"{own.uniform(1000.0, 3000.0):.4g} N/m",
         }
     return read_case(fields)
 
@@ -202,7 +216,8 @@ def judge(seed: int, kind: Kind = "plain") -> Judged | None:
     response = answer(ShakenDam(case, dam, earthquake(case).shaking), _FRAMES, "full")
     crack = leading_crack([evidence.residual_slip_m.value for evidence in response.evidences])
     evidence = response.evidences[crack]
-    by_mesh, by_step = _moved(response.shaken, evidence, crack) if evidence.converged else (None, None)
+    moved = _moved(response.shaken, evidence, crack)
+    by_mesh, by_step = moved.pop(RESIDUAL_SLIP.key)[2:] if evidence.converged else (None, None)
     return Judged(
         kind,
         seed,
@@ -217,21 +232,29 @@ def judge(seed: int, kind: Kind = "plain") -> Judged | None:
         evidence.elements_across,
         by_mesh,
         by_step,
+        moved,
     )
 
 
-def _moved(shaken: ShakenDam, evidence: EvidenceNumbers, crack: int) -> tuple[float, float]:
-    """Return by how much twice the elements and a quarter of the step move the slip of a crack [m]."""
+def _moved(shaken: ShakenDam, evidence: EvidenceNumbers, crack: int) -> dict[str, tuple[float, float, float, float]]:
+    """Return the numbers of a crack that have a bound: value, uncertainty, and by how much twice the elements and a
+    quarter of the step move it."""
     trials = Trials(shaken, evidence.time_step_s, _FRAMES)
     scales = SCALES if evidence.scatters else SCALES[:1]
     # Means are over runs at the longer of the two steps.
     halvings = -1 if evidence.scatters and evidence.other_time_step_s > evidence.time_step_s else 0
     finer, shorter = Level(1, halvings), Level(0, halvings + 2)
-    mesh, step = (
-        float(trials.numbers(level, scales, crack)["residual_slip_m"].mean()) - evidence.residual_slip_m.value
-        for level in (finer, shorter)
-    )
-    return mesh, step
+    worths = {item.key: getattr(evidence, item.key) for item in HEADLINES} | {CRACKED: evidence.cracked_length_m}
+    mesh, step = (trials.numbers(level, scales, crack) for level in (finer, shorter))
+    return {
+        key: (
+            worth.value,
+            worth.uncertainty,
+            *(float(numbers[key].mean()) - worth.value for numbers in (mesh, step)),
+        )
+        for key, worth in worths.items()
+        if worth is not None and worth.uncertainty is not None
+    }
 
 
 def judge_all(seeds: Iterable[int], file: Path, kind: Kind = "plain") -> Iterator[Judged]:
@@ -274,6 +297,15 @@ def table(judged: list[Judged]) -> Iterator[Row]:
     )
 
 
+def print_others(judged: list[Judged]) -> None:
+    """Print of each number with a bound how many dams keep it, as a table of docs/flexible-choices.md."""
+    keys = list(dict.fromkeys(key for dam in judged for key in dam.others))
+    for key in keys:
+        numbers = [dam.others[key] for dam in judged if key in dam.others]
+        kept = [abs(moved[0]) <= bound and abs(moved[1]) <= bound for _, bound, *moved in numbers]
+        sys.stdout.write(f"| {key} | {len(kept)} | {sum(kept)} |\n")
+
+
 if __name__ == "__main__":
     first, count, name = int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3])
     wanted = KINDS[KINDS.index(sys.argv[4])] if len(sys.argv) > 4 else KINDS[0]
@@ -284,3 +316,4 @@ if __name__ == "__main__":
         sys.stdout.flush()
     for row in table(judged):
         sys.stdout.write(f"{row.what}: {row.ours:.3g}; {row.remark}\n")
+    print_others(judged)
