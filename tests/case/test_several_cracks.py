@@ -108,8 +108,8 @@ def test_a_case_says_its_cracks():
     assert repr(read_case({**CASE.model_dump(mode="json", exclude_unset=True)})) == repr(CASE)
 
 
-# The right words: a bond on one crack and a law on another are two cracks, and the reader must know which.
-def test_a_bond_and_a_law_of_another_crack_are_refused_by_their_cracks():
+# The right words: a bond on one crack and kinks of another are two cracks, and the reader must know which.
+def test_a_bond_and_kinks_of_another_crack_are_refused_by_their_cracks():
     bond = {
         "tensile_strength": "1 MPa",
         "cohesion": "1.5 MPa",
@@ -117,17 +117,20 @@ def test_a_bond_and_a_law_of_another_crack_are_refused_by_their_cracks():
         "shear_energy": "1000 N/m",
     }
     law = {"name": "slip weakening", "peak_friction": 1.1, "residual_friction": 0.8, "slip": "1 mm"}
+    kinks = {"friction": 1.0, "kinks": [["10 m", "0.3 m"]]}
     fields = {
         "section": {"height": "30 m", "crest_width": "5 m", "base_width": "26 m"},
         "concrete": {"modulus": "25 GPa"},
-        "cracks": [{"elevation": "12 m", "friction": 1.0, "bond": bond}, {"elevation": "0 m", "law": law}],
+        "cracks": [{"elevation": "12 m", "friction": 1.0, "bond": bond}, {"elevation": "0 m"} | kinks],
     }
     with pytest.raises(InputError) as refused:
         read_case(fields)
     (error,) = [one for one in (refused.value, *refused.value.others) if one.code == "combination"]
     assert error.field == "cracks[0].bond"
-    assert "with a friction law of another crack, at 0 m: " in str(error)
+    assert "with kinks of another crack, at 0 m: " in str(error)
     assert "solved together" in str(error)
+    # A law goes with the bond of another crack.
+    assert read_case({**fields, "cracks": [fields["cracks"][0], {"elevation": "0 m", "law": law}]})
     alone = {**fields, "cracks": [{"elevation": "12 m", "bond": bond, "law": law}]}
     with pytest.raises(InputError) as refused:
         read_case(alone)

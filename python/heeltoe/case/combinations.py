@@ -79,6 +79,8 @@ class Rule:
         Why.
     verdict
         ``"refused"``, or ``"warned"`` where the case runs and a warning says what the feature leaves out.
+    one_crack
+        Whether only a crack that has both breaks it.
     """
 
     feature: str
@@ -86,6 +88,7 @@ class Rule:
     users: tuple[str, ...]
     reason: str
     verdict: Literal["refused", "warned"] = "refused"
+    one_crack: bool = False
 
     def without(self, path: str) -> str:
         """Return in a few words what a field does not go with by this rule."""
@@ -325,7 +328,7 @@ RULES = (
     Rule("roughness", "a friction law", (), "coefficients of a law are those of plane flanks"),
     Rule("roughness", "kinks", (), _STRAIGHT),
     Rule("a bonded joint", "kinks", (), _STRAIGHT),
-    Rule("a bonded joint", "a friction law", (), "below the bond there is constant friction"),
+    Rule("a bonded joint", "a friction law", (), "below the bond there is constant friction", one_crack=True),
     Rule("a bonded joint", "roughness", (), "below the bond the faces are plane"),
     Rule("a bonded joint", "penalty contact", (), _NO_PENALTY),
     Rule("a bonded joint", "all nodes watched twice", (), "each node would have its bond twice"),
@@ -453,8 +456,10 @@ def _unsupported(case: Featured, user: str) -> Iterator[InputError]:
 
 def _broken(case: Featured, rule: Rule) -> FeatureFields:
     """Walk the fields with the feature of a rule, where the case has the other one, too."""
-    if not rule.other or any(True for _ in FEATURES[rule.other].find(case)):
-        yield from FEATURES[rule.feature].find(case)
+    others = {path.rpartition(".")[0] for path, _ in FEATURES[rule.other].find(case)} if rule.other else set()
+    if not rule.other or others:
+        found = FEATURES[rule.feature].find(case)
+        yield from ((path, value) for path, value in found if not rule.one_crack or path.rpartition(".")[0] in others)
 
 
 def _at_another_crack(case: Featured, rule: Rule, path: str) -> float | None:

@@ -444,6 +444,33 @@ def test_joints_that_all_hold_are_one_sentence():
     assert verdict(run(read_case(fields), "flexible")).startswith("None of the 3 joints cracks.")
 
 
+@pytest.mark.parametrize("bonded", [0, 1])
+def test_a_joint_cracks_beside_a_crack_with_a_friction_law(bonded):
+    """The right value is that of constant friction, which a law with equal coefficients is."""
+    law = {"name": "slip weakening", "form": "linear", "peak_friction": 0.8, "residual_friction": 0.8, "slip": "9 mm"}
+    weakening = law | {"peak_friction": 1.0}
+    runs = []
+    for friction in ({"friction": 0.8}, {"law": law}, {"law": weakening}):
+        fields = dam()
+        del fields["crack"]
+        fields["flexible"]["elements_across"] = 4
+        cracks = [{"elevation": "12 m"}, {"elevation": "0 m"}]
+        cracks[bonded] |= {"friction": 1.0, "bond": BOND}
+        cracks[1 - bonded] |= friction
+        fields["cracks"] = cracks
+        runs.append(run(read_case(fields), "flexible"))
+    constant, equal, falls = runs
+    assert constant.energy.fracture_j > 100.0
+    for one, other in zip(constant.cracks, equal.cracks, strict=True):
+        assert other.residual_slip_m == pytest.approx(one.residual_slip_m, rel=1e-9, abs=1e-12)
+    assert equal.energy.fracture_j == pytest.approx(constant.energy.fracture_j, rel=1e-9)
+    # The other law is one, and is met together with the bond.
+    place = [crack.joint is None for crack in falls.cracks].index(True)
+    assert abs(falls.cracks[place].residual_slip_m) < 0.99 * abs(constant.cracks[place].residual_slip_m)
+    assert falls.summary["contact_residual"] < 1e-8
+    assert falls.energy.residual < 1e-9
+
+
 @pytest.mark.slow
 def test_of_many_joints_those_that_crack_most_are_named():
     fields = dam()

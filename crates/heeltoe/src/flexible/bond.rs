@@ -323,7 +323,6 @@ impl Bonds {
 
     /// Begin a step, whose gaps and states are these.
     pub(super) fn set_up(&mut self, problem: &mut Problem, solver: &Solver, gaps: &[f64], step: TimeStep) {
-        self.passes = 0;
         if self.iter_mut().any(|bond| bond.rigid) {
             problem.added.resize(solver.status.len(), [0.0; 2]);
             problem.lean.resize(solver.status.len(), 0.0);
@@ -414,6 +413,7 @@ impl Bonds {
         moved: &mut bool,
     ) -> Report {
         let mut report = Report::default();
+        self.passes = 0;
         self.own.clone_from(&problem.b);
         // The last solution is that of contact alone again.
         let left = solver.p.iter_mut().zip(&self.pushed);
@@ -455,10 +455,11 @@ impl Bonds {
         solver: &mut Solver,
         step: TimeStep,
     ) -> Report {
-        let mut shifted = problem.b.clone();
-        Known.velocities::<W>(problem, &self.shift, &mut shifted);
-        problem.b = shifted;
+        self.own.clone_from(&problem.b);
+        Known.velocities::<W>(problem, &self.shift, &mut self.push);
+        problem.b.clone_from(&self.push);
         let report = solver.solve::<W>(problem, &mut Known);
+        problem.b.clone_from(&self.own);
         solver
             .p
             .iter_mut()

@@ -221,15 +221,12 @@ fn step(dam: &Dam, crack: &mut Crack, sides: &mut [Side]) {
     crack.set_up();
     crack.bear(ONE);
     let mut report = Report::default();
-    if let Some(bonds) = &mut crack.bonds {
-        report.go_on(bonds.rest::<Plain>(&mut crack.problem, &mut crack.solver, ONE));
-        bonds.settle();
-        crack.impulses(sides, |side| &mut side.force);
-        return;
-    }
     loop {
-        report.go_on(crack.solver.solve::<Plain>(&mut crack.problem, &mut Known));
         let (problem, solver) = (&mut crack.problem, &mut crack.solver);
+        report.go_on(match &mut crack.bonds {
+            Some(bonds) => bonds.rest::<Plain>(problem, solver, ONE),
+            None => solver.solve::<Plain>(problem, &mut Known),
+        });
         let met = crack
             .laws
             .as_mut()
@@ -237,6 +234,9 @@ fn step(dam: &Dam, crack: &mut Crack, sides: &mut [Side]) {
         if met {
             break;
         }
+    }
+    if let Some(bonds) = &mut crack.bonds {
+        bonds.settle();
     }
     crack.impulses(sides, |side| &mut side.force);
 }

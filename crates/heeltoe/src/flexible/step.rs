@@ -344,7 +344,7 @@ impl<'a> Moreau<'a> {
     }
 }
 
-/// The contact problem of a step, with the bonds or the laws of the crack.
+/// The contact problem of a step, with the bonds of some cracks and the laws of others.
 struct Solving<'s, 'f, 'a> {
     faces: &'s mut FacesOperator<'f, 'a>,
     problem: &'s mut Problem,
@@ -358,20 +358,15 @@ struct Solving<'s, 'f, 'a> {
 
 impl Solving<'_, '_, '_> {
     fn solve<W: Lanes>(mut self) -> Report {
-        if let Some(bonds) = self.bonds {
-            return bonds.solve::<W>(
-                self.problem,
-                self.solver,
-                self.faces,
-                self.before,
-                self.step,
-                self.moved,
-            );
-        }
         let mut report = Report::default();
         loop {
-            report.go_on(self.solver.solve::<W>(self.problem, self.faces));
             let (problem, solver) = (&mut *self.problem, &mut *self.solver);
+            report.go_on(match self.bonds.as_mut() {
+                Some(bonds) => {
+                    bonds.solve::<W>(problem, solver, self.faces, self.before, self.step, self.moved)
+                }
+                None => solver.solve::<W>(problem, self.faces),
+            });
             let met = self
                 .laws
                 .as_mut()
