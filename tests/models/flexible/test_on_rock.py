@@ -330,6 +330,19 @@ def test_a_thin_layer_bonded_to_the_rock_hardly_matters():
     assert thin.energy.rock_j == pytest.approx(none.energy.rock_j, rel=0.1)
 
 
+def test_cracks_slide_alike_in_whatever_order_a_case_lists_them():
+    base, above = {"elevation": "0 m", "friction": 0.8}, {"elevation": "12 m", "friction": 0.7}
+    listed, other = dam(), dam()
+    del listed["crack"]
+    listed["cracks"] = [above, base]
+    other["crack"], other["further_cracks"] = base, [above]
+    first, second = (run(read_case(fields), "flexible") for fields in (listed, other))
+    for one, two in zip(first.cracks, second.cracks, strict=True):
+        assert abs(one.residual_slip_m) > 1e-3
+        assert one.residual_slip_m == pytest.approx(two.residual_slip_m, rel=1e-9)
+        assert one.opening_upstream_m == pytest.approx(two.opening_upstream_m, rel=1e-9)
+
+
 def test_twice_the_damping_is_that_of_the_concrete():
     case = read_case(dam(crack=HIGH))
     dam_on_rock = build_flexible_dam(case)

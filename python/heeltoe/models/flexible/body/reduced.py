@@ -155,7 +155,7 @@ class FlexibleDam(BondedDam):
     @cached_property
     def kernel(self) -> CrackedDam:
         """The kernel's own copy."""
-        return _cracked(self.contactors, self.section, self.asked, self.reduced, self.lines, self.reservoir, self.rock)
+        return _cracked(self.contactors, self.sections, self.asked, self.reduced, self.lines, self.reservoir, self.rock)
 
     @property
     def give(self) -> tuple[float, float]:
@@ -226,7 +226,7 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
         reduced = (*reduced[:-1], part)
     lines = _lines(case, bonded, rock)
     contactors = case.flexible.contactors
-    kernel = _cracked(contactors, case.cut, case.asked, reduced, lines, reservoir, rock)
+    kernel = _cracked(contactors, sections, case.asked, reduced, lines, reservoir, rock)
     # The penalty method begins with its crack bonded and its springs unloaded.
     exact = case.flexible.contact == "coulomb"
     static, start = bonded.bent, Start(not exact, (0.0,) * len(lines), (0,) * len(lines))
@@ -264,14 +264,14 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
 
 def _cracked(
     contactors: int,
-    section: CutSection,
+    sections: tuple[CutSection, ...],
     asked: int,
     reduced: tuple[ReducedBody, ...],
     lines: tuple[CrackLine, ...],
     reservoir: WaterBody | None,
     rock: RockBody | None,
 ) -> CrackedDam:
-    parts = reduced if rock is None else (*reduced, _reduced_rock(rock, section, reduced[0]))
+    parts = reduced if rock is None else (*reduced, _reduced_rock(rock, sections[-1], reduced[0]))
     return CrackedDam(parts, lines, contactors, reservoir, asked=asked)
 
 
