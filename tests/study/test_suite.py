@@ -212,6 +212,18 @@ def test_the_evidence_of_one_record_says_how_certain_a_limit_is(records):
     assert suite.to_json()["directory"] is None
 
 
+@pytest.mark.slow
+def test_a_number_without_a_bound_may_be_off_by_as_much_as_it_is(records):
+    changes = ["flexible.elements_across=2", "flexible.evidence=step", "flexible.modes=12", "analysis.silence=0 s"]
+    dam = example("typical-base", *changes, "rock.modulus=20 GPa", "limits.rotation=1 mrad")
+    (turn,) = heeltoe.run_suite(dam, records / "quake-a-000.txt", model="flexible", pga="0.7 g").suite["models"][0][
+        "limits"
+    ]
+    assert turn["value"] > 0.0
+    assert turn["uncertainty"] == pytest.approx(turn["value"])
+    assert turn["certain"] == (abs(turn["value"] - 1e-3) > turn["value"])
+
+
 SCALED = {"suite.pga": "0.7 g", "suite.judge": "mean", "suite.target": "en1998:0.3g,B"}
 
 

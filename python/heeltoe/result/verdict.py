@@ -104,7 +104,7 @@ def _limits(response: Response, units: str) -> str:
         if not check.met
     ]
     if broken:
-        doubt = "" if all(check.certain for check in response.limits if not check.met) else ", though not for certain"
+        doubt = "" if any(check.certain for check in response.limits if not check.met) else ", though not for certain"
         return f"It does not keep within its limits{doubt}: its {' and its '.join(broken)}."
     doubted = [
         f"{limited(check, units)} of {_judged(check, units)} may be more than the "

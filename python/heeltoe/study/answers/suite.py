@@ -222,8 +222,9 @@ def _uncertainty(name: str, value: float, worth: Mapping[str, Any]) -> float:
         return 0.0
     # Of the ways that one limit limits, the larger is the one that counts.
     own = max(known, key=lambda limit: abs(limit["value"]))
-    size = abs(own["value"])
-    return float(own["uncertainty"] * max(1.0, value / size if size else 1.0))
+    size, uncertainty = abs(own["value"]), own["uncertainty"]
+    # Without a bound the error may be as large as the value.
+    return float((size if uncertainty is None else uncertainty) * max(1.0, value / size if size else 1.0))
 
 
 def suite_spectra(walk: Walk, records: Sequence[Mapping[str, Any]]) -> dict[str, Any] | None:
