@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from heeltoe import InputError, read_case, rigid
+from heeltoe.case.paths import bounds_of, quantity_of, value_of
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.study.small.run_table import parse_axes, run_small
 from shared.cases import DAM, dam, refusal, write
@@ -76,3 +77,16 @@ def test_a_key_that_stands_twice_is_refused_by_its_name(tmp_path):
     with pytest.raises(InputError, match=r'not valid JSON: "friction" stands twice in one block'):
         read_case(write(tmp_path / "case.json", text))
     assert read_case(DAM).crack.friction == 1.0
+
+
+def test_fields_of_a_list_of_cracks_are_known_by_their_paths():
+    fields = {
+        "section": {"height": "30 m", "crest_width": "5 m", "base_width": "26 m"},
+        "cracks": [{"elevation": "12 m", "friction": 0.7}, {"elevation": "0 m", "friction": 0.9}],
+    }
+    case = read_case(fields)
+    for path, value in (("cracks[0].friction", 0.7), ("cracks[1].friction", 0.9), ("cracks[0].elevation", 12.0)):
+        assert value_of(case, path) == value
+        assert quantity_of(path) == quantity_of(path.replace("cracks[0]", "crack").replace("cracks[1]", "crack"))
+    assert value_of(case, "cracks[2].friction") is None
+    assert bounds_of("cracks[1].friction") == bounds_of("crack.friction")

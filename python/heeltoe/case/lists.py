@@ -111,6 +111,20 @@ def crack_path(path: str) -> str:
     return f"{CRACKS}{'' if place is None else f'[{place}]'}{path[match.end() :]}"
 
 
+def place_in_list(path: str) -> int | None:
+    """Return the place, from the crest down, of the crack whose field a path names in the list of all cracks."""
+    match = _OF_LIST.match(path)
+    return None if match is None else int(match[1])
+
+
+def block_path(path: str) -> str:
+    """Return the path of a field of a list of cracks as that of a block with the same fields; others as they are."""
+    match, place = _OF_LIST.match(path), place_in_list(path)
+    if match is None or place is None:
+        return path
+    return f"{f'{_FURTHER}[{place - 1}]' if place else 'crack'}{path[match.end() :]}"
+
+
 def aliases_of(fields: Mapping[str, Any]) -> dict[str, str]:
     """Return the paths of the cracks of a file that lists them, by those of the blocks."""
     items = fields.get(CRACKS)

@@ -9,6 +9,7 @@ from typing import Any, get_args, get_origin
 from pydantic import BaseModel, WithJsonSchema
 from pydantic.fields import FieldInfo
 
+from heeltoe.case.lists import block_path, place_in_list
 from heeltoe.case.model import Case
 from heeltoe.case.sentences import kinds_in
 
@@ -35,7 +36,7 @@ def _field_at(path: str) -> FieldInfo | None:
     several kinds."""
     block: type[BaseModel] | None = Case
     field = None
-    for part in path.split("."):
+    for part in block_path(path).split("."):
         name, place, _ = part.partition("[")
         field = None if block is None else block.model_fields.get(name)
         if field is None:
@@ -59,6 +60,9 @@ def quantities_of(field: object) -> list[str]:
 def value_of(case: Case, path: str) -> Any:
     """Return what stands in a field of a case, quantities in SI units; None where its block is not there."""
     place: Any = case
+    if (crack := place_in_list(path)) is not None:
+        alone = case.single_crack_cases
+        return value_of(alone[crack], f"crack{path.partition(']')[2]}") if crack < len(alone) else None
     for part in path.split("."):
         name, _, number = part.removesuffix("]").partition("[")
         place = getattr(place, name, None)

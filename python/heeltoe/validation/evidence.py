@@ -72,9 +72,9 @@ class Judged:
         Elements along its crack in the end.
     by_mesh, by_step
         By how much twice the elements and a quarter of the step move the value [m]; None where it is not converged.
-    others
-        The same of each further number with a bound, by its key, whether the slip is converged or not: its value,
-        uncertainty, and what mesh and step move it by.
+    numbers
+        Each number with a bound, by its key, whether the slip is converged or not: its value, its uncertainty, and what
+        mesh and step move it by.
     """
 
     kind: Kind
@@ -90,7 +90,7 @@ class Judged:
     across: int
     by_mesh: float | None
     by_step: float | None
-    others: dict[str, tuple[float, float, float, float]]
+    numbers: dict[str, tuple[float, float, float, float]]
 
     @property
     def covered(self) -> bool:
@@ -217,7 +217,7 @@ def judge(seed: int, kind: Kind = "plain") -> Judged | None:
     crack = leading_crack([evidence.residual_slip_m.value for evidence in response.evidences])
     evidence = response.evidences[crack]
     moved = _moved(response.shaken, evidence, crack)
-    by_mesh, by_step = moved.pop(RESIDUAL_SLIP.key)[2:] if evidence.converged else (None, None)
+    by_mesh, by_step = moved[RESIDUAL_SLIP.key][2:] if evidence.converged else (None, None)
     return Judged(
         kind,
         seed,
@@ -297,11 +297,11 @@ def table(judged: list[Judged]) -> Iterator[Row]:
     )
 
 
-def print_others(judged: list[Judged]) -> None:
+def print_numbers(judged: list[Judged]) -> None:
     """Print of each number with a bound how many dams keep it, as a table of docs/flexible-choices.md."""
-    keys = list(dict.fromkeys(key for dam in judged for key in dam.others))
+    keys = list(dict.fromkeys(key for dam in judged for key in dam.numbers))
     for key in keys:
-        numbers = [dam.others[key] for dam in judged if key in dam.others]
+        numbers = [dam.numbers[key] for dam in judged if key in dam.numbers]
         kept = [abs(moved[0]) <= bound and abs(moved[1]) <= bound for _, bound, *moved in numbers]
         sys.stdout.write(f"| {key} | {len(kept)} | {sum(kept)} |\n")
 
@@ -316,4 +316,4 @@ if __name__ == "__main__":
         sys.stdout.flush()
     for row in table(judged):
         sys.stdout.write(f"{row.what}: {row.ours:.3g}; {row.remark}\n")
-    print_others(judged)
+    print_numbers(judged)

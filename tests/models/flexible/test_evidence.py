@@ -109,6 +109,13 @@ def test_what_is_refined(moved, given, finer):
     assert _finer(evidence_of(moved), Level(0, 0), dam(**given).flexible) == finer
 
 
+def test_a_mesh_that_lowers_the_strength_of_a_joint_is_refined_whatever_moves_its_slip():
+    moved = (0.001, 0.002, 0.03)
+    for given, finer in (({}, Level(1, 0)), ({"elements_across": 8}, None)):
+        assert _finer(evidence_of(moved), Level(0, 0), dam(**given).flexible, lowered=True) == finer
+    assert _finer(evidence_of((0.001, 0.002, 0.003)), Level(0, 0), dam().flexible, lowered=True) is None
+
+
 def test_other_meshes_of_a_case():
     case = dam(elements_across=5, elements_across_below=8)
     assert [with_mesh(case, mesh).flexible.elements_across for mesh in (-1, 0, 1, 2)] == [3, 5, 10, 20]
@@ -201,7 +208,7 @@ def test_a_vibration_that_grows_is_looked_at_at_the_mesh_that_is_told(monkeypatc
         told.append(run)
 
     finer = iter([Level(1, 0)])
-    monkeypatch.setattr(refinement, "_finer", lambda *_: next(finer, None))
+    monkeypatch.setattr(refinement, "_finer", lambda *_, **__: next(finer, None))
     monkeypatch.setattr(model, "self_excitation", growth)
     response = flexible(dam(elements_across=4), MOTION)
     assert response.evidence["elements_across"] == 8

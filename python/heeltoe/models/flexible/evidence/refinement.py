@@ -92,7 +92,7 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
     while True:
         stand = _Stand(trials, level, full=full)
         evidence = stand.evidences()
-        finer = _finer(_worst(evidence), level, options)
+        finer = _finer(_worst(evidence), level, options, lowered=full and stand.lowers_strength)
         if finer is None:
             break
         if not _affordable(trials, finer, full=full, means=any(item.scatters for item in evidence)):
@@ -130,8 +130,11 @@ def _worst(evidences: Sequence[EvidenceNumbers]) -> EvidenceNumbers:
     )
 
 
-def _finer(evidence: EvidenceNumbers, level: Level, options: Flexible) -> Level | None:
-    """Return the level at which the slip may be certain enough; None where it is, or nothing can make it so."""
+def _finer(evidence: EvidenceNumbers, level: Level, options: Flexible, *, lowered: bool = False) -> Level | None:
+    """Return the level at which the slip may be certain enough; None where it is, or nothing can make it so. A mesh
+    that has `lowered` the strength of a joint is too coarse, whatever the shaking does."""
+    if lowered and not evidence.converged and "elements_across" not in options.model_fields_set:
+        return Level(level.mesh + 1, level.halvings)
     slip = evidence.residual_slip_m
     if evidence.converged or evidence.no_limit or (slip.shaking or 0.0) > evidence.allowed_m:
         return None
@@ -151,9 +154,9 @@ def _worth(
     mesh: float | None,
     varied: Sequence[Floats] | None,
     surroundings: float | None,
+    least: float,
 ) -> HeadlineWorth:
     deviation = None if varied is None else max(float(runs.std(ddof=1)) for runs in varied)
-    least = FLOOR_M if key.endswith("_m") else 0.0
     return worth_of(value, run, abs(run - other), mesh, deviation, surroundings, least=least)
 
 
@@ -248,6 +251,12 @@ class _Stand:
         bond, own = dam.lines[crack].bond, self._bonds[crack]
         return bond is not None and own is not None and bond[0] < own.tensile_strength * (1.0 - 1e-12)
 
+    @property
+    def lowers_strength(self) -> bool:
+        """Whether the elements along a joint are so long that its strength is lowered."""
+        dam = self._trials.dam_of(self._level.mesh).dam
+        return any(self._lowered(crack, dam) for crack in range(self._trials.cracks))
+
     def _evidence(self, crack: int, *, spent: bool) -> EvidenceNumbers:
         trials = self._trials
         run, other = trials.numbers(self._level, _AS_IT_IS, crack), trials.numbers(self._step, _AS_IT_IS, crack)
@@ -263,28 +272,33 @@ class _Stand:
         # Of runs that scatter those of both meshes tell by how much.
         ensembles = ([own] if beside is None else [own, beside]) if mean else None if varied is None else [varied]
 
+        dam = trials.dam_of(self._level.mesh).dam
+        width, lowered = dam.sections[crack].crack_width, self._lowered(crack, dam)
+
         def worth(key: str) -> HeadlineWorth:
+            value = float(own[key].mean()) if mean else float(run[key][0])
+            least = FLOOR_M if key.endswith("_m") else FLOOR_M / width
             return _worth(
                 key,
-                float(own[key].mean()) if mean else float(run[key][0]),
+                value,
                 float(run[key][0]),
                 float(other[key][0]),
                 _moved_by_mesh(key, own, beside, third),
                 None if ensembles is None else [runs[key] for runs in ensembles],
                 None if farther is None or near is None else abs(float(farther[key].mean() - near[key].mean())),
+                # A joint of another strength may do anything between this and nothing.
+                max(least, abs(value)) if lowered else least,
             )
 
-        dam = trials.dam_of(self._level.mesh).dam
         cracked = None
         if dam.lines[crack].bond is not None:
             # What one run cracks is what it says; no less is known than half an element.
-            width = dam.sections[crack].crack_width
             length = worth(CRACKED)
             least = 0.5 * width / self._options.elements_across
             if length.run + float(run[SOFTENING][0]) > width - least:
                 # Nothing is intact that would stop it.
                 least = max(least, width - length.run)
-            if self._lowered(crack, dam):
+            if lowered:
                 # A strength that depends on the mesh is no evidence of how far the joint cracks.
                 least = max(length.run, width - length.run)
             moved = (length.step, length.mesh, length.shaking, length.surroundings)
