@@ -5,6 +5,7 @@
 PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
+PIP    := $(BIN)/pip install --quiet --disable-pip-version-check
 # Where the tests and the validation look for strong-motion records that cannot be part of the project.
 RECORDS := $(abspath ../shared/records)
 export HEELTOE_RECORDS ?= $(if $(wildcard $(RECORDS)),$(RECORDS))
@@ -48,7 +49,10 @@ check:
 $(VENV)/.packages: requirements.lock | check
 	@echo "installing Python packages into $(VENV)"
 	@$(PYTHON) -m venv $(VENV) || { echo "missing: the venv module of $(PYTHON) (python3-venv)"; exit 1; }
-	@$(BIN)/pip install --quiet --disable-pip-version-check -r requirements.lock
+	@awk '/^maturin==/,!/\\$$/' requirements.lock > $(VENV)/maturin.lock && $(PIP) -r $(VENV)/maturin.lock
+	@# The kernel compiles beside that; where it does not, the next rule says why.
+	@(. $(BIN)/activate && maturin develop --release --locked --skip-install > $(VENV)/build.log 2>&1) & \
+		$(PIP) -r requirements.lock; installed=$$?; wait; exit $$installed
 	@touch $@
 
 # All that the kernel is made from, at any depth.
@@ -134,7 +138,7 @@ book: check $(VENV)/.built
 	@$(ELAPSED)
 
 # What of the peers no wheel fits is not there then, and is said to be.
-PEERS = $(BIN)/pip install --quiet --disable-pip-version-check -r requirements-bench.lock \
+PEERS = $(PIP) -r requirements-bench.lock \
 	|| echo "not all peers could be installed; what is missing is said below"
 
 peers: check $(VENV)/.built
