@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 
+import numpy as np
 import pytest
 
 from heeltoe import open_study, run_study
@@ -54,6 +55,33 @@ def test_a_drawn_study(tmp_path):
     # What stands there is what the study says.
     value = study.summary[0]["residual_slip_m"]["84%"]
     assert f'data-key="summary.0.residual_slip_m.84%" value="{value!r}"' in html(document)
+
+
+@pytest.mark.slow
+def test_the_base_case_of_an_elastic_study_is_elastic(tmp_path):
+    case = """
+    [section]
+    polygon = [["0 m", "0 m"], ["26 m", "0 m"], ["5 m", "30 m"], ["0 m", "30 m"]]
+    [concrete]
+    modulus = "20 GPa"
+    [crack]
+    friction = 0.6
+    [reservoir]
+    depth = "26 m"
+    [motion]
+    points = [["0 s", "0 g"], ["0.2 s", "0.7 g"], ["0.4 s", "0 g"]]
+    [flexible]
+    elements_across = 2
+    [analysis]
+    silence = "1 s"
+    """
+    text = 'case = "case.toml"\nmodel = "flexible"\n[vary]\n"crack.friction" = [0.6, 0.7]\n'
+    study = run_study(study_file(tmp_path, text, case=case), tmp_path / "out")
+    _, message = report(study, tmp_path)
+    said = message.partition("Base case by itself. ")[2]
+    assert "peak 0.7 g: The dam slides" in said
+    slips = 1e3 * np.abs(study.to_pandas()["residual_slip_m"])
+    assert f"{slips.max():.1f} mm" in said
 
 
 def test_what_failed_and_what_is_missing_come_first(tmp_path):

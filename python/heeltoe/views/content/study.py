@@ -31,6 +31,7 @@ from heeltoe.views.content.study_answers import (
     results,
 )
 from heeltoe.views.content.study_subject import StudySubject
+from heeltoe.views.content.subject import NAMES
 from heeltoe.views.content.suite import suite, suite_answer
 from heeltoe.views.content.tree import (
     Block,
@@ -215,14 +216,14 @@ def _runs_of_a_dam(subject: StudySubject) -> int:
 
 
 def _base_case(subject: StudySubject) -> Block | None:
-    """Say what the base case does in its own motion, as a rigid block, which takes no time."""
+    """Say what the base case does in its own motion, by the last model of the study; as its rows, without evidence."""
     from heeltoe.models.run import run
 
     try:
-        response = run(subject.case, "rigid")
+        response = run(subject.case.without_evidence(), subject.results.walk.models[-1])
     except InputError as error:
         return paragraph(Strong("Base case. "), f"Not run by itself: {plain(error, 300)}.")
-    end = f"as a rigid block it ends without a result ({response.outcome})."
+    end = f"the {NAMES[response.model]} ends without a result ({response.outcome})."
     sentence = verdict(response, subject.units) if response.ok else end
     motion = f", peak {response.motion.pga / response.gravity:.3g} g: "
     return paragraph(Strong("Base case by itself. "), "In ", Code(plain(response.motion.name)), motion, sentence)

@@ -97,7 +97,7 @@ _PAGES = {
     "energy": "rigid.md equation 7",
     "damping_ratios": "flexible.md#damping",
     "evidence": "flexible.md#step-and-evidence",
-    "self_excitation": "flexible.md#self-excited-sliding",
+    "self_excitation": "sliding-that-feeds-itself.md",
     "tension": "flexible.md equation 7a",
     "crack_level": "decoupled.md equation 6",
     "crack_level.spectrum": "decoupled.md equation 7",
