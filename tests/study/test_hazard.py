@@ -17,6 +17,7 @@ from heeltoe.study.answers.confidence import knowledge_of
 from heeltoe.study.answers.fragility import Curve, NotStanding
 from heeltoe.study.answers.hazard import annual
 from heeltoe.study.answers.likelihood import Witnesses, offsets
+from heeltoe.study.plan.hazard_file import read_pairs
 from shared.command import command
 from shared.studies import BLOCK, study_file
 
@@ -309,3 +310,73 @@ def test_a_hazard_needs_limits(tmp_path):
     with pytest.raises(InputError) as error:
         heeltoe.run_study(study_file(tmp_path, text, case=BLOCK), tmp_path / "out")
     assert error.value.code == "needs-other"
+
+
+RATES = [0.02, 0.008, 0.002, 0.0009]
+CSV = "{head}\n" + "".join(f"{x},{{{k}}}\n" for k, x in enumerate((0.05, 0.1, 0.2, 0.3)))
+OPENQUAKE = """#,,,,,"generated_by='OpenQuake engine 3.24.1', kind='mean', investigation_time=50.0, imt='{imt}'"
+lon,lat,depth,poe-0.0500000,poe-0.1000000,poe-0.2000000,poe-0.3000000,poe-2.0000000
+10.00000,45.00000,0.00000,{},{},{},{},0.0
+"""
+NSHMP = {
+    "response": {
+        "metadata": {"imt": {"value": "PGA"}, "ylabel": "Annual Frequency of Exceedance"},
+        "data": [{"component": "Total", "values": {"xs": [0.05, 0.1, 0.2, 0.3], "ys": RATES}}],
+    }
+}
+
+
+def probabilities(years, factor=1.0):
+    """Return what a Poisson process of the rates has in some years, by hand."""
+    return [repr(factor * (1.0 - math.exp(-rate * years))) for rate in RATES]
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("a.csv", CSV.format(*RATES, head="pga [g],annual rate")),
+        ("a.csv", CSV.format(*RATES, head="Ground Motion (g),AFE")),
+        ("a.csv", CSV.format(*RATES, head="PGA (g), annual frequency of exceedance [1/yr]")),
+        ("a.csv", CSV.format(*(1.0 / rate for rate in RATES), head="pga [g],return period [years]")),
+        ("a.csv", CSV.format(*probabilities(50), head="pga [g], poe in 50 years")),
+        ("a.csv", CSV.format(*probabilities(50, 100), head="PGA [g],probability in 50 years [%]")),
+        ("a.csv", CSV.format(*probabilities(1), head="PGA [g],annual probability of exceedance")),
+        ("a.csv", CSV.format(*RATES, head="pga [g],rate") + "2.0,0\n3.0,0\n"),
+        ("a.csv", OPENQUAKE.format(*probabilities(50), imt="PGA")),
+        ("a.json", json.dumps(NSHMP)),
+        ("a.json", json.dumps({"response": {"hazardCurves": [NSHMP["response"]["metadata"] | NSHMP["response"]]}})),
+    ],
+)
+def test_a_hazard_file_is_what_its_headings_say(tmp_path, name, content):
+    (tmp_path / name).write_text(content, encoding="utf-8")
+    found = read_pairs(tmp_path / name, "hazard.file", "acceleration", "pga", None)
+    assert [text for text, _ in found] == ["0.05 g", "0.1 g", "0.2 g", "0.3 g"]
+    assert [rate for _, rate in found] == pytest.approx(RATES, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "code"),
+    [
+        ("a.csv", CSV.format(*RATES, head="pga [g],exceedance"), "hazard-heading"),
+        ("a.csv", CSV.format(*RATES, head="pga [g],probability"), "hazard-heading"),
+        ("a.csv", CSV.format(*RATES, head="pga [g],rate in 50 years"), "hazard-heading"),
+        ("a.csv", CSV.format(*RATES, head="pga,annual rate"), "hazard-header"),
+        ("a.csv", CSV.format(*RATES, head="SA(0.3 s) [g],annual rate"), "hazard-measure"),
+        ("a.csv", CSV.format(*probabilities(50, 100), head="pga [g],poe in 50 years"), "out-of-range"),
+        ("a.csv", OPENQUAKE.format(*probabilities(50), imt="SA(0.3)"), "hazard-measure"),
+        ("a.csv", OPENQUAKE.format(*probabilities(50), imt="PGA") + "11,45,0,0.5,0.4,0.3,0.2,0\n", "hazard-sites"),
+        ("a.json", '{"response": {}}', "hazard-unreadable"),
+    ],
+)
+def test_a_hazard_file_that_says_something_else_is_refused(tmp_path, name, content, code):
+    (tmp_path / name).write_text(content, encoding="utf-8")
+    with pytest.raises(InputError) as refused:
+        read_pairs(tmp_path / name, "hazard.file", "acceleration", "pga", None)
+    assert refused.value.code == code
+
+
+def test_a_curve_of_a_spectral_acceleration_has_a_period(tmp_path):
+    (tmp_path / "a.csv").write_text(CSV.format(*RATES, head="SA(0.3 s) [g],annual rate"), encoding="utf-8")
+    assert len(read_pairs(tmp_path / "a.csv", "hazard.file", "acceleration", "sa", 0.3)) == 4
+    with pytest.raises(InputError, match=r"sa at 0\.5 s"):
+        read_pairs(tmp_path / "a.csv", "hazard.file", "acceleration", "sa", 0.5)

@@ -87,6 +87,15 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
     ),
     "hazard-unreadable": ("{value} cannot be read ({reason})", "give a CSV file, relative to the study file"),
     "hazard-header": ("has no header with a unit", "write it above the columns: pga [g], annual rate"),
+    "hazard-heading": (
+        "{value} does not say what the second column holds",
+        "write above it: annual rate, return period [years], or probability in 50 years (with % for per cent)",
+    ),
+    "hazard-measure": (
+        "{value} is not the measure of the fragility curves, {measure}",
+        "give the hazard curve of that measure, or set fragility.measure and fragility.period",
+    ),
+    "hazard-sites": ("holds {value} curves", "keep the one of the site"),
     "hazard-row": ("{value} is not a strength with an annual rate", "give two numbers"),
     # tables of dams
     "study-no-dams": ("the study has no table of dams", 'give one in its file: cases = "dams.csv"'),

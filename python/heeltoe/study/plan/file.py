@@ -228,8 +228,8 @@ class Hazard(Fields):
     ) = None
     """Pairs of a strength, ascending, and the annual rate at which it is exceeded: `[["0.1 g", 0.01], ...]`."""
     file: str | None = Field(default=None, strict=True, min_length=1)
-    """A CSV file of the same, relative to the study file, with the unit of the strength in its header: `pga [g], rate`.
-    """
+    """A file of the same, relative to the study file: two columns with headings, `pga [g], annual rate`, of which the
+    second may hold return periods or probabilities in N years; or a curve as OpenQuake or NSHMP writes it."""
     at: Annotated[tuple[Value, ...], BeforeValidator(_listed)] = ()
     """Strengths at which the probability of each limit is wanted, beside those of the curve: `["0.3 g"]`."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from heeltoe.base.arrays import Floats
-from heeltoe.base.input_files import read_csv_rows, reason_of
 from heeltoe.errors.error import InputError, shown
 from heeltoe.study.plan.file import Hazard, Value
+from heeltoe.study.plan.hazard_file import read_pairs
 from heeltoe.study.plan.problems import Problems
 from heeltoe.units.parse import parse, parse_acceleration
 
@@ -28,9 +27,6 @@ QUANTITIES = {
     "velocity spectrum intensity": "length",
     "housner intensity": "length",
 }
-_UNIT = re.compile(r"\[([^\[\]]+)\]")
-# Bytes; no curve comes near.
-_LARGEST = 1_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +52,9 @@ class HazardCurve:
         return {"strength": self.strength.tolist(), "annual_rate": self.rate.tolist(), "at": list(self.at)}
 
 
-def read_hazard(hazard: Hazard, measure: str, gravity: float, directory: Path) -> HazardCurve:
+def read_hazard(
+    hazard: Hazard, measure: str, gravity: float, directory: Path, period: float | None = None
+) -> HazardCurve:
     """Read the hazard curve of a study.
 
     Parameters
@@ -69,6 +67,8 @@ def read_hazard(hazard: Hazard, measure: str, gravity: float, directory: Path) -
         One g [m/s2].
     directory
         Where a relative file is.
+    period
+        That of ``"sa"`` [s].
 
     Raises
     ------
@@ -78,7 +78,7 @@ def read_hazard(hazard: Hazard, measure: str, gravity: float, directory: Path) -
     quantity, field = QUANTITIES[measure], "hazard.curve"
     if hazard.file is not None:
         field = f"hazard.file: {Path(hazard.file).name}"
-        pairs = _of_file(directory / os.path.expanduser(hazard.file), field)
+        pairs = read_pairs(directory / os.path.expanduser(hazard.file), field, quantity, measure, period)
     else:
         pairs = [(str(strength), rate) for strength, rate in hazard.curve or ()]
 
@@ -103,23 +103,3 @@ def read_hazard(hazard: Hazard, measure: str, gravity: float, directory: Path) -
     if (rate <= 0.0).any() or (np.diff(rate) >= 0.0).any():
         raise InputError("hazard-rates", field, shown(rate.tolist()[:4]))
     return HazardCurve(strength, rate, tuple(strengths_of(hazard.at, "hazard.at")))
-
-
-def _of_file(path: Path, field: str) -> list[tuple[str, float]]:
-    """Return strengths with their unit, and rates, of a file of two columns with a header."""
-    try:
-        rows = read_csv_rows(path, _LARGEST)
-    except (OSError, ValueError) as error:
-        raise InputError("hazard-unreadable", "hazard.file", shown(str(path)), reason=reason_of(error)) from None
-    unit = _UNIT.search(rows[0][0]) if rows else None
-    if unit is None:
-        raise InputError("hazard-header", field)
-    return [_pair(row, unit[1], f"{field}: row {number}") for number, row in enumerate(rows[1:], start=1)]
-
-
-def _pair(row: Sequence[str], unit: str, field: str) -> tuple[str, float]:
-    try:
-        strength, rate = row
-        return f"{float(strength)!r} {unit}", float(rate)
-    except ValueError:
-        raise InputError("hazard-row", field, shown(", ".join(row))) from None

@@ -427,7 +427,8 @@ def plan_of(study: Study, case: Case | None = None) -> Plan:
     problems.tell()
     hazard = None
     if study.hazard is not None and study.fragility is not None:
-        hazard = read_hazard(study.hazard, study.fragility.measure, case.gravity, study.directory)
+        measure, period = study.fragility.measure, study.fragility.period
+        hazard = read_hazard(study.hazard, measure, case.gravity, study.directory, period)
     names = None if dams is None else dams.names
     plan = Plan(study, case, tuple(axes), shakes, events, scale, dams=names, hazard=hazard)
     bonded = any(crack.bond is not None for crack in case.cracks)
