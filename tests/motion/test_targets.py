@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from heeltoe.errors.error import InputError
-from heeltoe.motion.targets import asce_7, en_1998, table
+from heeltoe.motion.targets import asce_7, en_1998, table, target_of
 
 G = 9.81
 
@@ -87,3 +87,30 @@ def test_refused(make, code):
     with pytest.raises(InputError) as caught:
         make()
     assert caught.value.code == code
+
+
+# One spectrum, 0.6 g at 0.2 s and 0.3 g at 1 s, as headings of files have it.
+@pytest.mark.parametrize(
+    ("heading", "rows"),
+    [
+        ("# period [s], Sa [g]", ((0.2, 0.6), (1.0, 0.3))),
+        ("T,Sa [g]", ((0.2, 0.6), (1.0, 0.3))),
+        ("T [ms];Sa [g]", ((200.0, 0.6), (1000.0, 0.3))),
+        ("frequency [Hz], Sa [g]", ((1.0, 0.3), (5.0, 0.6))),
+        ("Frequency Sa (g)", ((1.0, 0.3), (5.0, 0.6))),
+        ("f (1/s)\tPSA (m/s2)", ((1.0, 0.3 * 9.80665), (5.0, 0.6 * 9.80665))),
+    ],
+)
+def test_headings_say_what_the_first_column_of_a_table_holds(tmp_path, heading, rows):
+    lines = [heading, *(f"{first} {second}" for first, second in rows)]
+    (tmp_path / "a.txt").write_text("\n".join(lines) + "\n")
+    target = target_of(str(tmp_path / "a.txt"), "--match")
+    assert [target(0.2), target(1.0)] == pytest.approx([0.6 * 9.80665, 0.3 * 9.80665], rel=1e-12)
+
+
+@pytest.mark.parametrize("heading", ["frequency [rad/s], Sa [g]", "period [Hz], Sa [g]"])
+def test_a_column_that_holds_no_periods_is_refused(tmp_path, heading):
+    (tmp_path / "a.txt").write_text(f"{heading}\n1 0.3\n5 0.6\n")
+    with pytest.raises(InputError) as refused:
+        target_of(str(tmp_path / "a.txt"), "--match")
+    assert refused.value.code == "target-column"

@@ -52,6 +52,10 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
         "{value} names no spectrum",
         "write for example en1998:0.3g,B, asce7:0.9g,0.4g,8s, or the file of a table",
     ),
+    "target-column": (
+        "the heading {value} does not say that the first column holds periods or frequencies",
+        "write period [s], period [ms] or frequency [Hz] above it",
+    ),
     "target-unit": ("does not state the unit of its accelerations", "say it above them, as in # period [s], Sa [g]"),
     "record-archive": ("is an archive that cannot be read ({reason})", "unpack it and give the record"),
     "record-archive-empty": ("holds no record that can be read", "give an archive of records"),

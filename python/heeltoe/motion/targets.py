@@ -3,6 +3,7 @@ names them ``en1998:0.3 g,B``, ``asce7:0.9 g,0.4 g,8 s``, or by the file of a ta
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,13 +12,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from heeltoe.base.arrays import Floats
-from heeltoe.errors.error import InputError
+from heeltoe.errors.error import InputError, shown
 from heeltoe.motion.records.quantities import units_in
 from heeltoe.motion.records.raw import table as rows_of
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit, parse, parse_acceleration
 
 #: What the names of spectra of standards begin with.
 STANDARDS = ("en1998:", "asce7:")
+# Word and unit in brackets of the first column of a table, and what the units hold.
+_FIRST_COLUMN = re.compile(r"[\s#%*'\"]*([^\W\d_][^,;\t\[(]*)?(?:[\[(]([^\])]*)[\])])?")
+_PERIODS = {"": "", "s": "s", "sec": "s", "seconds": "s", "ms": "ms", "msec": "ms", "hz": "hz", "1/s": "hz"}
 # No table of a spectrum comes near.
 _LARGEST_BYTES = 1_000_000
 
@@ -226,4 +230,24 @@ def _of_file(lines: list[str], name: str, gravity: float) -> Target:
     if not data:
         raise InputError("target-table", name)
     periods, accelerations = rows_of(data, name, len(header) + 1, 2)
+    unit = _unit_of_periods(header[-1], name)
+    if unit == "hz":
+        if (periods <= 0.0).any():
+            raise InputError("target-table", name)
+        periods, accelerations = 1.0 / periods[::-1], accelerations[::-1]
+    elif unit == "ms":
+        periods = 1e-3 * periods
     return table(periods, accelerations * acceleration_unit(units.pop(), name).si(gravity), name=Path(name).stem)
+
+
+def _unit_of_periods(heading: str, name: str) -> str:
+    """Return what the first of two columns holds, by its heading: periods in ``"s"`` or ``"ms"``, frequencies in
+    ``"hz"``; seconds where it does not say."""
+    first = _FIRST_COLUMN.match(heading.lower())
+    word, unit = (part.strip() if part else "" for part in first.groups()) if first else ("", "")
+    frequency = re.match(r"freq|f\b|hz", word) is not None
+    # Brackets without a unit of time are those of the second column.
+    known = _PERIODS.get("" if units_in(f"[{unit}]") else unit)
+    if known is None or (unit and known and (known == "hz") != (frequency or not word)):
+        raise InputError("target-column", name, shown(heading.strip()))
+    return known or ("hz" if frequency else "s")
