@@ -486,7 +486,13 @@ class HeadlineWorth(Block):
         float, Number("How far it may be off: what step, mesh, shaking and surroundings move it by, together.")
     ]
     step: Annotated[float, Number("By how much another time step moves it.")]
-    mesh: Annotated[float | None, Number("By how much another mesh moves it; null where there is none beside it.")]
+    mesh: Annotated[
+        float | None,
+        Number(
+            "By how much another mesh moves it, more where the mesh lowers the strength of a joint; null without another "
+            "mesh."
+        ),
+    ]
     shaking: Annotated[
         float | None,
         Number("Standard deviation over runs with the shaking varied by up to 1 %; null where there are none."),
@@ -513,7 +519,13 @@ class RotationWorth(Block):
         ),
     ]
     step: Annotated[float, Number("By how much another time step moves it.")]
-    mesh: Annotated[float | None, Number("By how much another mesh moves it; null where there is none beside it.")]
+    mesh: Annotated[
+        float | None,
+        Number(
+            "By how much another mesh moves it, more where the mesh lowers the strength of a joint; null without another "
+            "mesh."
+        ),
+    ]
     shaking: Annotated[
         float | None,
         Number("Standard deviation over runs with the shaking varied by up to 1 %; null where there are none."),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -253,9 +254,21 @@ class _Stand:
 
     @property
     def lowers_strength(self) -> bool:
-        """Whether the elements along a joint are so long that its strength is lowered."""
+        """Whether the elements along a joint are so long that its strength is lowered, and nothing bounds by what."""
+        return any(self._missing(crack) >= 1.0 for crack in range(self._trials.cracks))
+
+    def _missing(self, crack: int) -> float:
+        """Return by how much the strength of a joint is lowered, over the difference of the strengths on both meshes:
+        up to 1 a straight line through both says what that does, farther it does not reach."""
         dam = self._trials.dam_of(self._level.mesh).dam
-        return any(self._lowered(crack, dam) for crack in range(self._trials.cracks))
+        if not self._lowered(crack, dam):
+            return 0.0
+        bond, own = dam.lines[crack].bond, self._bonds[crack]
+        other = None if self.mesh is None else self._trials.dam_of(self.mesh.mesh).dam.lines[crack].bond
+        assert bond is not None
+        assert own is not None
+        between = 0.0 if other is None else bond[0] - other[0]
+        return (own.tensile_strength - bond[0]) / between if between > 0.0 else math.inf
 
     def _evidence(self, crack: int, *, spent: bool) -> EvidenceNumbers:
         trials = self._trials
@@ -273,21 +286,22 @@ class _Stand:
         ensembles = ([own] if beside is None else [own, beside]) if mean else None if varied is None else [varied]
 
         dam = trials.dam_of(self._level.mesh).dam
-        width, lowered = dam.sections[crack].crack_width, self._lowered(crack, dam)
+        width, lowered, missing = dam.sections[crack].crack_width, self._lowered(crack, dam), self._missing(crack)
 
         def worth(key: str) -> HeadlineWorth:
             value = float(own[key].mean()) if mean else float(run[key][0])
             least = FLOOR_M if key.endswith("_m") else FLOOR_M / width
+            mesh = _moved_by_mesh(key, own, beside, third)
             return _worth(
                 key,
                 value,
                 float(run[key][0]),
                 float(other[key][0]),
-                _moved_by_mesh(key, own, beside, third),
+                mesh if mesh is None or missing >= 1.0 else (1.0 + missing) * mesh,
                 None if ensembles is None else [runs[key] for runs in ensembles],
                 None if farther is None or near is None else abs(float(farther[key].mean() - near[key].mean())),
                 # A joint of another strength may do anything between this and nothing.
-                max(least, abs(value)) if lowered else least,
+                max(least, abs(value)) if missing >= 1.0 else least,
             )
 
         cracked = None
