@@ -489,8 +489,8 @@ class HeadlineWorth(Block):
     mesh: Annotated[
         float | None,
         Number(
-            "By how much another mesh moves it, more where the mesh lowers the strength of a joint; null without another "
-            "mesh."
+            "By how much another mesh moves it, more where the mesh lowers the strength of a joint; null without "
+            "another mesh."
         ),
     ]
     shaking: Annotated[
@@ -522,8 +522,8 @@ class RotationWorth(Block):
     mesh: Annotated[
         float | None,
         Number(
-            "By how much another mesh moves it, more where the mesh lowers the strength of a joint; null without another "
-            "mesh."
+            "By how much another mesh moves it, more where the mesh lowers the strength of a joint; null without "
+            "another mesh."
         ),
     ]
     shaking: Annotated[
