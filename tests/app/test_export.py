@@ -178,6 +178,7 @@ def test_app_and_shell_have_the_same_numbers(ask, tab, tmp_path):
 
 
 def test_a_file_is_served_once_as_a_file_and_to_its_tab_alone(ask, tab):
+    assert not tab.ask("edit case", "case", changes={"motion.duration": "2 s", "analysis.silence": "0 s"})["errors"]
     made = tab.ask("make", "job", model="rigid")
     assert made["state"] == "done", made["status"]
     link = tab.ask("fetch", "download", name="")["address"]

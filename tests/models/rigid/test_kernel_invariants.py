@@ -18,7 +18,7 @@ EVENT_LIMIT = 20_000
 VELOCITIES = ("slip_velocity", "gap_velocity_heel", "gap_velocity_toe")
 
 
-@pytest.fixture(params=[500, pytest.param(10_000, marks=pytest.mark.product)])
+@pytest.fixture(params=[250, pytest.param(10_000, marks=pytest.mark.product)])
 def examples(request) -> int:
     return request.param
 

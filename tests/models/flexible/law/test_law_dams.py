@@ -172,8 +172,12 @@ def small_steps(law, mass, weight, length, push, dt):
     ("law", "by_hand"),
     [
         (WEAKENING, lambda s, d, v: s * (0.5 + 0.2 * max(0.0, 1.0 - d / 0.02))),
-        (SPEED, lambda s, d, v: s * (0.5 + 0.2 * math.exp(-v / 0.1))),
-        ({**COHESION, "slip": "5 mm"}, lambda s, d, v: 0.4 * s + 15e3 * max(0.0, 1.0 - d / 0.005)),
+        pytest.param(SPEED, lambda s, d, v: s * (0.5 + 0.2 * math.exp(-v / 0.1)), marks=pytest.mark.slow),
+        pytest.param(
+            {**COHESION, "slip": "5 mm"},
+            lambda s, d, v: 0.4 * s + 15e3 * max(0.0, 1.0 - d / 0.005),
+            marks=pytest.mark.slow,
+        ),
         pytest.param(
             BARTON,
             lambda s, d, v: s * math.tan(math.radians(20.0 + 6.0 * math.log10(10e6 / s))),
