@@ -29,6 +29,12 @@ _TABLE = Sentence.of(
     slips_m=(0.218, 0.094, 0.052, 0.037),
     slip_m=0.036,
 )
+# Why the elastic dam slides another way than a block.
+_ADDS = "its own vibration adds to the shaking, which a rigid block leaves out"
+_CHAIN = (
+    "in the decoupled chain the part below vibrates as if the top never slid or rocked, and the top does not vibrate "
+    "itself"
+)
 _BLOCKS = {"rigid": "rigid block", "decoupled": "decoupled top"}
 
 
@@ -46,8 +52,11 @@ def differing(dam: Response, block: Response) -> tuple[Quantity, ...]:
     return tuple(headline for headline in HEADLINES if not _agree(headline, dam, block))
 
 
-def meaning(dam: Response, block: Response, units: str = "si") -> str:
-    """Say in a sentence or two what the difference means, in units ``"si"`` or ``"us"``."""
+def meaning(dam: Response, block: Response, units: str = "si", *, brief: bool = False) -> str:
+    """Say in a sentence or two what the difference means, in units ``"si"`` or ``"us"``.
+
+    A brief meaning leaves out the reason and the source.
+    """
     failed = [response.model for response in (block, dam) if not response.ok]
     if failed:
         return f"There is nothing to compare: no result to trust from the {' and the '.join(failed)} model."
@@ -70,7 +79,10 @@ def meaning(dam: Response, block: Response, units: str = "si") -> str:
         if not others:
             return f"{text}."
         return f"{text}, but they differ in the {_numbers_of(others[0], dam, block, units)}. Trust the flexible model."
-    return _slips_differ(dam, block, units)
+    text, reason, source = _slips_differ(dam, block)
+    if brief:
+        return f"{text}. Trust the flexible model."
+    return f"{text}: {reason}. Trust the flexible model{f' ({_TABLE.text(units)})' if source else ''}."
 
 
 def _agree(of: Quantity, dam: Response, block: Response) -> bool:
@@ -96,44 +108,32 @@ def _numbers_of(of: Quantity, dam: Response, block: Response, units: str) -> str
     return f"{of.label} ({one} of the flexible dam, {other} of the {_BLOCKS[block.model]})"
 
 
-def _slips_differ(dam: Response, block: Response, units: str) -> str:
+def _slips_differ(dam: Response, block: Response) -> tuple[str, str, bool]:
+    """Say how the slips differ and why, and whether a source shows it."""
     far, near = (abs(response.residual_slip_m) for response in (dam, block))
     opposite = dam.residual_slip_m * block.residual_slip_m < 0.0
     if block.model == "decoupled":
-        return _slips_of_the_chain(far, near, opposite)
+        return _slips_of_the_chain(far, near, opposite), _CHAIN, False
     if opposite:
-        return "They slide opposite ways: the dam's own vibration decides here. Trust the flexible model."
+        return "They slide opposite ways", "the dam's own vibration decides here", False
     if near < _LITTLE:
-        return (
-            "Only the flexible dam slides: its own vibration adds to the shaking, which a rigid block leaves "
-            f"out. Trust the flexible model ({_TABLE.text(units)})."
-        )
+        return "Only the flexible dam slides", _ADDS, True
     if far > near:
-        return (
-            f"The flexible dam slides {far / near:.2g} times as far: its own vibration adds to the shaking, which "
-            f"a rigid block leaves out. Trust the flexible model ({_TABLE.text(units)})."
-        )
+        return f"The flexible dam slides {far / near:.2g} times as far", _ADDS, True
     share = f"{far / near:.2g} times" if far > 0.01 * near else "less than a hundredth of"
-    return (
-        f"The flexible dam slides only {share} what the rigid block does: its own vibration works against the "
-        "shaking here. Trust the flexible model."
-    )
+    text = f"The flexible dam slides only {share} what the rigid block does"
+    return text, "its own vibration works against the shaking here", False
 
 
 def _slips_of_the_chain(far: float, near: float, opposite: bool) -> str:
-    """Say the same where the block was shaken by the part below it."""
+    """Say how they differ where the block was shaken by the part below it."""
     if opposite:
-        text = "They slide opposite ways"
-    elif far < 0.01 * near:
-        text = "The flexible dam slides less than a hundredth of what the decoupled top does"
-    elif near < 0.01 * far:
-        text = "The decoupled top slides less than a hundredth of what the flexible dam does"
-    else:
-        text = f"The flexible dam slides {far / near:.2g} times as far as the decoupled top"
-    return (
-        f"{text}: in the decoupled chain the part below vibrates as if the top never slid or rocked, and the top "
-        "does not vibrate itself. Trust the flexible model."
-    )
+        return "They slide opposite ways"
+    if far < 0.01 * near:
+        return "The flexible dam slides less than a hundredth of what the decoupled top does"
+    if near < 0.01 * far:
+        return "The decoupled top slides less than a hundredth of what the flexible dam does"
+    return f"The flexible dam slides {far / near:.2g} times as far as the decoupled top"
 
 
 def _ratio(of: Quantity, dam: Response, block: Response) -> float | None:

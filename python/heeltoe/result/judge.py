@@ -24,28 +24,27 @@ Flags = NDArray[np.bool_]
 
 
 class Limit(NamedTuple):
-    """A limit: what people call it, in a narrow place, too, which numbers it limits, without signs, and their unit."""
+    """A limit: what people call it, which numbers it limits, without signs, and their unit."""
 
     label: str
-    short: str
     keys: tuple[str, ...]
     unit: str = "m"
 
 
 def _limit_on(item: Quantity) -> Limit:
-    return Limit(item.label, item.heading, (item.key,), item.unit)
+    return Limit(item.label, (item.key,), item.unit)
 
 
 #: Everything that a case or a study can limit. `opening` stands in studies alone.
 LIMITS = {
     "residual_slip": _limit_on(RESIDUAL_SLIP),
-    "peak_slip": Limit("largest slip", "peak slip", ("peak_slip_downstream_m", "peak_slip_upstream_m")),
-    "opening": Limit("opening at either face", "opening", tuple(item.key for item in OPENINGS)),
+    "peak_slip": Limit("peak slip", ("peak_slip_downstream_m", "peak_slip_upstream_m")),
+    "opening": Limit("opening at either face", tuple(item.key for item in OPENINGS)),
     **{item.key.removesuffix("_m"): _limit_on(item) for item in OPENINGS},
-    "cracked_length": Limit("cracked length", "cracked length", (CRACKED,)),
-    "rotation": Limit("rotation", "rotation", ("rocking_downstream_rad", "rocking_upstream_rad"), "rad"),
-    "crest_displacement": Limit("crest displacement", "crest displacement", ("crest_displacement_m",)),
-    "crest_acceleration": Limit("crest acceleration", "crest acceleration", ("crest_acceleration_g",), "g"),
+    "cracked_length": Limit("cracked length", (CRACKED,)),
+    "rotation": Limit("rotation", ("rocking_downstream_rad", "rocking_upstream_rad"), "rad"),
+    "crest_displacement": Limit("crest displacement", ("crest_displacement_m",)),
+    "crest_acceleration": Limit("crest acceleration", ("crest_acceleration_g",), "g"),
 }
 #: Those of the crest, which some models do not know.
 CREST_LIMITS = ("crest_displacement", "crest_acceleration")

@@ -331,9 +331,10 @@ class Response(Numbered, Shown):
         """
         return {} if self.beside is None else ratio(self, self.beside)
 
-    def meaning(self, units: str = "si") -> str:
-        """Say in a sentence what the difference to the one beside it means, in units ``"si"`` or ``"us"``."""
-        return "" if self.beside is None else meaning(self, self.beside, units)
+    def meaning(self, units: str = "si", *, brief: bool = False) -> str:
+        """Say in a sentence what the difference to the one beside it means, in units ``"si"`` or ``"us"``; a brief
+        meaning leaves out the reason and the source."""
+        return "" if self.beside is None else meaning(self, self.beside, units, brief=brief)
 
     @property
     def ok(self) -> bool:

@@ -94,7 +94,7 @@ def draw_limits(axes: Axes, response: Response, names: Sequence[str], scale: Sca
         for side in sides:
             axes.axhline(side, color=COLOURS["crack"], linewidth=0.9, linestyle=(0, (6, 2)))
             axes.annotate(
-                f"{LIMITS[check.name].short} allowed",
+                f"{LIMITS[check.name].label} allowed",
                 # At the beginning, where nothing has moved yet, beyond the line and within the panel.
                 (0.0, side),
                 xycoords=("axes fraction", "data"),
