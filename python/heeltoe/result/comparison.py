@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.quantity import Quantity
+from heeltoe.result.record import ResponseData
 from heeltoe.units.sentences import Sentence
 from heeltoe.units.write import angle, length
-
-# Not at run time: a response says these things in its JSON.
-if TYPE_CHECKING:
-    from heeltoe.result.response import Response
 
 # From which ratio on the models differ by more than the flexible one is known to differ from its references.
 _CLOSE = 1.25
@@ -38,12 +33,12 @@ _CHAIN = (
 _BLOCKS = {"rigid": "rigid block", "decoupled": "decoupled top"}
 
 
-def ratio(dam: Response, block: Response) -> dict[str, float | None]:
+def ratio(dam: ResponseData, block: ResponseData) -> dict[str, float | None]:
     """Return dam over block for slips, rotations and openings; None where the block has next to nothing."""
     return {headline.key: _ratio(headline, dam, block) for headline in HEADLINES}
 
 
-def differing(dam: Response, block: Response) -> tuple[Quantity, ...]:
+def differing(dam: ResponseData, block: ResponseData) -> tuple[Quantity, ...]:
     """Return the headline numbers in which two models do not agree.
 
     They agree in a number where the larger is at most 1.25 times the smaller, with the same sign, or where they are
@@ -52,7 +47,7 @@ def differing(dam: Response, block: Response) -> tuple[Quantity, ...]:
     return tuple(headline for headline in HEADLINES if not _agree(headline, dam, block))
 
 
-def meaning(dam: Response, block: Response, units: str = "si", *, brief: bool = False) -> str:
+def meaning(dam: ResponseData, block: ResponseData, units: str = "si", *, brief: bool = False) -> str:
     """Say in a sentence or two what the difference means, in units ``"si"`` or ``"us"``.
 
     A brief meaning leaves out the reason and the source.
@@ -85,7 +80,7 @@ def meaning(dam: Response, block: Response, units: str = "si", *, brief: bool = 
     return f"{text}: {reason}. Trust the flexible model{f' ({_TABLE.text(units)})' if source else ''}."
 
 
-def _agree(of: Quantity, dam: Response, block: Response) -> bool:
+def _agree(of: Quantity, dam: ResponseData, block: ResponseData) -> bool:
     one, other = (of.of(response) for response in (dam, block))
     if abs(one - other) < (_SAME_RAD if of.kind == "rotation" else _SAME_M):
         return True
@@ -93,14 +88,14 @@ def _agree(of: Quantity, dam: Response, block: Response) -> bool:
     return one * other > 0.0 and high <= _CLOSE * low
 
 
-def _agreement(block: Response) -> str:
+def _agreement(block: ResponseData) -> str:
     text = "They agree in slips, rotations and openings"
     if block.model == "decoupled":
         return f"{text}: the part below shakes the top as if the top never slid on it."
     return f"{text}: the dam is so stiff against this shaking that a rigid block says what it does."
 
 
-def _numbers_of(of: Quantity, dam: Response, block: Response, units: str) -> str:
+def _numbers_of(of: Quantity, dam: ResponseData, block: ResponseData, units: str) -> str:
     """Return a number of both: what the elastic dam does against what the block does."""
     # Adding zero makes a negative zero a plain one.
     values = [of.way * of.of(response) + 0.0 for response in (dam, block)]
@@ -108,7 +103,7 @@ def _numbers_of(of: Quantity, dam: Response, block: Response, units: str) -> str
     return f"{of.label} ({one} of the flexible dam, {other} of the {_BLOCKS[block.model]})"
 
 
-def _slips_differ(dam: Response, block: Response) -> tuple[str, str, bool]:
+def _slips_differ(dam: ResponseData, block: ResponseData) -> tuple[str, str, bool]:
     """Say how the slips differ and why, and whether a source shows it."""
     far, near = (abs(response.residual_slip_m) for response in (dam, block))
     opposite = dam.residual_slip_m * block.residual_slip_m < 0.0
@@ -136,7 +131,7 @@ def _slips_of_the_chain(far: float, near: float, opposite: bool) -> str:
     return f"The flexible dam slides {far / near:.2g} times as far as the decoupled top"
 
 
-def _ratio(of: Quantity, dam: Response, block: Response) -> float | None:
+def _ratio(of: Quantity, dam: ResponseData, block: ResponseData) -> float | None:
     if not (dam.ok and block.ok) or abs(of.of(block)) < of.least:
         return None
     return of.of(dam) / of.of(block)

@@ -10,12 +10,13 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.blocks import Block, Number
 from heeltoe.result.contract import CRACKED, JOINT_METER_M, OPENINGS, RESIDUAL_SLIP
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.quantity import Quantity
@@ -48,6 +49,68 @@ LIMITS = {
 }
 #: Those of the crest, which some models do not know.
 CREST_LIMITS = ("crest_displacement", "crest_acceleration")
+
+
+class LimitCheck(Block):
+    """A result beside what the user allows."""
+
+    name: Annotated[str, Number("Field of limits in the case.")]
+    value: Annotated[
+        float | None,
+        Number("What the run has, without its sign, in `unit`; null of a dam that has failed without a result."),
+    ]
+    allowed: Annotated[float, Number("How much the case allows, in `unit`.")]
+    failed: Annotated[
+        bool, Number("Whether the dam has failed, as its outcome says or by sliding off: no limit is met then.")
+    ]
+    uncertainty: Annotated[
+        float, Number("How far the result may be off by its evidence, in `unit`; zero where there is none.")
+    ] = 0.0
+    elevation_m: Annotated[
+        float | None,
+        Number(
+            "Of the crack whose result it is, where there are several: the largest of all, or each bonded joint's own.",
+            "m",
+            optional=True,
+        ),
+    ] = None
+
+    @property
+    def unit(self) -> Annotated[str, Number("In what result and limit are counted: m, rad or g.")]:
+        """In what it is counted."""
+        return LIMITS[self.name].unit
+
+    @property
+    def utilisation(
+        self,
+    ) -> Annotated[
+        float | None, Number("The result over what is allowed; null where nothing is allowed, or without a result.")
+    ]:
+        """The result over what is allowed."""
+        return self.value / self.allowed if self.allowed and self.value is not None else None
+
+    @property
+    def label(self) -> str:
+        """What people call the result."""
+        return LIMITS[self.name].label
+
+    @property
+    def met(self) -> Annotated[bool, Number("Whether the dam holds, and the result is within the limit.")]:
+        """Whether the limit is kept."""
+        return not self.failed and self.value is not None and self.value <= self.allowed
+
+    @property
+    def certain(
+        self,
+    ) -> Annotated[bool, Number("Whether that is so wherever within its uncertainty the result lies.")]:
+        """Whether the uncertainty leaves no doubt."""
+        return (
+            self.failed
+            or self.value is None
+            or abs(self.value - self.allowed) > self.uncertainty
+            or not self.uncertainty
+        )
+
 
 _PEAKS = LIMITS["peak_slip"].keys
 _WIDTH = "crack_width_m"
