@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from heeltoe.result.contract import HEADLINES
+from heeltoe.result.contract import HEADLINES, RESIDUAL_SLIP
 from heeltoe.result.quantity import Quantity
 from heeltoe.result.record import ResponseData
 from heeltoe.units.sentences import Sentence
@@ -64,13 +64,13 @@ def meaning(dam: ResponseData, block: ResponseData, units: str = "si", *, brief:
             f"They slide alike, but differ in the {_numbers_of(apart[0], dam, block, units)}. Trust the flexible model."
         )
     far, near = (abs(response.residual_slip_m) for response in (dam, block))
-    if slips[0].key != "residual_slip_m":
+    if slips[0] is not RESIDUAL_SLIP:
         return (
             f"They end alike, but differ in the {_numbers_of(slips[0], dam, block, units)}. Trust the flexible model."
         )
     if max(far, near) < _LITTLE:
         text = f"Both say that the dam slides by less than {_LITTLE_IN_WORDS[units]} in the end"
-        others = [headline for headline in apart if headline.key != "residual_slip_m"]
+        others = [headline for headline in apart if headline is not RESIDUAL_SLIP]
         if not others:
             return f"{text}."
         return f"{text}, but they differ in the {_numbers_of(others[0], dam, block, units)}. Trust the flexible model."

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from heeltoe.app.bundle import Sent, copied, lay_out, zipped
+from heeltoe.app.case.files import Sent, copied, lay_out, zipped
 from heeltoe.app.live import refused
 from heeltoe.case.toml_writer import toml_text
 from heeltoe.errors.error import InputError

@@ -228,11 +228,11 @@ def crest_figure(response: Response, units: str = "si") -> Figure:
     shift.set_ylabel(f"crest [{scale.unit}]\n(+ downstream)")
     shift.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize=7, borderaxespad=0.0)
     beside(shift, f"largest {scale(crest.displacement_m):.4g} {scale.unit}")
-    draw_limits(shift, response, ("crest_displacement",), scale)
+    draw_limits(shift, response, ("crest_displacement_m",), scale)
     shakes.plot(h.time_s, h[ACCELERATION] / response.gravity, color=COLOURS["rotation"], linewidth=0.7)
     shakes.set_ylabel("acceleration\nof crest [g]")
     beside(shakes, f"largest {crest.acceleration_g:.3g} g")
-    draw_limits(shakes, response, ("crest_acceleration",), Scale(1.0, "g"))
+    draw_limits(shakes, response, ("crest_acceleration_m_s2",), Scale(1.0, "g"))
     time_axis(shakes, response)
     align_labels([shaking, shift, shakes])
     return figure
@@ -301,13 +301,6 @@ _PANELS = (
     ("gap_heel_m", "displacement", "opening,\nheel [{}]"),
     ("gap_toe_m", "displacement", "opening,\ntoe [{}]"),
 )
-# The limits that each panel shows.
-_LIMITS = {
-    "slip_m": ("residual_slip", "peak_slip"),
-    "rotation_rad": ("rotation",),
-    "gap_heel_m": ("opening_upstream",),
-    "gap_toe_m": ("opening_downstream",),
-}
 
 
 @styled
@@ -339,7 +332,7 @@ def comparison_figure(dam: Response, block: Response, units: str = "si") -> Figu
                 linewidth=1.1,
                 label=f"{response.model} model",
             )
-        draw_limits(panel, dam, _LIMITS[key], scale)
+        draw_limits(panel, dam, (key,), scale)
         panel.set_ylabel(label.format(scale.unit))
     time_axis(rest[-1], dam, block)
     figure.legend(*rest[-1].get_legend_handles_labels(), loc="outside lower center", ncols=2)

@@ -68,18 +68,18 @@ def draw_slip(axes: Axes, response: Response, units: Units) -> None:
         axes.axhline(scale(edge), color=COLOURS["slip"], linewidth=0.6, linestyle=":")
     if largest(h.slip_m, ends, within) == 0.0:
         axes.set_ylim(-1.0, 1.0)
-    draw_limits(axes, response, ("residual_slip", "peak_slip"), scale)
+    draw_limits(axes, response, ("slip_m",), scale)
     varied = "" if spread is None else f", {scale(ends[0]):.4g} to {scale(ends[1]):.4g} with the shaking varied"
     beside(axes, f"{slip_in_the_end(response, scale)}{varied}", colour=COLOURS["slip"])
 
 
-def draw_limits(axes: Axes, response: Response, names: Sequence[str], scale: Scale) -> None:
+def draw_limits(axes: Axes, response: Response, columns: Sequence[str], scale: Scale) -> None:
     """Draw what the case allows as lines, as far as they are near what there is.
 
     Parameters
     ----------
-    names
-        Names of the fields of ``limits``.
+    columns
+        Columns of the histories that the axis shows.
     scale
         The unit of the axis.
     """
@@ -87,7 +87,7 @@ def draw_limits(axes: Axes, response: Response, names: Sequence[str], scale: Sca
     low, high = axes.get_ylim()
     for check in response.limits:
         allowed = float(scale(check.allowed))
-        if check.name not in names or not 0.0 < allowed <= _NEAR * reach:
+        if LIMITS[check.name].column not in columns or not 0.0 < allowed <= _NEAR * reach:
             continue
         # Where nothing goes, there is no need of a line.
         sides = [allowed] if low > -0.25 * reach else [-allowed] if high < 0.25 * reach else [allowed, -allowed]
@@ -133,7 +133,7 @@ def draw_rotation(axes: Axes, response: Response, units: Units) -> None:
     scale = units.scale("rotation", largest(h.rotation_rad))
     axes.plot(h.time_s, scale(h.rotation_rad), color=COLOURS["rotation"], linewidth=1.0)
     axes.set_ylabel(f"rotation [{scale.unit}]\n(+ about heel)")
-    draw_limits(axes, response, ("rotation",), scale)
+    draw_limits(axes, response, ("rotation_rad",), scale)
     if cut is not None:
         axes.set_yscale("symlog", linthresh=float(scale(cut)), linscale=2.0)
         ends = [float(scale(h.rotation_rad.min())), float(scale(h.rotation_rad.max()))]
@@ -160,7 +160,7 @@ def draw_openings(axes: Axes, response: Response, units: Units) -> None:
     axes.set_ylabel(f"opening [{scale.unit}]")
     top = scale(most) * 1.05
     axes.set_ylim(min(0.0, axes.get_ylim()[0]) if cut is None else -0.05 * top, top or 1.0)
-    draw_limits(axes, response, ("opening_upstream", "opening_downstream"), scale)
+    draw_limits(axes, response, ("gap_heel_m", "gap_toe_m"), scale)
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=8, borderaxespad=0.0)
 
 
