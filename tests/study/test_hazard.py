@@ -37,13 +37,18 @@ INLINE = 'curve = [["0.1 g", 0.02], ["0.5 g", 0.002], ["1 g", 0.0003], ["2 g", 0
 
 def curve(median, dispersion, knowledge=None, share=0.0):
     return Curve(
-        *("residual_slip", 0.1, "pga", 0.9, median, dispersion, None, None, None, None),
+        limit="residual_slip",
+        value=0.1,
+        measure="pga",
+        confidence=0.9,
+        median=median,
+        dispersion=dispersion,
         runs=100,
         exceeding=50,
         events=10,
         unknown=0,
         knowledge=knowledge,
-        not_standing=NotStanding(round(100 * share), 100, 0, share, None),
+        not_standing=NotStanding(count=round(100 * share), dams=100, runs=0, share=share, interval=None),
     )
 
 

@@ -30,6 +30,8 @@ from heeltoe.result.numbers import (
 )
 from heeltoe.result.record import ResponseData
 from heeltoe.result.write import MotionNumbers
+from heeltoe.study.answers.fragility import Curve
+from heeltoe.study.answers.portfolio import Ranks
 from heeltoe.study.small.overturning import OverturningMap
 from heeltoe.study.small.solve import Solved
 from heeltoe.views.explain.meaning import Meaning
@@ -68,6 +70,8 @@ _BLOCKS: tuple[tuple[str, type[Block], str], ...] = (
     ("governing.*.", Check, _STATICS),
     ("", Solved, "heeltoe solve --json"),
     ("", OverturningMap, "heeltoe overturning --json"),
+    ("fragility[].", Curve, "heeltoe study --json"),
+    ("portfolio[].", Ranks, "heeltoe study --json"),
 )
 # Attributes that the JSON does not have, or says by keys of their own.
 _WITHOUT_KEY = {
