@@ -158,7 +158,7 @@ def test_steep_and_flat_stretches_neither_overflow_nor_add_a_whole_rate(strength
     assert low <= rate[0] * (1.0 + 1e-9)
     assert high is None or low <= high <= rate[0] * (1.0 + 1e-9)
     assert 0.0 <= rates["extrapolated"] <= 1.0
-    json.dumps(rates, allow_nan=False)
+    json.dumps(rates.to_json(), allow_nan=False)
 
 
 def test_dams_that_do_not_stand_have_a_part_of_the_rate_of_their_own():

@@ -193,7 +193,8 @@ class StudyResults(Shown):
         if hazard is None:
             return None
         return [
-            {"model": model, **annual(curve, hazard, tally.witnesses, [names[place] for place in tally.events])}
+            {"model": model}
+            | annual(curve, hazard, tally.witnesses, [names[place] for place in tally.events]).to_json()
             for (model, curve), tally in zip(self.curves, self.counted.values(), strict=True)
         ]
 

@@ -31,6 +31,7 @@ from heeltoe.result.numbers import (
 from heeltoe.result.record import ResponseData
 from heeltoe.result.write import MotionNumbers
 from heeltoe.study.answers.fragility import Curve
+from heeltoe.study.answers.hazard import AnnualRate
 from heeltoe.study.answers.portfolio import Ranks
 from heeltoe.study.small.overturning import OverturningMap
 from heeltoe.study.small.solve import Solved
@@ -71,6 +72,7 @@ _BLOCKS: tuple[tuple[str, type[Block], str], ...] = (
     ("", Solved, "heeltoe solve --json"),
     ("", OverturningMap, "heeltoe overturning --json"),
     ("fragility[].", Curve, "heeltoe study --json"),
+    ("hazard[].", AnnualRate, "heeltoe study --json"),
     ("portfolio[].", Ranks, "heeltoe study --json"),
 )
 # Attributes that the JSON does not have, or says by keys of their own.
