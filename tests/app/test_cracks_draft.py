@@ -6,10 +6,9 @@ import pytest
 
 from heeltoe.app.case.defaults import block, following, item
 from heeltoe.app.case.draft import back, draft_of, edit, fields_of, start
-from heeltoe.app.case.drawing import drawing
+from heeltoe.app.case.drawing import drawing, law
 from heeltoe.app.case.fields import blocks, field_of, typed
 from heeltoe.app.case.handles import handles, moved
-from heeltoe.app.case.law import law
 from heeltoe.app.open_case import begin, example_path
 from heeltoe.app.sessions import Session
 from heeltoe.app.studies.draft import choices

@@ -92,6 +92,14 @@ def test_what_the_difference_means(both, block, dam, words):
     assert words in slipping(both, block, dam).meaning()
 
 
+def test_brief_meaning_gives_no_reason(both):
+    """By hand: the sentences of the full one without what follows their colons and without the source."""
+    assert slipping(both, 0.1, 0.2).meaning(brief=True) == (
+        "The flexible dam slides 2 times as far. Trust the flexible model."
+    )
+    assert slipping(both, 2e-4, 9e-4).meaning(brief=True) == slipping(both, 2e-4, 9e-4).meaning()
+
+
 @pytest.mark.parametrize(
     ("more", "words"),
     [

@@ -12,7 +12,7 @@ import pytest
 import heeltoe
 from heeltoe import GroundMotion, InputError, read_case, rigid, rigid_many, verdict
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.response import Of
+from heeltoe.result.record import Of
 from shared.dams import ALL_EXAMPLES, BASE, BLOCK, ENDS
 from shared.dams import KOYNA_TOP as KOYNA
 

@@ -323,7 +323,7 @@ def test_no_random_study_has_an_interval_without_width_or_a_rate_above_the_hazar
         seen, hazard, _, _ = made_up(seed)
         result = fragility.curve("residual_slip", 0.1, "pga", seen, **OPTIONS)
         rates = annual(result, hazard, seen.witnesses, [str(event) for event in seen.events])
-        json.dumps([result.to_json(), rates], allow_nan=False)
+        json.dumps([result.to_json(), rates.to_json()], allow_nan=False)
         intervals = [share.interval for share in result.shares]
         intervals += [ends for ends in (result.median_interval, result.dispersion_interval) if ends]
         assert all(low is None or high is None or high > low * (1.0 + 1e-6) for low, high in intervals), seed

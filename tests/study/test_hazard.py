@@ -38,13 +38,18 @@ INLINE = 'curve = [["0.1 g", 0.02], ["0.5 g", 0.002], ["1 g", 0.0003], ["2 g", 0
 
 def curve(median, dispersion, knowledge=None, share=0.0):
     return Curve(
-        *("residual_slip", 0.1, "pga", 0.9, median, dispersion, None, None, None, None),
+        limit="residual_slip",
+        value=0.1,
+        measure="pga",
+        confidence=0.9,
+        median=median,
+        dispersion=dispersion,
         runs=100,
         exceeding=50,
         events=10,
         unknown=0,
         knowledge=knowledge,
-        not_standing=NotStanding(round(100 * share), 100, 0, share, None),
+        not_standing=NotStanding(count=round(100 * share), dams=100, runs=0, share=share, interval=None),
     )
 
 
@@ -154,7 +159,7 @@ def test_steep_and_flat_stretches_neither_overflow_nor_add_a_whole_rate(strength
     assert low <= rate[0] * (1.0 + 1e-9)
     assert high is None or low <= high <= rate[0] * (1.0 + 1e-9)
     assert 0.0 <= rates["extrapolated"] <= 1.0
-    json.dumps(rates, allow_nan=False)
+    json.dumps(rates.to_json(), allow_nan=False)
 
 
 def test_dams_that_do_not_stand_have_a_part_of_the_rate_of_their_own():

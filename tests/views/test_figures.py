@@ -13,6 +13,7 @@ from matplotlib.image import imread
 from heeltoe import flexible, read_case, rigid, with_spread
 from heeltoe.base.atomic_files import LISTED
 from heeltoe.errors.error import InputError
+from heeltoe.result.histories import Histories
 from heeltoe.views.figures.all import NAMES, all_figures
 from heeltoe.views.figures.crack import contact_pressure, crack_figure, pressure_figure
 from heeltoe.views.figures.dam import mesh_figure, modes_figure
@@ -384,7 +385,7 @@ def test_a_ribbon_without_events():
     figure = response_figure(rigid(example("typical-base", "motion.duration=1s")))
     draw_ribbon(
         figure.axes[0],
-        SimpleNamespace(event_log={}, histories={"time_s": np.array([1.0, 2.0])}, mode=("rest", "sliding")),
+        SimpleNamespace(event_log={}, histories=Histories({"time_s": np.array([1.0, 2.0])}), mode=("rest", "sliding")),
     )
     assert [label.get_text() for label in figure.axes[0].get_yticklabels()] == ["slide", "rest"]
 

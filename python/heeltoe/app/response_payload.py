@@ -13,7 +13,7 @@ from heeltoe.app.wording import meant
 from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.result.contract import HEADLINES, JOINT_METER_M, LEAST_M, LEAST_RAD
-from heeltoe.result.limits import LimitCheck
+from heeltoe.result.judge import LimitCheck
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import limited, verdict
 from heeltoe.units.sentences import written
@@ -134,7 +134,7 @@ def _tables(response: Response, units: str) -> Iterator[tuple[str, Sequence[str]
 
 def _curves(response: Response, units: str) -> dict[str, Any]:
     h = response.histories
-    ground = h["ground_acceleration_m_s2"] / response.gravity
+    ground = h.ground_acceleration_m_s2 / response.gravity
     others = response.others
     cracks = [response, *others.values()]
     moving = [crack.histories[name] for crack in cracks for name in ("slip_m", "rotation_rad")]
@@ -144,7 +144,7 @@ def _curves(response: Response, units: str) -> dict[str, Any]:
     scales = {"slip": system.scale("displacement", 0.0), "rotation": system.scale("rotation", 0.0)}
 
     def rows(crack: Response) -> dict[str, Any]:
-        values = {"slip": crack.histories["slip_m"], "rotation": crack.histories["rotation_rad"]}
+        values = {"slip": crack.histories.slip_m, "rotation": crack.histories.rotation_rad}
         return {
             name: {
                 "unit": scale.unit,
@@ -155,8 +155,8 @@ def _curves(response: Response, units: str) -> dict[str, Any]:
         }
 
     return {
-        "time": packed(h["time_s"][kept], "float32"),
-        "end": float(h["time_s"][-1]),
+        "time": packed(h.time_s[kept], "float32"),
+        "end": float(h.time_s[-1]),
         "ground": {"unit": "g", "values": packed(ground[kept], "float32")},
         "cracks": [{"name": name, **rows(crack)} for name, crack in _named(response, others, units)],
         **rows(response),
@@ -229,7 +229,7 @@ def dam(case: Case, response: Response, units: str) -> dict[str, Any] | None:
 
     if not response.summary or not response.histories:
         return None
-    samples = response.histories["time_s"]
+    samples = response.histories.time_s
     if response.elastic:
         times = samples[:: -(-samples.size // _MOST_FRAMES)]
     else:

@@ -18,18 +18,28 @@ from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
-from heeltoe.app.actions import actions
+from heeltoe.app import answer, checks, open_case
+from heeltoe.app.case import actions as case
 from heeltoe.app.conversation import Conversation
 from heeltoe.app.desk import Desk
+from heeltoe.app.export import actions as export
 from heeltoe.app.guard import Guard
+from heeltoe.app.motion import actions as motion
 from heeltoe.app.sessions import Session, Sessions, TooManyError
 from heeltoe.app.settings import Settings
+from heeltoe.app.studies import actions as studies
 from heeltoe.app.transfers import answer_offer, gone, take
 from heeltoe.app.workers import Workers
 
 _PAGE = Path(__file__).parent / "page"
 # What plays the moving dam, on the pages of animations and here.
 _PLAYER = Path(__file__).parents[1] / "views" / "animation" / "player"
+# What a tab can ask for, by name, page by page.
+_ACTIONS = {
+    name: entry
+    for module in (open_case, case, motion, answer, checks, studies, export)
+    for name, entry in module.ACTIONS.items()
+}
 # The code with which a websocket is closed where there are too many.
 _TRY_LATER = 1013
 
@@ -37,7 +47,6 @@ _TRY_LATER = 1013
 def application(settings: Settings) -> Starlette:
     """Return the app that serves these settings."""
     sessions, workers = Sessions(settings), Workers()
-    known = actions()
 
     @asynccontextmanager
     async def life(app: Starlette) -> AsyncIterator[None]:
@@ -62,7 +71,7 @@ def application(settings: Settings) -> Starlette:
         try:
             await desk.tell({"of": "hello", "session": session.name})
             await _begin(desk)
-            await Conversation(socket, desk, known).listen()
+            await Conversation(socket, desk, _ACTIONS).listen()
         finally:
             sessions.leave(session, desk.tell)
 
@@ -93,9 +102,7 @@ def application(settings: Settings) -> Starlette:
 
 
 async def _begin(desk: Desk) -> None:
-    from heeltoe.app.open_case import begin
-
-    await desk.tell(await desk.workers.quick(begin, desk.session))
+    await desk.tell(await desk.workers.quick(open_case.begin, desk.session))
     for job in desk.session.jobs.values():
         await desk.tell(job.payload())
 
@@ -140,11 +147,10 @@ def _warm() -> None:
     """Load all that the first answer needs while the browser draws the page."""
     from tempfile import TemporaryDirectory
 
-    from heeltoe.app.live import answer
-    from heeltoe.app.open_case import begin
+    from heeltoe.app import live
 
     with TemporaryDirectory() as folder:
         session = Session("", Path(folder))
-        begin(session)
+        open_case.begin(session)
         if session.case is not None:
-            answer(session.case, {}, "rigid", "si")
+            live.answer(session.case, {}, "rigid", "si")

@@ -32,8 +32,9 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.contract import SHEARS_M
 from heeltoe.result.judge import Judgement
 from heeltoe.result.limits import check_limits, judge_response
+from heeltoe.result.numbers import Chosen
 from heeltoe.result.outcome import Outcome
-from heeltoe.result.response import Chosen, Response
+from heeltoe.result.response import Response
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice, by_gravity
 

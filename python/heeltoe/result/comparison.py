@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from heeltoe.result.contract import HEADLINES
+from heeltoe.result.contract import HEADLINES, RESIDUAL_SLIP
 from heeltoe.result.quantity import Quantity
+from heeltoe.result.record import ResponseData
 from heeltoe.units.sentences import Sentence
 from heeltoe.units.write import angle, length
-
-# Not at run time: a response says these things in its JSON.
-if TYPE_CHECKING:
-    from heeltoe.result.response import Response
 
 # From which ratio on the models differ by more than the flexible one is known to differ from its references.
 _CLOSE = 1.25
@@ -29,15 +24,21 @@ _TABLE = Sentence.of(
     slips_m=(0.218, 0.094, 0.052, 0.037),
     slip_m=0.036,
 )
+# Why the elastic dam slides another way than a block.
+_ADDS = "its own vibration adds to the shaking, which a rigid block leaves out"
+_CHAIN = (
+    "in the decoupled chain the part below vibrates as if the top never slid or rocked, and the top does not vibrate "
+    "itself"
+)
 _BLOCKS = {"rigid": "rigid block", "decoupled": "decoupled top"}
 
 
-def ratio(dam: Response, block: Response) -> dict[str, float | None]:
+def ratio(dam: ResponseData, block: ResponseData) -> dict[str, float | None]:
     """Return dam over block for slips, rotations and openings; None where the block has next to nothing."""
     return {headline.key: _ratio(headline, dam, block) for headline in HEADLINES}
 
 
-def differing(dam: Response, block: Response) -> tuple[Quantity, ...]:
+def differing(dam: ResponseData, block: ResponseData) -> tuple[Quantity, ...]:
     """Return the headline numbers in which two models do not agree.
 
     They agree in a number where the larger is at most 1.25 times the smaller, with the same sign, or where they are
@@ -46,8 +47,11 @@ def differing(dam: Response, block: Response) -> tuple[Quantity, ...]:
     return tuple(headline for headline in HEADLINES if not _agree(headline, dam, block))
 
 
-def meaning(dam: Response, block: Response, units: str = "si") -> str:
-    """Say in a sentence or two what the difference means, in units ``"si"`` or ``"us"``."""
+def meaning(dam: ResponseData, block: ResponseData, units: str = "si", *, brief: bool = False) -> str:
+    """Say in a sentence or two what the difference means, in units ``"si"`` or ``"us"``.
+
+    A brief meaning leaves out the reason and the source.
+    """
     failed = [response.model for response in (block, dam) if not response.ok]
     if failed:
         return f"There is nothing to compare: no result to trust from the {' and the '.join(failed)} model."
@@ -60,20 +64,23 @@ def meaning(dam: Response, block: Response, units: str = "si") -> str:
             f"They slide alike, but differ in the {_numbers_of(apart[0], dam, block, units)}. Trust the flexible model."
         )
     far, near = (abs(response.residual_slip_m) for response in (dam, block))
-    if slips[0].key != "residual_slip_m":
+    if slips[0] is not RESIDUAL_SLIP:
         return (
             f"They end alike, but differ in the {_numbers_of(slips[0], dam, block, units)}. Trust the flexible model."
         )
     if max(far, near) < _LITTLE:
         text = f"Both say that the dam slides by less than {_LITTLE_IN_WORDS[units]} in the end"
-        others = [headline for headline in apart if headline.key != "residual_slip_m"]
+        others = [headline for headline in apart if headline is not RESIDUAL_SLIP]
         if not others:
             return f"{text}."
         return f"{text}, but they differ in the {_numbers_of(others[0], dam, block, units)}. Trust the flexible model."
-    return _slips_differ(dam, block, units)
+    text, reason, source = _slips_differ(dam, block)
+    if brief:
+        return f"{text}. Trust the flexible model."
+    return f"{text}: {reason}. Trust the flexible model{f' ({_TABLE.text(units)})' if source else ''}."
 
 
-def _agree(of: Quantity, dam: Response, block: Response) -> bool:
+def _agree(of: Quantity, dam: ResponseData, block: ResponseData) -> bool:
     one, other = (of.of(response) for response in (dam, block))
     if abs(one - other) < (_SAME_RAD if of.kind == "rotation" else _SAME_M):
         return True
@@ -81,14 +88,14 @@ def _agree(of: Quantity, dam: Response, block: Response) -> bool:
     return one * other > 0.0 and high <= _CLOSE * low
 
 
-def _agreement(block: Response) -> str:
+def _agreement(block: ResponseData) -> str:
     text = "They agree in slips, rotations and openings"
     if block.model == "decoupled":
         return f"{text}: the part below shakes the top as if the top never slid on it."
     return f"{text}: the dam is so stiff against this shaking that a rigid block says what it does."
 
 
-def _numbers_of(of: Quantity, dam: Response, block: Response, units: str) -> str:
+def _numbers_of(of: Quantity, dam: ResponseData, block: ResponseData, units: str) -> str:
     """Return a number of both: what the elastic dam does against what the block does."""
     # Adding zero makes a negative zero a plain one.
     values = [of.way * of.of(response) + 0.0 for response in (dam, block)]
@@ -96,47 +103,35 @@ def _numbers_of(of: Quantity, dam: Response, block: Response, units: str) -> str
     return f"{of.label} ({one} of the flexible dam, {other} of the {_BLOCKS[block.model]})"
 
 
-def _slips_differ(dam: Response, block: Response, units: str) -> str:
+def _slips_differ(dam: ResponseData, block: ResponseData) -> tuple[str, str, bool]:
+    """Say how the slips differ and why, and whether a source shows it."""
     far, near = (abs(response.residual_slip_m) for response in (dam, block))
     opposite = dam.residual_slip_m * block.residual_slip_m < 0.0
     if block.model == "decoupled":
-        return _slips_of_the_chain(far, near, opposite)
+        return _slips_of_the_chain(far, near, opposite), _CHAIN, False
     if opposite:
-        return "They slide opposite ways: the dam's own vibration decides here. Trust the flexible model."
+        return "They slide opposite ways", "the dam's own vibration decides here", False
     if near < _LITTLE:
-        return (
-            "Only the flexible dam slides: its own vibration adds to the shaking, which a rigid block leaves "
-            f"out. Trust the flexible model ({_TABLE.text(units)})."
-        )
+        return "Only the flexible dam slides", _ADDS, True
     if far > near:
-        return (
-            f"The flexible dam slides {far / near:.2g} times as far: its own vibration adds to the shaking, which "
-            f"a rigid block leaves out. Trust the flexible model ({_TABLE.text(units)})."
-        )
+        return f"The flexible dam slides {far / near:.2g} times as far", _ADDS, True
     share = f"{far / near:.2g} times" if far > 0.01 * near else "less than a hundredth of"
-    return (
-        f"The flexible dam slides only {share} what the rigid block does: its own vibration works against the "
-        "shaking here. Trust the flexible model."
-    )
+    text = f"The flexible dam slides only {share} what the rigid block does"
+    return text, "its own vibration works against the shaking here", False
 
 
 def _slips_of_the_chain(far: float, near: float, opposite: bool) -> str:
-    """Say the same where the block was shaken by the part below it."""
+    """Say how they differ where the block was shaken by the part below it."""
     if opposite:
-        text = "They slide opposite ways"
-    elif far < 0.01 * near:
-        text = "The flexible dam slides less than a hundredth of what the decoupled top does"
-    elif near < 0.01 * far:
-        text = "The decoupled top slides less than a hundredth of what the flexible dam does"
-    else:
-        text = f"The flexible dam slides {far / near:.2g} times as far as the decoupled top"
-    return (
-        f"{text}: in the decoupled chain the part below vibrates as if the top never slid or rocked, and the top "
-        "does not vibrate itself. Trust the flexible model."
-    )
+        return "They slide opposite ways"
+    if far < 0.01 * near:
+        return "The flexible dam slides less than a hundredth of what the decoupled top does"
+    if near < 0.01 * far:
+        return "The decoupled top slides less than a hundredth of what the flexible dam does"
+    return f"The flexible dam slides {far / near:.2g} times as far as the decoupled top"
 
 
-def _ratio(of: Quantity, dam: Response, block: Response) -> float | None:
+def _ratio(of: Quantity, dam: ResponseData, block: ResponseData) -> float | None:
     if not (dam.ok and block.ok) or abs(of.of(block)) < of.least:
         return None
     return of.of(dam) / of.of(block)

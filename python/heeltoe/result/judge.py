@@ -10,45 +10,107 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.blocks import Block, Number
 from heeltoe.result.contract import CRACKED, JOINT_METER_M, OPENINGS, RESIDUAL_SLIP
 from heeltoe.result.outcome import Outcome
-from heeltoe.result.quantity import Quantity
 
 Flags = NDArray[np.bool_]
 
 
 class Limit(NamedTuple):
-    """A limit: what people call it, in a narrow place, too, which numbers it limits, without signs, and their unit."""
+    """A limit: what people call it, which numbers it limits, without signs, the column of the histories that goes as
+    far, and their unit."""
 
     label: str
-    short: str
     keys: tuple[str, ...]
+    column: str
     unit: str = "m"
-
-
-def _limit_on(item: Quantity) -> Limit:
-    return Limit(item.label, item.heading, (item.key,), item.unit)
 
 
 #: Everything that a case or a study can limit. `opening` stands in studies alone.
 LIMITS = {
-    "residual_slip": _limit_on(RESIDUAL_SLIP),
-    "peak_slip": Limit("largest slip", "peak slip", ("peak_slip_downstream_m", "peak_slip_upstream_m")),
-    "opening": Limit("opening at either face", "opening", tuple(item.key for item in OPENINGS)),
-    **{item.key.removesuffix("_m"): _limit_on(item) for item in OPENINGS},
-    "cracked_length": Limit("cracked length", "cracked length", (CRACKED,)),
-    "rotation": Limit("rotation", "rotation", ("rocking_downstream_rad", "rocking_upstream_rad"), "rad"),
-    "crest_displacement": Limit("crest displacement", "crest displacement", ("crest_displacement_m",)),
-    "crest_acceleration": Limit("crest acceleration", "crest acceleration", ("crest_acceleration_g",), "g"),
+    "residual_slip": Limit(RESIDUAL_SLIP.label, (RESIDUAL_SLIP.key,), "slip_m"),
+    "peak_slip": Limit("peak slip", ("peak_slip_downstream_m", "peak_slip_upstream_m"), "slip_m"),
+    "opening": Limit("opening at either face", tuple(item.key for item in OPENINGS), ""),
+    **{
+        item.key.removesuffix("_m"): Limit(item.label, (item.key,), column)
+        for item, column in zip(OPENINGS, ("gap_heel_m", "gap_toe_m"), strict=True)
+    },
+    "cracked_length": Limit("cracked length", (CRACKED,), CRACKED),
+    "rotation": Limit("rotation", ("rocking_downstream_rad", "rocking_upstream_rad"), "rotation_rad", "rad"),
+    "crest_displacement": Limit("crest displacement", ("crest_displacement_m",), "crest_displacement_m"),
+    "crest_acceleration": Limit("crest acceleration", ("crest_acceleration_g",), "crest_acceleration_m_s2", "g"),
 }
 #: Those of the crest, which some models do not know.
 CREST_LIMITS = ("crest_displacement", "crest_acceleration")
+
+
+class LimitCheck(Block):
+    """A result beside what the user allows."""
+
+    name: Annotated[str, Number("Field of limits in the case.")]
+    value: Annotated[
+        float | None,
+        Number("What the run has, without its sign, in `unit`; null of a dam that has failed without a result."),
+    ]
+    allowed: Annotated[float, Number("How much the case allows, in `unit`.")]
+    failed: Annotated[
+        bool, Number("Whether the dam has failed, as its outcome says or by sliding off: no limit is met then.")
+    ]
+    uncertainty: Annotated[
+        float, Number("How far the result may be off by its evidence, in `unit`; zero where there is none.")
+    ] = 0.0
+    elevation_m: Annotated[
+        float | None,
+        Number(
+            "Of the crack whose result it is, where there are several: the largest of all, or each bonded joint's own.",
+            "m",
+            optional=True,
+        ),
+    ] = None
+
+    @property
+    def unit(self) -> Annotated[str, Number("In what result and limit are counted: m, rad or g.")]:
+        """In what it is counted."""
+        return LIMITS[self.name].unit
+
+    @property
+    def utilisation(
+        self,
+    ) -> Annotated[
+        float | None, Number("The result over what is allowed; null where nothing is allowed, or without a result.")
+    ]:
+        """The result over what is allowed."""
+        return self.value / self.allowed if self.allowed and self.value is not None else None
+
+    @property
+    def label(self) -> str:
+        """What people call the result."""
+        return LIMITS[self.name].label
+
+    @property
+    def met(self) -> Annotated[bool, Number("Whether the dam holds, and the result is within the limit.")]:
+        """Whether the limit is kept."""
+        return not self.failed and self.value is not None and self.value <= self.allowed
+
+    @property
+    def certain(
+        self,
+    ) -> Annotated[bool, Number("Whether that is so wherever within its uncertainty the result lies.")]:
+        """Whether the uncertainty leaves no doubt."""
+        return (
+            self.failed
+            or self.value is None
+            or abs(self.value - self.allowed) > self.uncertainty
+            or not self.uncertainty
+        )
+
 
 _PEAKS = LIMITS["peak_slip"].keys
 _WIDTH = "crack_width_m"
@@ -112,7 +174,7 @@ class Judgement:
     @cached_property
     def governing_crack(self) -> Integers:
         """(n,) which of several cracks slips most, or the lowest one where none slips by what a joint meter shows."""
-        slips = np.nan_to_num(np.abs(self.columns["residual_slip_m"]))
+        slips = np.nan_to_num(np.abs(self.columns[RESIDUAL_SLIP.key]))
         most = slips.argmax(axis=1)
         return np.asarray(np.where(slips.max(axis=1) >= JOINT_METER_M, most, slips.shape[1] - 1), dtype=np.int64)
 
@@ -178,7 +240,7 @@ def judge(columns: Mapping[str, Any], limits: Mapping[str, float]) -> Judgement:
     ----------
     columns
         ``outcome``, (n,) words, and numbers by their JSON names, (n,) or (n, cracks): those that the limits limit,
-        ``residual_slip_m``, and ``crack_width_m`` with the peak slips or ``slid_off``.
+        the residual slip, and ``crack_width_m`` with the peak slips or ``slid_off``.
     limits
         Allowed values by the name of the limit, SI, accelerations in g.
     """
@@ -200,4 +262,4 @@ def slides_off(downstream: Floats | float, upstream: Floats | float, width: Floa
 def leading_crack(slips_m: Sequence[float]) -> int:
     """Return which of several cracks governs; `slips_m` are the residual slips from the crest down [m]."""
     # The order of the cracks in the file says nothing: one dam may be written in several ways.
-    return int(judge({"outcome": ["ok"], "residual_slip_m": [slips_m]}, {}).governing_crack[0])
+    return int(judge({"outcome": ["ok"], RESIDUAL_SLIP.key: [slips_m]}, {}).governing_crack[0])

@@ -3,82 +3,20 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-from heeltoe.base.blocks import Block, Number
 from heeltoe.result.contract import CRACKED
 from heeltoe.result.crest import CREST_PEAKS, crest_peaks
-from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judgement, judge
+from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judgement, LimitCheck, judge
+from heeltoe.result.record import CrackResponse, ResponseData
 from heeltoe.units.parse import Acceleration
 
 if TYPE_CHECKING:
     from heeltoe.case.options import Limits
-    from heeltoe.result.response import CrackResponse, Response
 
 
 #: The numbers of a crack by which a response is judged.
 _KEYS = ("crack_width_m", *sorted({key for limit in LIMITS.values() for key in limit.keys} - {*CREST_PEAKS, CRACKED}))
-
-
-class LimitCheck(Block):
-    """A result beside what the user allows."""
-
-    name: Annotated[str, Number("Field of limits in the case.")]
-    value: Annotated[
-        float | None,
-        Number("What the run has, without its sign, in `unit`; null of a dam that has failed without a result."),
-    ]
-    allowed: Annotated[float, Number("How much the case allows, in `unit`.")]
-    failed: Annotated[
-        bool, Number("Whether the dam has failed, as its outcome says or by sliding off: no limit is met then.")
-    ]
-    uncertainty: Annotated[
-        float, Number("How far the result may be off by its evidence, in `unit`; zero where there is none.")
-    ] = 0.0
-    elevation_m: Annotated[
-        float | None,
-        Number(
-            "Of the crack whose result it is, where there are several: the largest of all, or each bonded joint's own.",
-            "m",
-            optional=True,
-        ),
-    ] = None
-
-    @property
-    def unit(self) -> Annotated[str, Number("In what result and limit are counted: m, rad or g.")]:
-        """In what it is counted."""
-        return LIMITS[self.name].unit
-
-    @property
-    def utilisation(
-        self,
-    ) -> Annotated[
-        float | None, Number("The result over what is allowed; null where nothing is allowed, or without a result.")
-    ]:
-        """The result over what is allowed."""
-        return self.value / self.allowed if self.allowed and self.value is not None else None
-
-    @property
-    def label(self) -> str:
-        """What people call the result."""
-        return LIMITS[self.name].label
-
-    @property
-    def met(self) -> Annotated[bool, Number("Whether the dam holds, and the result is within the limit.")]:
-        """Whether the limit is kept."""
-        return not self.failed and self.value is not None and self.value <= self.allowed
-
-    @property
-    def certain(
-        self,
-    ) -> Annotated[bool, Number("Whether that is so wherever within its uncertainty the result lies.")]:
-        """Whether the uncertainty leaves no doubt."""
-        return (
-            self.failed
-            or self.value is None
-            or abs(self.value - self.allowed) > self.uncertainty
-            or not self.uncertainty
-        )
 
 
 def allowances(limits: Limits, gravity: float) -> dict[str, float]:
@@ -90,7 +28,7 @@ def allowances(limits: Limits, gravity: float) -> dict[str, float]:
     }
 
 
-def judge_response(limits: Limits, response: Response) -> Judgement:
+def judge_response(limits: Limits, response: ResponseData) -> Judgement:
     """Return the judgement of a response, one row."""
     columns: dict[str, Any] = {
         key: [[math.nan if crack.numbers is None else getattr(crack.numbers, key) for crack in response.cracks]]
@@ -103,7 +41,7 @@ def judge_response(limits: Limits, response: Response) -> Judgement:
     return judge({"outcome": [response.outcome], **columns}, allowances(limits, response.gravity))
 
 
-def check_limits(limits: Limits, response: Response, judgement: Judgement | None = None) -> tuple[LimitCheck, ...]:
+def check_limits(limits: Limits, response: ResponseData, judgement: Judgement | None = None) -> tuple[LimitCheck, ...]:
     """Compare the numbers of a response with the limits that the user has set.
 
     They are the numbers to trust: where the runs of an elastic dam scatter, the means. Nothing is compared where the

@@ -6,8 +6,9 @@ those of a metre of dam.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated
+from collections.abc import Mapping, Sequence
+from dataclasses import field
+from typing import TYPE_CHECKING, Annotated, Any
 
 from heeltoe.base.blocks import Block, Number
 from heeltoe.result.quantity import Quantity, peak_time
@@ -717,3 +718,77 @@ class Spread(Block):
     opening_downstream_m: Annotated[
         Statistics | None, Number("Distribution of the opening downstream; null of fewer than two runs.", "m")
     ]
+
+
+class Energy(Block):
+    """The energy ledger of a run, per metre of dam."""
+
+    input_j: Annotated[
+        float,
+        Number(
+            "Work of water, weight, uplift and the ground's inertia force on the motion relative to the ground.", _JOULE
+        ),
+    ]
+    friction_j: Annotated[float, Number("Energy lost in friction.", _JOULE)]
+    impact_j: Annotated[float, Number("Energy lost in impacts.", _JOULE)]
+    left_j: Annotated[
+        float,
+        Number(
+            "Energy left in the dam at the end: kinetic, and of elastic parts with that of strain and anchors, "
+            "less that at the start; below zero where the dam has let go of some.",
+            _JOULE,
+        ),
+    ]
+    residual: Annotated[
+        float, Number("What is left of the balance of all others, over the turnover; rounding if the run is sound.")
+    ]
+    damping_j: Annotated[float, Number("Energy lost in the concrete's damping; zero for a block.", _JOULE)] = 0.0
+    fracture_j: Annotated[float, Number("Energy that the bonds of joints have taken; zero without one.", _JOULE)] = 0.0
+    rock_j: Annotated[
+        float, Number("Energy that left as waves in the rock, or was lost in it; zero on a rigid plane.", _JOULE)
+    ] = 0.0
+    floor_j: Annotated[
+        float, Number("Energy that left through the floor of the reservoir; zero without compressible water.", _JOULE)
+    ] = 0.0
+    far_end_j: Annotated[
+        float, Number("Energy that left along the reservoir; zero without compressible water.", _JOULE)
+    ] = 0.0
+    numerical_j: Annotated[float, Number("Energy lost by the time stepping itself; zero for a block.", _JOULE)] = 0.0
+    gained_j: Annotated[
+        float,
+        Number(
+            "What contact added in steps of positive work, and bonds beyond what they held; it should be nothing.",
+            _JOULE,
+        ),
+    ] = 0.0
+
+
+class Chosen(Block):
+    """How a model came to be the one that the numbers are from."""
+
+    asked: Annotated[str, Number("What was asked for: a model, two of them, or auto.")]
+    why: Annotated[str, Number("Why it is this model.")]
+
+
+class Stage(Block):
+    """A motion of a sequence, as the histories of its run have it."""
+
+    name: Annotated[str, Number("What the record is called.")]
+    pga_g: Annotated[float, Number("Peak acceleration of the motion.", "g")]
+    begins_s: Annotated[float, Number("When the motion begins, in the time of the whole run.", "s")]
+    ends_s: Annotated[float, Number("When it ends.", "s")]
+    slip_m: Annotated[float, Number("Slip that it adds, positive downstream.", "m")]
+    residual_slip_m: Annotated[float, Number("Where it leaves the dam, since before the first motion.", "m")]
+    peak_slip_downstream_m: Annotated[float, Number("Largest slip on its way, since before the first motion.", "m")]
+    peak_slip_upstream_m: Annotated[float, Number("Largest slip upstream on its way, since then; never positive.", "m")]
+    opening_upstream_m: Annotated[float, Number("Largest opening of the crack at the upstream face.", "m")]
+    opening_downstream_m: Annotated[float, Number("Largest opening of the crack at the downstream face.", "m")]
+    rotation_downstream_rad: Annotated[float, Number("Largest rotation about the toe.", "rad")]
+    rotation_upstream_rad: Annotated[float, Number("Largest rotation about the heel.", "rad")]
+    at_rest: Annotated[
+        bool, Number("Whether the dam has come to rest before the next motion begins, or before the run ends.")
+    ]
+    static: Annotated[
+        Mapping[str, Any],
+        Number("What the static checks say of the dam that it leaves: ok, what is missed, drainage that is left."),
+    ] = field(default_factory=dict)

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from heeltoe.base.arrays import Floats
 from heeltoe.result.contract import JOINT_METER_M, OPENINGS
-
-# Not at run time: a response says its verdict in its JSON.
-if TYPE_CHECKING:
-    from heeltoe.result.response import Response
+from heeltoe.result.record import ResponseData
 
 # Whether a dam that vibrates is still on its way is seen over this time [s].
 LAST_S = 1.0
@@ -52,12 +49,12 @@ def still_since(time: Floats, *moved: Floats) -> float:
     return float(time[-int(np.logical_and.reduce(late).sum())])
 
 
-def last_of(response: Response) -> LastChange:
+def last_of(response: ResponseData) -> LastChange:
     """Return what of an elastic dam moves most in the last second of its run."""
     return max((last_change(*history) for history in _moved(response)), key=lambda last: last.change_m)
 
 
-def comes_to_rest(response: Response) -> bool:
+def comes_to_rest(response: ResponseData) -> bool:
     """Whether the dam has stopped sliding and rocking when the run ends.
 
     A rigid block says so itself. An elastic dam is never quite still, and where its crack stays open in part it is not
@@ -66,21 +63,21 @@ def comes_to_rest(response: Response) -> bool:
     return last_of(response).rest if response.elastic else all(crack.final_mode == "rest" for crack in response.cracks)
 
 
-def rests_from(response: Response) -> float:
+def rests_from(response: ResponseData) -> float:
     """Return from when on the dam is at rest [s]; infinite where it still moves when the run ends."""
     if not comes_to_rest(response):
         return math.inf
     if response.elastic:
         return max(still_since(*history) for history in _moved(response))
-    return max(float(max(crack.event_log["time_s"], default=0.0)) for crack in response.cracks)
+    return max(float(max(crack.event_log.time_s, default=0.0)) for crack in response.cracks)
 
 
-def motion_end(response: Response) -> float:
+def motion_end(response: ResponseData) -> float:
     """Return when the ground motion of a run ends [s]; what goes on after its run has no part in it."""
     motions = [motion for motion in (response.motion, response.vertical) if motion is not None]
     return min(response.end_time_s - response.silence_s, max(motion.duration for motion in motions))
 
 
-def _moved(response: Response) -> list[tuple[Floats, Floats, Floats, Floats]]:
+def _moved(response: ResponseData) -> list[tuple[Floats, Floats, Floats, Floats]]:
     histories = [crack.histories for crack in response.cracks]
-    return [(h["time_s"], h["slip_m"], h["gap_heel_m"], h["gap_toe_m"]) for h in histories]
+    return [(h.time_s, h.slip_m, h.gap_heel_m, h.gap_toe_m) for h in histories]

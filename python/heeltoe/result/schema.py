@@ -8,11 +8,20 @@ from heeltoe.base.blocks import Block, json_schema
 from heeltoe.mechanics.block import CriticalAccelerationsInG, StaticState
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.crest import CrestMotion
-from heeltoe.result.limits import LimitCheck
-from heeltoe.result.numbers import OF_SEVERAL, BlockNumbers, Chain, ElasticCrack, ElasticDam, SignNumbers, Spread
+from heeltoe.result.judge import LimitCheck
+from heeltoe.result.numbers import (
+    OF_SEVERAL,
+    BlockNumbers,
+    Chain,
+    Chosen,
+    ElasticCrack,
+    ElasticDam,
+    Energy,
+    SignNumbers,
+    Spread,
+    Stage,
+)
 from heeltoe.result.outcome import Outcome
-from heeltoe.result.response import Chosen, Energy
-from heeltoe.result.sequence import Stage
 from heeltoe.result.write import MotionNumbers
 
 _TEXT, _TEXTS = {"type": "string"}, {"type": "array", "items": {"type": "string"}}

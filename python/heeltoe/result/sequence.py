@@ -2,55 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field
-from typing import TYPE_CHECKING, Annotated, Any
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from heeltoe.base.blocks import Block, Number
+from heeltoe.motion.ground_motion import Part
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M
+from heeltoe.result.numbers import Stage
+from heeltoe.result.record import ResponseData
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.units.sentences import listed
 from heeltoe.units.write import length
-
-# Not at run time: a response has them.
-if TYPE_CHECKING:
-    from heeltoe.motion.ground_motion import Part
-    from heeltoe.result.response import Response
 
 # What moves less in the last bit of a pause [s] has come to rest in it.
 _LAST_S = 0.5
 
 
-class Stage(Block):
-    """A motion of a sequence, as the histories of its run have it."""
-
-    name: Annotated[str, Number("What the record is called.")]
-    pga_g: Annotated[float, Number("Peak acceleration of the motion.", "g")]
-    begins_s: Annotated[float, Number("When the motion begins, in the time of the whole run.", "s")]
-    ends_s: Annotated[float, Number("When it ends.", "s")]
-    slip_m: Annotated[float, Number("Slip that it adds, positive downstream.", "m")]
-    residual_slip_m: Annotated[float, Number("Where it leaves the dam, since before the first motion.", "m")]
-    peak_slip_downstream_m: Annotated[float, Number("Largest slip on its way, since before the first motion.", "m")]
-    peak_slip_upstream_m: Annotated[float, Number("Largest slip upstream on its way, since then; never positive.", "m")]
-    opening_upstream_m: Annotated[float, Number("Largest opening of the crack at the upstream face.", "m")]
-    opening_downstream_m: Annotated[float, Number("Largest opening of the crack at the downstream face.", "m")]
-    rotation_downstream_rad: Annotated[float, Number("Largest rotation about the toe.", "rad")]
-    rotation_upstream_rad: Annotated[float, Number("Largest rotation about the heel.", "rad")]
-    at_rest: Annotated[
-        bool, Number("Whether the dam has come to rest before the next motion begins, or before the run ends.")
-    ]
-    static: Annotated[
-        Mapping[str, Any],
-        Number("What the static checks say of the dam that it leaves: ok, what is missed, drainage that is left."),
-    ] = field(default_factory=dict)
-
-
-def stages(response: Response, parts: Sequence[Part]) -> Iterator[Stage]:
+def stages(response: ResponseData, parts: Sequence[Part]) -> Iterator[Stage]:
     """Walk what each motion does in a run; one that the run has not reached is left out."""
     histories = response.histories
-    time, slip = histories["time_s"], histories["slip_m"]
+    time, slip = histories.time_s, histories.slip_m
     before, smallest = 0.0, JOINT_METER_M if response.elastic else LEAST_M
     for part, after in zip(parts, [*(part.begins for part in parts[1:]), response.end_time_s], strict=True):
         if part.begins > response.end_time_s or time[-1] < part.begins:
@@ -61,7 +32,7 @@ def stages(response: Response, parts: Sequence[Part]) -> Iterator[Stage]:
         # The run itself knows what it ends with.
         final = after >= response.end_time_s
         left = response.residual_slip_m if final else float(slip[within][-1])
-        turned = histories["rotation_rad"][within]
+        turned = histories.rotation_rad[within]
         yield Stage(
             name=part.name,
             pga_g=part.pga / response.gravity,
@@ -71,8 +42,8 @@ def stages(response: Response, parts: Sequence[Part]) -> Iterator[Stage]:
             residual_slip_m=left,
             peak_slip_downstream_m=float(max(slip[within].max(), left, 0.0)),
             peak_slip_upstream_m=float(min(slip[within].min(), left, 0.0)),
-            opening_upstream_m=float(max(histories["gap_heel_m"][within].max(), 0.0)),
-            opening_downstream_m=float(max(histories["gap_toe_m"][within].max(), 0.0)),
+            opening_upstream_m=float(max(histories.gap_heel_m[within].max(), 0.0)),
+            opening_downstream_m=float(max(histories.gap_toe_m[within].max(), 0.0)),
             rotation_downstream_rad=float(max(-turned.min(), 0.0)),
             rotation_upstream_rad=float(max(turned.max(), 0.0)),
             at_rest=comes_to_rest(response) if final else all(np.ptp(values) < smallest for values in moved),

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
+from heeltoe.result.judge import LimitCheck
+from heeltoe.result.numbers import BlockBond, BondState
 from heeltoe.result.outcome import Outcome
+from heeltoe.result.record import CrackResponse, ResponseData
 from heeltoe.result.rest import comes_to_rest, last_of, motion_end, rests_from
 from heeltoe.result.sequence import sequence_sentence
 from heeltoe.result.tension import tension_sentence
 from heeltoe.units.sentences import listed, written
 from heeltoe.units.write import angle, length, lengths, measured, speed
-
-# Not at run time: a response says its verdict in its JSON.
-if TYPE_CHECKING:
-    from heeltoe.result.limits import LimitCheck
-    from heeltoe.result.numbers import BlockBond, BondState
-    from heeltoe.result.response import CrackResponse, Response
 
 # Less time in the air in all [s] is a few bounces, which the strikes tell of.
 _IN_THE_AIR_S = 0.05
@@ -31,7 +27,7 @@ _NAMED = 4
 _AS = {"rigid": "As a rigid block", "decoupled": "As a rigid block on an elastic part below it"}
 
 
-def verdict(response: Response, units: str = "si", *, brief: bool = False) -> str:
+def verdict(response: ResponseData, units: str = "si", *, brief: bool = False) -> str:
     """Say what the part above the crack does, and whether it is at rest in the end, in units ``"si"`` or ``"us"``.
 
     Of several cracks that which slips most leads, and the others follow. A brief verdict leaves out the openings of an
@@ -70,12 +66,12 @@ def verdict(response: Response, units: str = "si", *, brief: bool = False) -> st
     return " ".join(sentence for sentence in sentences if sentence)
 
 
-def advice(response: Response, units: str = "si") -> str:
+def advice(response: ResponseData, units: str = "si") -> str:
     """Say where a run without a result stopped and what to do about it; nothing where there is a result."""
     return "" if response.advice is None else response.advice.text(units)
 
 
-def _signs(response: Response, units: str) -> str:
+def _signs(response: ResponseData, units: str) -> str:
     """Say what the motion does the other way round, where both were run."""
     if not response.signs:
         return ""
@@ -90,7 +86,7 @@ def _signs(response: Response, units: str) -> str:
     return f"This is for the motion {words[own.sign]}; {words[other.sign]} {does}."
 
 
-def _limits(response: Response, units: str) -> str:
+def _limits(response: ResponseData, units: str) -> str:
     """Say which of the limits that the user has set are met."""
     if not response.limits:
         return ""
@@ -139,7 +135,7 @@ def _judged(check: LimitCheck, units: str) -> str:
     return value if check.certain else f"{value} ± {measured(check.uncertainty, check.unit, units)}"
 
 
-def _spread(response: Response, units: str) -> str:
+def _spread(response: ResponseData, units: str) -> str:
     """Return the range of the residual slip with slightly different shaking, in brackets."""
     spread = None if response.spread is None else response.spread.residual_slip_m
     if spread is None:
@@ -150,7 +146,7 @@ def _spread(response: Response, units: str) -> str:
     return f" ({length(low, units)} to {length(high, units)} with the shaking varied by 1 %)"
 
 
-def _slip(response: Response, units: str) -> str:
+def _slip(response: ResponseData, units: str) -> str:
     slip: float = response.residual_slip_m
     down, up = response.peak_slip_downstream_m, -response.peak_slip_upstream_m
     as_blocks = "As rigid blocks" if response.several else _AS[response.model]
@@ -163,7 +159,7 @@ def _slip(response: Response, units: str) -> str:
     return text + _on_the_way(slip, down, up, LEAST_M, units) + "."
 
 
-def joint_sentence(response: Response, units: str = "si") -> str:
+def joint_sentence(response: ResponseData, units: str = "si") -> str:
     """Say whether the joints of an elastic dam crack, from where, and what is left; nothing of a crack."""
     if not response.several:
         return _joint(response, "The joint", units)
@@ -216,7 +212,7 @@ def _of(part: float, whole: float, units: str) -> str:
     return " of ".join(lengths((part, whole), units))
 
 
-def _bond_of_block(response: Response) -> str:
+def _bond_of_block(response: ResponseData) -> str:
     """Say how the bond below a rigid block fares; nothing of a crack."""
     bond: BlockBond | None = getattr(response, "bond", None)
     if bond is None:
@@ -231,7 +227,7 @@ def _bond_of_block(response: Response) -> str:
     return f"The bond below the block breaks {when}, all at once, by {bond.breaks_by}."
 
 
-def _joint(crack: Response | CrackResponse, joint: str, units: str) -> str:
+def _joint(crack: ResponseData | CrackResponse, joint: str, units: str) -> str:
     bond: BondState | None = getattr(crack, "joint", None)
     if bond is None:
         return ""
@@ -256,14 +252,14 @@ def _joint(crack: Response | CrackResponse, joint: str, units: str) -> str:
     return f"{joint} begins to crack {when}: {how_far}; the rest holds."
 
 
-def _certain(crack: Response | CrackResponse, units: str) -> str:
+def _certain(crack: ResponseData | CrackResponse, units: str) -> str:
     """Return how certain the cracked length of a joint is."""
     evidence = getattr(crack, "evidence", None)
     worth = None if evidence is None else evidence.cracked_length_m
     return "" if worth is None else f" (numerically ± {length(worth.uncertainty, units)})"
 
 
-def _elastic_slip(response: Response, units: str) -> str:
+def _elastic_slip(response: ResponseData, units: str) -> str:
     slip: float = response.residual_slip_m
     down, up = response.peak_slip_downstream_m, -response.peak_slip_upstream_m
     largest = max(down, up)
@@ -281,7 +277,7 @@ def _elastic_slip(response: Response, units: str) -> str:
     )
 
 
-def _worth(response: Response, units: str) -> str:
+def _worth(response: ResponseData, units: str) -> str:
     """Return how far an elastic dam slides, and how certain that is."""
     slip, evidence = length(abs(response.residual_slip_m), units), getattr(response, "evidence", None)
     if evidence is None:
@@ -292,7 +288,7 @@ def _worth(response: Response, units: str) -> str:
     return f"{slip} ({known}{_damping(response, units)})"
 
 
-def _damping(response: Response, units: str) -> str:
+def _damping(response: ResponseData, units: str) -> str:
     """Say what twice the damping makes of the slip where a vibration grows as the dam slides."""
     growth = getattr(response, "self_excitation", None)
     other = None if growth is None else growth.twice_damped_slip_m
@@ -310,7 +306,7 @@ def _on_the_way(slip: float, down: float, up: float, smallest: float, units: str
     )
 
 
-def _openings(response: Response, units: str) -> str:
+def _openings(response: ResponseData, units: str) -> str:
     """Say how far an elastic dam's crack opens, and how it closes."""
     faces = {"upstream": response.opening_upstream_m, "downstream": response.opening_downstream_m}
     open_ = [f"{length(gap, units)} at the {face} face" for face, gap in faces.items() if gap >= JOINT_METER_M]
@@ -331,7 +327,7 @@ def _openings(response: Response, units: str) -> str:
     return f"{text}. {_elastic_rocking(response)}".rstrip()
 
 
-def _elastic_rocking(response: Response) -> str:
+def _elastic_rocking(response: ResponseData) -> str:
     """Say whether an elastic dam whose crack opens rocks."""
     if max(response.opening_upstream_m, response.opening_downstream_m) < JOINT_METER_M:
         return ""
@@ -345,7 +341,7 @@ def _elastic_rocking(response: Response) -> str:
     return text
 
 
-def _elastic_end(response: Response, units: str, brief: bool) -> str:
+def _elastic_end(response: ResponseData, units: str, brief: bool) -> str:
     if comes_to_rest(response):
         if brief:
             return "It is at rest in the end."
@@ -362,7 +358,7 @@ def _elastic_end(response: Response, units: str, brief: bool) -> str:
     )
 
 
-def _other_cracks(response: Response, units: str, brief: bool) -> str:
+def _other_cracks(response: ResponseData, units: str, brief: bool) -> str:
     """Say what the dam does at the cracks that do not lead, from the crest down."""
     if not response.several:
         return ""
@@ -403,14 +399,14 @@ def _slides(crack: CrackResponse) -> float:
     return max(crack.peak_slip_downstream_m, -crack.peak_slip_upstream_m)
 
 
-def _subject(response: Response, units: str) -> str:
+def _subject(response: ResponseData, units: str) -> str:
     """Return what slides: of several cracks the dam above the one that leads."""
     if not response.several:
         return "the dam"
     return f"the dam above the crack at {_level(response.cracks[response.asked].elevation, units)}"
 
 
-def _rocking(response: Response, units: str) -> str:
+def _rocking(response: ResponseData, units: str) -> str:
     down, up = response.rocking_downstream_rad, response.rocking_upstream_rad
     if max(response.largest_gap_heel_m, response.largest_gap_toe_m) == 0.0:
         return "It does not rock."
@@ -434,13 +430,13 @@ def _rocking(response: Response, units: str) -> str:
     return text + "."
 
 
-def _end(response: Response) -> str:
+def _end(response: ResponseData) -> str:
     if comes_to_rest(response):
         return _rest_in_silence(response) or "It is at rest in the end."
     return f"It still moves {_when_it_ends(response)} ({response.final_mode})."
 
 
-def _rest_in_silence(response: Response) -> str:
+def _rest_in_silence(response: ResponseData) -> str:
     """Say when the dam comes to rest where the run had to go on after the ground motion to see it."""
     if not response.silence_s:
         return ""
@@ -451,7 +447,7 @@ def _rest_in_silence(response: Response) -> str:
     return f"The ground motion {ends} at {ended:.4g} s; the dam comes to rest {rest - ended:.2g} s later, in silence."
 
 
-def _when_it_ends(response: Response) -> str:
+def _when_it_ends(response: ResponseData) -> str:
     if not response.silence_s:
         return "when the run ends"
     ended = motion_end(response)

@@ -90,8 +90,8 @@ def _(response: Response) -> str:
             rows.append((headline.full, ", ".join(texts)))
     drawing = ""
     if response.histories:
-        time = response.histories["time_s"]
-        drawing = line(time, response.histories["slip_m"], f"slip, + downstream, over {digits(float(time[-1]), 2)} s")
+        time = response.histories.time_s
+        drawing = line(time, response.histories.slip_m, f"slip, + downstream, over {digits(float(time[-1]), 2)} s")
     return _page(response.title or "Untitled case", rows, drawing)
 
 

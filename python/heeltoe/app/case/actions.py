@@ -171,9 +171,8 @@ async def _done(desk: Desk, do: Callable[[], None]) -> dict[str, Any]:
 
 def _case_message(session: Session) -> dict[str, Any]:
     from heeltoe.app.case.draft import case_of, draft_of, fields_of, valued
-    from heeltoe.app.case.drawing import drawing
+    from heeltoe.app.case.drawing import drawing, law
     from heeltoe.app.case.handles import handle_data, handles
-    from heeltoe.app.case.law import law
 
     fields, errors = fields_of(session)
     draft, case = draft_of(session), case_of(session)

@@ -1,4 +1,4 @@
-"""The section of a case as shapes that the page draws: dam, crack, water, silt, ice, uplift, anchors. All in metres."""
+"""What the page of a case draws: its section as shapes [m], and the curve of its friction law."""
 
 from __future__ import annotations
 
@@ -9,15 +9,22 @@ import numpy as np
 import shapely
 
 from heeltoe.case.at_crack import anchor_line
+from heeltoe.case.crack.law import Law
 from heeltoe.case.model import Case
+from heeltoe.errors.error import InputError
+from heeltoe.mechanics.law_curve import SAMPLES, LawCurve, curve_of
 from heeltoe.mechanics.loads import uplift_profile
 from heeltoe.mechanics.section_shapes import section_shapes
+from heeltoe.units.sentences import written
 from heeltoe.units.systems import unit_system
 
 # How deep the diagram of the uplift hangs below the crack, as a part of the size of the dam.
 _UPLIFT = 0.16
 # Margins of the view, as parts of the size: left, right, above, below.
 _MARGINS = (0.42, 0.36, 0.12, 0.2)
+# Of the points of a law so many are one that is drawn.
+_EVERY = 4
+_KINDS = {"slip path": "displacement", "slip speed": "velocity", "normal stress": "pressure"}
 
 
 def drawing(case: Case, units: str) -> dict[str, Any]:
@@ -88,3 +95,40 @@ def _notes(case: Case, units: str) -> Iterator[dict[str, Any]]:
         "text": f"{length(section.crack_width):.4g} {length.unit} wide at the crack",
         "side": "middle",
     }
+
+
+def law(case: Case, units: str) -> dict[str, Any] | None:
+    """Return the curve of the law of a case under its static loads; None where it has no law, or no curve."""
+    if case.crack.law is None:
+        return None
+    try:
+        return _drawn(curve_of(case), units, _samples(case.crack.law))
+    except InputError:
+        return None
+
+
+def _drawn(curve: LawCurve, units: str, samples: list[str]) -> dict[str, Any]:
+    scale = unit_system(units).scale(_KINDS[curve.over], float(curve.at[-1]))
+    kept = [*range(0, len(curve.at) - 1, _EVERY), len(curve.at) - 1]
+    stress = written("{stress_pa:.3g MPa}", units, stress_pa=curve.normal_stress_pa)
+    sentence = f"The dot: before any slip {curve.at_rest:.3g}, under {stress} from the static loads."
+    if samples:
+        sentence += f" Sample numbers, those of no dam: {', '.join(samples)}. Give your own."
+    return {
+        "over": f"{curve.over} [{scale.unit}]",
+        "at": [float(f"{value:.5g}") for value in scale(curve.at[kept])],
+        "friction": [float(f"{value:.5g}") for value in curve.friction[kept]],
+        "dot": [float(scale(curve.normal_stress_pa)) if curve.over == "normal stress" else 0.0, curve.at_rest],
+        "sentence": sentence,
+    }
+
+
+def _samples(law: Law) -> list[str]:
+    """Return what of a law stands as it begins with."""
+    begins = Law(name=law.name, **SAMPLES[law.name])
+    return [
+        name.replace("_", " ")
+        for name in SAMPLES[law.name]
+        # The peak is that of the coefficient before.
+        if name != "peak_friction" and getattr(law, name) == getattr(begins, name)
+    ]

@@ -43,8 +43,8 @@ async def look(desk: Desk, request: Request) -> dict[str, Any]:
 
 async def make(desk: Desk, request: Request) -> dict[str, Any]:
     """Begin to make the files; what was made before goes."""
-    from heeltoe.app.bundle import lay_out, sent_files
     from heeltoe.app.case.draft import case_of, fields_in_force
+    from heeltoe.app.case.files import lay_out, sent_files
     from heeltoe.app.export.work import make as work
     from heeltoe.app.export.work import wanted_of
 
@@ -90,8 +90,8 @@ async def case(desk: Desk, request: Request) -> dict[str, Any]:
 
 
 def _case_file(session: Session) -> tuple[str, Path]:
-    from heeltoe.app.bundle import CASE, lay_out, sent_files, zipped
     from heeltoe.app.case.draft import fields_in_force
+    from heeltoe.app.case.files import CASE, lay_out, sent_files, zipped
 
     folder = session.folder / f"case-{next(_NUMBERS)}" / "case"
     lay_out(fields_in_force(session), sent_files(session), folder)

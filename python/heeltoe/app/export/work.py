@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from heeltoe.app.bundle import CASE, zipped
+from heeltoe.app.case.files import CASE, zipped
 from heeltoe.app.desk import BadRequestError, Request
 from heeltoe.models.run import AUTO, MODELS
 

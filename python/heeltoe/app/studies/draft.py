@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
-from heeltoe.app.bundle import sent_files
 from heeltoe.app.case.draft import case_of, fields_in_force
 from heeltoe.app.case.fields import blocks, field_of, in_unit, typed, unit_of
+from heeltoe.app.case.files import sent_files
 from heeltoe.app.desk import BadRequestError
 from heeltoe.app.open_case import models_for
 from heeltoe.case.paths import value_of

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from heeltoe.app.bundle import Sent, copied, lay_out, zipped
+from heeltoe.app.case.files import Sent, copied, lay_out, zipped
 from heeltoe.app.live import refused
 from heeltoe.case.toml_writer import toml_text
 from heeltoe.errors.error import InputError
@@ -171,7 +171,7 @@ def answers(folder: Path, units: str) -> dict[str, Any]:
 def _headlines(suite: Mapping[str, Any] | None, units: str) -> list[dict[str, Any]]:
     """Return what a reader looks for first in a suite, model by model: the number that is judged, and its limit."""
     from heeltoe.app.response_payload import judged
-    from heeltoe.result.limits import LimitCheck
+    from heeltoe.result.judge import LimitCheck
     from heeltoe.views.words.studies import JUDGED
 
     headlines = list[dict[str, Any]]()

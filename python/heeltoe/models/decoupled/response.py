@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from heeltoe.result.numbers import CrackLevel
-from heeltoe.result.response import Of, Response
+from heeltoe.result.record import Of
+from heeltoe.result.response import Response
 
 
 @dataclass(frozen=True, eq=False, repr=False)

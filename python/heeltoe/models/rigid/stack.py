@@ -22,7 +22,8 @@ from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.judge import leading_crack
 from heeltoe.result.numbers import CrackEnergy
 from heeltoe.result.outcome import Outcome, decide
-from heeltoe.result.response import CrackResponse, Response
+from heeltoe.result.record import CrackResponse
+from heeltoe.result.response import Response
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
 

@@ -19,10 +19,11 @@ from heeltoe.models.rigid.bond import BondedBlock, bonded_block, held_histories
 from heeltoe.models.rigid.slip_history import law_histories, law_result, roughness_histories, roughness_result
 from heeltoe.result.contract import HEADLINES, ground_histories, headlines, slip_by_mode, time_by_mode
 from heeltoe.result.crest import LOOKS_S, CrestMotion, CrestSeries, crest_series
-from heeltoe.result.numbers import AnchorForce, BlockNumbers
+from heeltoe.result.histories import EventLog, Histories
+from heeltoe.result.numbers import AnchorForce, BlockNumbers, Energy
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.quantity import computed
-from heeltoe.result.response import CrackResponse, Energy
+from heeltoe.result.record import CrackResponse
 
 #: Modes of motion by their numbers.
 MODE_NAMES = np.array(MODES, dtype=object)
@@ -135,9 +136,9 @@ def crack_response(
     return CrackResponse(
         elevation=block.section.heel[1] - block.section.base_elevation,
         of_crack=numbers_of(case, block, run, histories, drainage, bonded) if started else None,
-        histories=histories,
+        histories=Histories(histories),
         mode=tuple(MODE_NAMES.take(run.mode[shown]).tolist()) if started else (),
-        event_log=events_of(run),
+        event_log=EventLog(events_of(run)),
         static=static_state(block),
     )
 
@@ -162,7 +163,7 @@ def with_crest(
     seen = series.histories(moments[shown], displacement)
     # The block stays where it is beyond its last look.
     crest = series.motion(blocks[0].gravity, float(displacement[-1]))
-    return [replace(crack, histories={**crack.histories, **seen}) for crack in cracks], crest
+    return [replace(crack, histories=Histories({**crack.histories, **seen})) for crack in cracks], crest
 
 
 def crest_looks(end: float) -> Floats:

@@ -11,11 +11,12 @@ from heeltoe.errors.sanitize import plain
 from heeltoe.mechanics.drains import drainage_left
 from heeltoe.models.statics.joints import Joints, statics_of_sections
 from heeltoe.models.statics.model import Statics, statics
-from heeltoe.result.numbers import BlockBond, BondState
+from heeltoe.result.numbers import BlockBond, BondState, Stage
 from heeltoe.result.outcome import Outcome
-from heeltoe.result.response import CrackResponse, Response
+from heeltoe.result.record import CrackResponse
+from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
-from heeltoe.result.sequence import Stage, stages
+from heeltoe.result.sequence import stages
 from heeltoe.warnings.notice import Notice
 
 _NO_CRACK = "this joint is no crack of the run, and has not slipped"

@@ -8,11 +8,13 @@ chi-square has the answer.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from scipy.special import ndtr
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.blocks import Block, Number
 from heeltoe.study.answers.likelihood import SAME, Witnesses, greatest
 
 #: Studies that are made, and the probability below which a curve does not fit.
@@ -23,28 +25,17 @@ _GROUPS = 12
 _STEP = 1e-3
 
 
-@dataclass(frozen=True)
-class FitTest:
-    """A test of fit.
+class FitTest(Block):
+    """A test of fit."""
 
-    Attributes
-    ----------
-    chi_square
-        Pearson's.
-    p
-        Probability of one as large where the curve is right, from studies that the curve made.
-    fits
-        Whether that is not rare.
-    strength, share, fitted
-        Where the curve is farthest off, by what chance makes there: the share of the runs that exceed, and the curve's.
-    """
-
-    chi_square: float
-    p: float
-    fits: bool
-    strength: float
-    share: float
-    fitted: float
+    chi_square: Annotated[float, Number("Pearson's chi-square of the shares about the curve.")]
+    p: Annotated[
+        float, Number("Probability of one as large where the curve is right, from studies that the curve made.")
+    ]
+    fits: Annotated[bool, Number("Whether that is 5 % or more.")]
+    strength: Annotated[float, Number("Where the curve is farthest off, by what chance makes there, in SI.")]
+    share: Annotated[float, Number("Share of the runs that exceed there.")]
+    fitted: Annotated[float, Number("The same by the curve.")]
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +96,14 @@ def fit_test(seen: Witnesses, median: float, dispersion: float, record: float | 
     worst = int(np.abs(off).argmax())
     share, fitted = group.exceeding[worst] / group.runs[worst], expected[worst] / group.runs[worst]
     strength = float(np.exp(group.logarithm[worst]))
-    return FitTest(chi_square, float(p), bool(p >= _RARE), strength, float(share), float(fitted))
+    return FitTest(
+        chi_square=chi_square,
+        p=float(p),
+        fits=bool(p >= _RARE),
+        strength=strength,
+        share=float(share),
+        fitted=float(fitted),
+    )
 
 
 def _off(exceeding: Floats, expected: Floats, runs: Floats) -> Floats:

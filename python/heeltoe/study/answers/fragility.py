@@ -10,13 +10,14 @@ others.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, replace
-from typing import Any
+from dataclasses import field, replace
+from typing import Annotated, Any
 
 import numpy as np
 from scipy.special import ndtr
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.blocks import Block, Number
 from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.confidence import Ends, Knowledge, dispersion_ends, exact_bounds, knowledge_of, median_ends
 from heeltoe.study.answers.fit_test import FitTest, fit_test, groups_of
@@ -27,114 +28,69 @@ from heeltoe.study.run.aggregate import SHAKEN, Walk
 _STRENGTHS = 3
 
 
-@dataclass(frozen=True)
-class Share:
-    """Runs of one strength, or of about the same where there are many.
+class Share(Block):
+    """Runs of one strength, or of about the same where there are many."""
 
-    Attributes
-    ----------
-    strength
-        Strength of the motion, SI.
-    runs, exceeding
-        How many runs there are, and how many of them exceed the limit.
-    share, interval
-        The part that exceeds, with its exact bounds for independent runs.
-    fitted, fitted_interval
-        The same by the curve; None where there is no curve, or not known how well.
-    """
-
-    strength: float
-    runs: int
-    exceeding: int
-    share: float
-    interval: tuple[float, float]
-    fitted: float | None = None
-    fitted_interval: tuple[float, float] | None = None
+    strength: Annotated[float, Number("Strength of the motions, SI.")]
+    runs: Annotated[int, Number("How many runs there are.")]
+    exceeding: Annotated[int, Number("How many of them exceed the limit.")]
+    share: Annotated[float, Number("Which part that is.")]
+    interval: Annotated[
+        tuple[float, float], Number("Exact bounds of the share for independent runs (Clopper and Pearson).")
+    ]
+    fitted: Annotated[float | None, Number("The same by the curve; null without one.")] = None
+    fitted_interval: Annotated[
+        tuple[float, float] | None, Number("What that lies within; null where it is not known.")
+    ] = None
 
 
-@dataclass(frozen=True)
-class NotStanding:
-    """The dams that do not stand before they are shaken.
+class NotStanding(Block):
+    """The dams that do not stand before they are shaken."""
 
-    Attributes
-    ----------
-    count, dams, runs
-        How many they are, of how many dams, and how many runs they have.
-    share, interval
-        The part of the dams, with its exact bounds; no bounds where dams are listed and not drawn, or all stand.
-    """
-
-    count: int
-    dams: int
-    runs: int
-    share: float
-    interval: tuple[float, float] | None
+    count: Annotated[int, Number("How many.")]
+    dams: Annotated[int, Number("Of how many dams.")]
+    runs: Annotated[int, Number("How many runs they have.")]
+    share: Annotated[float, Number("Which part of the dams.")]
+    interval: Annotated[
+        tuple[float, float] | None, Number("Exact bounds of that; null where dams are listed or all stand.")
+    ]
 
 
-@dataclass(frozen=True)
-class Curve:
-    """A fragility curve with what it rests on.
+class Curve(Block):
+    """A fragility curve with what it rests on; `knowledge` says how well it is known, None of a single event."""
 
-    Attributes
-    ----------
-    limit, value
-        What is limited, and to how much, SI.
-    measure
-        Of the strength.
-    confidence
-        Probability of the intervals.
-    median, dispersion
-        Of the strength at which the limit is reached; None where there is no curve.
-    median_interval, dispersion_interval
-        What they lie within with the probability `confidence`, None for an end that the runs do not give; None
-        altogether without a curve or of a single event.
-    record, other
-        Parts of the dispersion: from event to event, and what varies besides; None of a single event.
-    runs, exceeding, events
-        Behind the curve.
-    unknown
-        Runs that ended without a result; they are not behind it.
-    reached
-        Whether the median lies among the strengths; beyond them the curve is a guess.
-    why
-        Why there is no curve; empty where there is one.
-    interval_why
-        Why an interval, or an end of one, is missing; empty where none is.
-    shares
-        Which part of the runs exceeds, strength by strength.
-    gap
-        The strongest motion up to which no run exceeds, and the weakest from which every run does; None where there is
-        none. Without overlap the median lies between them.
-    fit
-        A test of whether the curve fits the shares; None without a curve.
-    not_standing
-        Dams that are not behind the curve, as they do not stand; None where that was not counted.
-    knowledge
-        How well the curve is known; None of a single event.
-    """
-
-    limit: str
-    value: float
-    measure: str
-    confidence: float
-    median: float | None
-    dispersion: float | None
-    median_interval: Ends | None
-    dispersion_interval: Ends | None
-    record: float | None
-    other: float | None
-    runs: int
-    exceeding: int
-    events: int
-    unknown: int
-    reached: bool = True
-    why: str = ""
-    interval_why: str = ""
-    shares: tuple[Share, ...] = ()
-    gap: Ends = (None, None)
-    fit: FitTest | None = None
-    not_standing: NotStanding | None = None
-    knowledge: Knowledge | None = field(default=None, repr=False, compare=False)
+    limit: Annotated[str, Number("What is limited.")]
+    value: Annotated[float, Number("The limit, in SI.")]
+    measure: Annotated[str, Number("How strong the motion is by.")]
+    confidence: Annotated[float, Number("Probability of the intervals.")]
+    median: Annotated[
+        float | None, Number("Strength at which half of the dams exceed the limit; null without a curve.")
+    ] = None
+    dispersion: Annotated[float | None, Number("Standard deviation of the logarithm of that strength.")] = None
+    median_interval: Annotated[
+        Ends | None, Number("What the median lies within; null for an end that the runs do not give.")
+    ] = None
+    dispersion_interval: Annotated[Ends | None, Number("What the dispersion lies within, as the median.")] = None
+    record: Annotated[float | None, Number("Part of the dispersion from event to event.")] = None
+    other: Annotated[float | None, Number("Part of it that is left where each event has a median of its own.")] = None
+    runs: Annotated[int, Number("How many runs are behind the curve.")]
+    exceeding: Annotated[int, Number("How many of them exceed the limit.")]
+    events: Annotated[int, Number("Of how many events.")]
+    unknown: Annotated[int, Number("How many runs have no result and are behind no curve.")]
+    reached: Annotated[bool, Number("Whether the runs reach up to the median.")] = True
+    why: Annotated[str, Number("Why there is no curve; empty where there is one.")] = ""
+    interval_why: Annotated[str, Number("Why an interval or an end of one is null; empty where none is.")] = ""
+    shares: Annotated[
+        tuple[Share, ...], Number("Shares of the runs that exceed, by strength, or by groups of about the same.")
+    ] = ()
+    gap: Annotated[
+        Ends, Number("The strongest motion up to which no run exceeds, and the weakest from which all do, in SI.")
+    ] = (None, None)
+    fit: Annotated[FitTest | None, Number("A test of whether the curve fits the shares; null without a curve.")] = None
+    not_standing: Annotated[
+        NotStanding | None, Number("Dams that do not stand before the earthquake; the curve is of the others.")
+    ] = None
+    knowledge: Knowledge | None = field(default=None, repr=False)
 
     def probability(self, strength: Floats) -> Floats:
         """Return the probability that the limit is exceeded at some strengths."""
@@ -149,11 +105,6 @@ class Curve:
         intercept, slope = self.knowledge.region(self.confidence).T[:, :, None]
         chance = ndtr(intercept + slope * np.log(strength))
         return np.asarray(chance.min(axis=0)), np.asarray(chance.max(axis=0))
-
-    def to_json(self) -> dict[str, Any]:
-        """Return it as a result has it."""
-        shown = asdict(replace(self, knowledge=None))
-        return {name: value for name, value in shown.items() if name != "knowledge"}
 
 
 def not_met(walk: Walk) -> dict[str, dict[str, int]]:
@@ -187,7 +138,10 @@ def curve(
     """
     known = seen.witnesses
     empty = Curve(
-        *(limit, value, measure, confidence, None, None, None, None, None, None),
+        limit=limit,
+        value=value,
+        measure=measure,
+        confidence=confidence,
         runs=seen.runs,
         exceeding=seen.exceeding,
         events=known.events,
@@ -251,7 +205,13 @@ def _shares(known: Witnesses, confidence: float) -> tuple[Share, ...]:
     group = groups_of(known)
     columns = (np.exp(group.logarithm).tolist(), group.runs.tolist(), group.exceeding.tolist())
     return tuple(
-        Share(strength, int(runs), int(hits), hits / runs, exact_bounds(hits, runs, confidence))
+        Share(
+            strength=strength,
+            runs=int(runs),
+            exceeding=int(hits),
+            share=hits / runs,
+            interval=exact_bounds(hits, runs, confidence),
+        )
         for strength, runs, hits in zip(*columns, strict=True)
     )
 
@@ -312,5 +272,5 @@ def not_standing(walk: Walk, confidence: float) -> dict[str, NotStanding]:
         fallen, dams = int(falls[place].sum()), int(ran[place].sum())
         share = fallen / dams if dams else 0.0
         bounds = exact_bounds(fallen, dams, confidence) if fallen and walk.drawn else None
-        counts[name] = NotStanding(fallen, dams, int(lost[place]), share, bounds)
+        counts[name] = NotStanding(count=fallen, dams=dams, runs=int(lost[place]), share=share, interval=bounds)
     return counts

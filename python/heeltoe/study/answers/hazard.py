@@ -22,14 +22,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from scipy.special import log_ndtr, ndtr
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.blocks import Block, Number
 from heeltoe.study.answers.fragility import Curve
 from heeltoe.study.answers.likelihood import Witnesses, offsets
 
@@ -125,9 +126,83 @@ def motions_of(strength: Floats, rate: Floats, width: float) -> Motions:
     )
 
 
+class EventRate(Block):
+    """What an event makes of a rate."""
+
+    event: Annotated[str, Number("Name of the event.")]
+    median: Annotated[float, Number("Strength at which half of the dams exceed the limit in its motions, in SI.")]
+    share: Annotated[float, Number("Share of the rate of standing dams that motions like its own make.")]
+    annual_rate: Annotated[float, Number("That part of the rate.")]
+
+
+class RateAt(Block):
+    """What a limit does in motions of one strength."""
+
+    strength: Annotated[float, Number("Of the motion, in SI.")]
+    annual_rate: Annotated[float | None, Number("How often a year it is exceeded at the site; null beyond the curve.")]
+    probability: Annotated[float, Number("Probability that the limit is exceeded in such a motion.")]
+
+
+class AnnualRate(Block):
+    """How often a year a limit is exceeded; without a fragility curve nothing but why."""
+
+    limit: Annotated[str, Number("What is limited.")]
+    value: Annotated[float, Number("The limit, in SI.")]
+    measure: Annotated[str, Number("Strength of the motions by which the curves go.")]
+    why: Annotated[str, Number("Why there is no rate; empty where there is one.")]
+    annual_rate: Annotated[
+        float | None,
+        Number(
+            "How often a year the limit is exceeded in motions of the hazard curve, by all dams; null without a "
+            "fragility curve."
+        ),
+    ] = None
+    annual_rate_bounds: Annotated[
+        list[float | None] | None,
+        Number(
+            "The same at least and at most, with motions beyond the ends of the hazard curve; null where that has no "
+            "bound."
+        ),
+    ] = None
+    bounds_why: Annotated[str, Number("Why there is no upper bound; empty where there is one.")] = ""
+    annual_rate_interval: Annotated[
+        list[float] | None,
+        Number("What the rate lies within by the uncertainty of the fragility curve; null of a single event."),
+    ] = None
+    extrapolated: Annotated[
+        float | None,
+        Number(
+            "Share of the rate of standing dams from beyond the ends of the hazard curve, if that went on as it begins."
+        ),
+    ] = None
+    standing_rate: Annotated[float | None, Number("The rate of the dams that stand.")] = None
+    not_standing_rate: Annotated[float | None, Number("The part of the rate that is of dams that do not stand.")] = None
+    annual_probability: Annotated[float | None, Number("Probability that it is exceeded at least once in a year.")] = (
+        None
+    )
+    annual_probability_fractiles: Annotated[
+        Mapping[str, float] | None,
+        Number(
+            "Fractiles of the annual probability by the uncertainty of the fragility curve, by name (5%, 16%, 50%, "
+            "84%, 95%); null without an interval."
+        ),
+    ] = None
+    return_period_years: Annotated[float | None, Number("Years between exceedances in the mean.")] = None
+    contribution: Annotated[list[Mapping[str, float]], Number("Shares of the rate by the strength of the motions.")] = (
+        field(default_factory=list)
+    )
+    by_event: Annotated[
+        list[EventRate],
+        Number("How much of the rate each event makes, the most first; none of a single event."),
+    ] = field(default_factory=list)
+    at: Annotated[
+        list[RateAt], Number("The limit at each strength of the hazard curve, and at those of hazard.at.")
+    ] = field(default_factory=list)
+
+
 def annual(
     curve: Curve, hazard: Mapping[str, Any], seen: Witnesses | None = None, events: Sequence[str] = ()
-) -> dict[str, Any]:
+) -> AnnualRate:
     """Return how often a year a limit is exceeded.
 
     Parameters
@@ -138,24 +213,11 @@ def annual(
         ``strength``, SI, and ``annual_rate`` of the hazard curve, and ``at``, other strengths that are asked of.
     seen, events
         The runs behind the curve, and the names of their events.
-
-    Returns
-    -------
-    dict
-        ``annual_rate`` [1/year] of all dams in the motions of the hazard curve, with its interval from the uncertainty
-        of the curve and of the share of dams that do not stand, not of the hazard; ``annual_rate_bounds``, what it may
-        be with motions beyond the ends, None without an upper bound, and ``bounds_why``; ``extrapolated``, the share of
-        the rate of standing dams from beyond the ends if the hazard went on as its first stretch; ``standing_rate``,
-        of the dams that stand, and ``not_standing_rate``, the part of the others; ``annual_probability`` with its
-        ``annual_probability_fractiles``; ``return_period_years``; ``contribution``, the share from each group of
-        strengths; ``by_event``, the median of each event, its share and its part of the rate of standing dams, the
-        largest first; ``at``, the probability of the limit at each strength of the hazard curve, and at those that are
-        asked of. None of them where there is no fragility curve.
     """
     strength, rate = np.array(hazard["strength"]), np.array(hazard["annual_rate"])
-    document: dict[str, Any] = {"limit": curve.limit, "value": curve.value, "measure": curve.measure, "why": curve.why}
+    bare = AnnualRate(limit=curve.limit, value=curve.value, measure=curve.measure, why=curve.why)
     if curve.median is None or curve.dispersion is None:
-        return {**document, **dict.fromkeys(_NUMBERS), "bounds_why": "", "contribution": [], "by_event": [], "at": []}
+        return bare
     motions = motions_of(strength, rate, curve.dispersion)
     slope = 1.0 / curve.dispersion
     intercept = -math.log(curve.median) * slope
@@ -169,36 +231,30 @@ def annual(
     probabilities = (fallen + (1.0 - fallen) * curve.probability(points)).tolist()
     most, why, beyond = _beyond(motions, intercept, slope, standing)
     first = motions.rates[0]
-    return {
-        **document,
-        "annual_rate": total,
-        "annual_rate_bounds": [total, None if most is None else fallen * first + (1.0 - fallen) * most],
-        "bounds_why": why,
-        "annual_rate_interval": _interval(curve, motions, (low, high), curve.confidence),
-        "extrapolated": beyond,
-        "standing_rate": standing,
-        "not_standing_rate": fallen * first,
-        "annual_probability": -math.expm1(-total),
-        "annual_probability_fractiles": _fractiles(curve, motions, total),
-        "return_period_years": 1.0 / total if total > 0.0 else None,
-        "contribution": [
+    return replace(
+        bare,
+        annual_rate=total,
+        annual_rate_bounds=[total, None if most is None else fallen * first + (1.0 - fallen) * most],
+        bounds_why=why,
+        annual_rate_interval=_interval(curve, motions, (low, high), curve.confidence),
+        extrapolated=beyond,
+        standing_rate=standing,
+        not_standing_rate=fallen * first,
+        annual_probability=-math.expm1(-total),
+        annual_probability_fractiles=_fractiles(curve, motions, total),
+        return_period_years=1.0 / total if total > 0.0 else None,
+        contribution=[
             {"from": start, "to": stop, "share": float(part) / total if total > 0.0 else 0.0}
             for start, stop, part in zip(motions.edges[:-1].tolist(), motions.edges[1:].tolist(), parts, strict=True)
         ],
-        "by_event": [] if seen is None else _by_event(curve, (strength, rate), standing, seen, events),
-        "at": [
-            {"strength": at, "annual_rate": exceeded, "probability": probability}
+        by_event=[] if seen is None else _by_event(curve, (strength, rate), standing, seen, events),
+        at=[
+            RateAt(strength=at, annual_rate=exceeded, probability=probability)
             for at, exceeded, probability in zip(
                 points.tolist(), _rates(points, strength, rate), probabilities, strict=True
             )
         ],
-    }
-
-
-_NUMBERS = (
-    *("annual_rate", "annual_rate_bounds", "annual_rate_interval", "extrapolated", "standing_rate"),
-    *("not_standing_rate", "annual_probability", "annual_probability_fractiles", "return_period_years"),
-)
+    )
 
 
 def _beyond(motions: Motions, intercept: float, slope: float, counted: float) -> tuple[float | None, str, float]:
@@ -261,7 +317,7 @@ def _fractiles(curve: Curve, motions: Motions, total: float) -> dict[str, float]
 
 def _by_event(
     curve: Curve, hazard: tuple[Floats, Floats], total: float, seen: Witnesses, events: Sequence[str]
-) -> list[dict[str, Any]]:
+) -> list[EventRate]:
     """Return how much of the rate each event makes; nothing of a single one."""
     from scipy.interpolate import CubicSpline
 
@@ -281,10 +337,10 @@ def _by_event(
     shares = (made / made.sum()).tolist()
     medians = (curve.median * np.exp(np.sum(chance * places, axis=1))).tolist()
     rows = [
-        {"event": event, "median": median, "share": share, "annual_rate": share * total}
+        EventRate(event=event, median=median, share=share, annual_rate=share * total)
         for event, median, share in zip(events, medians, shares, strict=True)
     ]
-    return sorted(rows, key=lambda row: -row["share"])
+    return sorted(rows, key=lambda row: -row.share)
 
 
 def _rates(points: Floats, strength: Floats, rate: Floats) -> list[float | None]:

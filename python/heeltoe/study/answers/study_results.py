@@ -15,6 +15,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.blocks import plain_json
 from heeltoe.base.display import Shown
 from heeltoe.case.paths import quantity_of
 from heeltoe.errors.error import InputError
@@ -24,7 +25,7 @@ from heeltoe.study.answers.comparison import compared
 from heeltoe.study.answers.fragility import Curve, NotStanding, counted, curve, not_standing
 from heeltoe.study.answers.hazard import annual
 from heeltoe.study.answers.likelihood import Tally
-from heeltoe.study.answers.portfolio import portfolio_of, ranks_table
+from heeltoe.study.answers.portfolio import Ranks, portfolio_of, ranks_table
 from heeltoe.study.answers.sensitivity import sobol_indices, tornado
 from heeltoe.study.answers.suite import suite_of
 from heeltoe.study.plan.file import untitled
@@ -192,12 +193,13 @@ class StudyResults(Shown):
         if hazard is None:
             return None
         return [
-            {"model": model, **annual(curve, hazard, tally.witnesses, [names[place] for place in tally.events])}
+            {"model": model}
+            | annual(curve, hazard, tally.witnesses, [names[place] for place in tally.events]).to_json()
             for (model, curve), tally in zip(self.curves, self.counted.values(), strict=True)
         ]
 
     @cached_property
-    def portfolio(self) -> list[dict[str, Any]] | None:
+    def portfolio(self) -> list[Ranks] | None:
         """The dams of a table in the order of their ranks, model by model; None where the study has none, or has runs
         to come."""
         return portfolio_of(self.walk) if self.complete else None
@@ -359,7 +361,7 @@ class StudyResults(Shown):
             "outcomes": self.outcomes,
             "summary": self.summary,
             "suite": self.suite,
-            "portfolio": self.portfolio,
+            "portfolio": plain_json(self.portfolio),
             "fragility": None if self.manifest["study"]["fragility"] is None else self.fragility,
             "hazard": self.hazard,
             "measures_compared": self.compared(),

@@ -23,7 +23,8 @@ from heeltoe.units.parse import STANDARD_GRAVITY
 #: What is told of each record, and of all of them: the name in the JSON, and the limit that is held against it; the
 #: crest where the runs say how it moves.
 DEMANDS = {f"{name}_{limit.unit}": name for name, limit in LIMITS.items() if name != "opening"}
-_SHARES = {"median": 0.50, "84%": 0.84}
+#: Shares of the runs that a number over them stays below, by name.
+SHARES = {"median": 0.50, "84%": 0.84}
 _SIGNS = ("recorded", "reversed")
 
 
@@ -173,7 +174,7 @@ def _statistics(values: Floats) -> dict[str, float | None]:
     The share of 84 % lies between records by a straight line, so that of few records it is near the largest."""
     numbers = {
         "mean": float(values.mean()),
-        **{name: float(below(np.sort(values), share)) for name, share in _SHARES.items()},
+        **{name: float(below(np.sort(values), share)) for name, share in SHARES.items()},
     }
     return {name: finite(number) for name, number in {**numbers, "largest": float(values.max())}.items()}
 

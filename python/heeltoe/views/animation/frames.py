@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +17,7 @@ from heeltoe.errors.sanitize import plain
 from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.result.history import LEAST_DAMAGE, CrackHistory, node_lengths
 from heeltoe.models.flexible.result.response import FlexibleResponse
+from heeltoe.result.histories import Histories
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Units, unit_system
@@ -155,7 +156,7 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
     """
     section, system = case.cut, unit_system(units)
     histories = response.histories
-    moments = Moments.of(histories["time_s"], times)
+    moments = Moments.of(histories.time_s, times)
     statuses: tuple[str, ...] = STATUSES
     if not isinstance(response, FlexibleResponse):
         cracks = [crack.histories for crack in response.cracks] if response.several else [histories]
@@ -176,7 +177,7 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
     number = {name: place for place, name in enumerate(modes)}
     moving = [part for part in parts if len(part.shapes)]
     mode = np.array([number[name] for name in response.mode])
-    within = (histories["time_s"] >= times[0]) & (histories["time_s"] <= times[-1])
+    within = (histories.time_s >= times[0]) & (histories.time_s <= times[-1])
     return Scene(
         title=plain(response.title) or "Untitled case",
         subtitle=_subtitle(response),
@@ -191,7 +192,7 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
         statuses=statuses,
         mode=mode[moments.nearest],
         modes=modes,
-        history_times=histories["time_s"][within],
+        history_times=histories.time_s[within],
         history_mode=mode[within],
         traces=_traces(response, within, system),
         base=section.base_elevation,
@@ -231,14 +232,14 @@ def round_below(value: float) -> float:
 
 
 def _corners(
-    section: CutSection, histories: Mapping[str, Floats], modes: tuple[str, ...], moments: Moments
+    section: CutSection, histories: Histories, modes: tuple[str, ...], moments: Moments
 ) -> tuple[Floats, NDArray[np.int8]]:
     """Return forces [N/m] and status of heel and toe of a rigid block, which share the friction as the normal force."""
     at = moments.nearest
     normal = np.column_stack([histories[f"normal_force_{corner}_n"][at] for corner in ("heel", "toe")])
     whole = np.abs(normal).sum(axis=1, keepdims=True)
     share = np.abs(normal) / np.where(whole > 0.0, whole, 1.0)
-    friction = share * histories["friction_force_n"][at][:, None]
+    friction = share * histories.friction_force_n[at][:, None]
     forces = _turned(section, friction, normal)
     gaps = np.column_stack([histories[f"gap_{corner}_m"][at] for corner in ("heel", "toe")])
     doing = np.array([_slips(modes[sample]) for sample in at], dtype=np.int8)

@@ -118,7 +118,7 @@ def check_options(
 
 def _window(response: Response, start: float, end: float | None) -> tuple[float, float]:
     """Return the time that is shown, within that of the response [s]."""
-    times = response.histories["time_s"]
+    times = response.histories.time_s
     begin, finish = float(times[0]), float(times[-1])
     last = finish if end is None else end
     if not (math.isfinite(start) and math.isfinite(last)) or max(start, begin) >= min(last, finish):

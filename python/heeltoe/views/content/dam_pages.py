@@ -31,12 +31,12 @@ def dam_pages(subject: StudySubject) -> Section | None:
     portfolio = subject.results.portfolio
     if not portfolio:
         return None
-    worst = [dam["dam"] for dam in portfolio[-1]["dams"][:PAGES]]
+    worst = [dam.dam for dam in portfolio[-1].dams[:PAGES]]
     runs = _runs(subject, worst)
     pages = tuple(_page(subject, dam, runs[dam]) for dam in worst)
-    count = len(portfolio[-1]["dams"])
+    count = len(portfolio[-1].dams)
     which = f"the {len(worst)} worst of {count:,} dams" if count > len(worst) else "each dam"
-    text = f"A page for {which}, by the ranks of the {portfolio[-1]['model']} model."
+    text = f"A page for {which}, by the ranks of the {portfolio[-1].model} model."
     return Section("Dam by dam", (paragraph(text), *pages))
 
 
@@ -91,21 +91,21 @@ def _ranks(subject: StudySubject, dam: int) -> list[str]:
     """Say for each model which rank a dam has, and by what."""
     sentences = []
     for row in subject.results.portfolio or ():
-        own = next(entry for entry in row["dams"] if entry["dam"] == dam)
-        of = f"{own['rank']} of {len(row['dams']):,} by the {row['model']} model"
-        if row["motions"] == 1:
-            slip = own["residual_slip_m"]["largest"]
+        own = next(entry for entry in row.dams if entry.dam == dam)
+        of = f"{own.rank} of {len(row.dams):,} by the {row.model} model"
+        if row.motions == 1:
+            slip = own.residual_slip_m["largest"]
             ((text,),) = in_one_unit([[Amount(slip, zero="0")]], subject.units)
             sentences.append(f"{of}, in one motion: {'it fails' if slip is None else f'the residual slip is {text}'}.")
             continue
         shares = [
-            f"{100.0 * share:.1f} % of the motions exceed the {limit_of(limit['limit'], limit['value'], subject.units)}"
-            for limit, share in zip(row["limits"], own["exceeds"], strict=True)
+            f"{100.0 * share:.1f} % of the motions exceed the {limit_of(limit.limit, limit.value, subject.units)}"
+            for limit, share in zip(row.limits, own.exceeds, strict=True)
         ]
-        slips = [Amount(own["residual_slip_m"][name], zero="0") for name in ("median", "84%", "largest")]
+        slips = [Amount(own.residual_slip_m[name], zero="0") for name in ("median", "84%", "largest")]
         ((half, most, largest),) = in_one_unit([slips], subject.units)
         slid = f"the residual slip stays below {half} in half of the motions and below {most} in 84 %"
-        end = f"; the largest is {largest}" if own["residual_slip_m"]["largest"] is not None else "; some runs fail"
+        end = f"; the largest is {largest}" if own.residual_slip_m["largest"] is not None else "; some runs fail"
         sentences.append(f"{of}: {'; '.join([*shares, slid])}{end}.")
     return sentences
 

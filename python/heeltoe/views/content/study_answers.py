@@ -499,18 +499,18 @@ def portfolio(subject: StudySubject) -> list[Block]:
     """Return the dams of a table by their ranks, a table for each model."""
     blocks: list[Block] = []
     for row in subject.results.portfolio or ():
-        worst, count = row["dams"][:SHOWN_DAMS], len(row["dams"])
-        limits = [limit_of(limit["limit"], limit["value"], subject.units) for limit in row["limits"]]
-        one = row["motions"] == 1
+        worst, count = row.dams[:SHOWN_DAMS], len(row.dams)
+        limits = [limit_of(limit.limit, limit.value, subject.units) for limit in row.limits]
+        one = row.motions == 1
         shown = ("largest",) if one else ("median", "84%", "largest")
-        cells = [[Amount(dam["residual_slip_m"][name], zero="0") for name in shown] for dam in worst]
+        cells = [[Amount(dam.residual_slip_m[name], zero="0") for name in shown] for dam in worst]
         rows: list[tuple[Inline, ...]] = [
             (
-                str(dam["rank"]),
-                dam["name"],
+                str(dam.rank),
+                dam.name,
                 *(
                     _exceeds(share, ends, one=one)
-                    for share, ends in zip(dam["exceeds"], dam["exceeds_interval"], strict=True)
+                    for share, ends in zip(dam.exceeds, dam.exceeds_interval, strict=True)
                 ),
                 *texts,
             )
@@ -524,7 +524,7 @@ def portfolio(subject: StudySubject) -> list[Block]:
         some = f"the {len(worst)} worst of {count:,} dams" if count > len(worst) else f"{count:,} dams"
         over = "in one motion, which has no median" if one else "over the motions"
         signs = "its worse sign" if one else "the worse sign of each"
-        caption = f"Ranks {by}, {row['model']} model: {some}; residual slips {over}, by {signs}."
+        caption = f"Ranks {by}, {row.model} model: {some}; residual slips {over}, by {signs}."
         blocks.append(Table(head, tuple(rows), caption, "rl" + "r" * (len(head) - 2)))
     return blocks
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from heeltoe.base.blocks import Block, Number, described
 from heeltoe.mechanics.block import StaticState
@@ -14,16 +14,30 @@ from heeltoe.models.statics.load_case import ForceNumbers, LoadCase
 from heeltoe.models.statics.model import Statics
 from heeltoe.models.statics.spectral import SpectralDemand
 from heeltoe.result.crest import CrestMotion
-from heeltoe.result.limits import LimitCheck
-from heeltoe.result.numbers import OF_SEVERAL, BlockNumbers, Chain, ElasticCrack, ElasticDam, SignNumbers, Spread
-from heeltoe.result.response import Chosen, Energy, Response
-from heeltoe.result.sequence import Stage
+from heeltoe.result.histories import EventLog, Histories, columns_of
+from heeltoe.result.judge import LimitCheck
+from heeltoe.result.numbers import (
+    OF_SEVERAL,
+    BlockNumbers,
+    Chain,
+    Chosen,
+    ElasticCrack,
+    ElasticDam,
+    Energy,
+    SignNumbers,
+    Spread,
+    Stage,
+)
+from heeltoe.result.record import ResponseData
 from heeltoe.result.write import MotionNumbers
+from heeltoe.study.answers.fragility import Curve
+from heeltoe.study.answers.hazard import AnnualRate
+from heeltoe.study.answers.portfolio import Ranks
 from heeltoe.study.small.overturning import OverturningMap
 from heeltoe.study.small.solve import Solved
 from heeltoe.views.explain.meaning import Meaning
 from heeltoe.views.explain.pages import page_of
-from heeltoe.views.explain.result_keys import OF_A_RUN, OF_EVENTS, OF_HISTORIES, OF_STATICS, OF_STUDIES
+from heeltoe.views.explain.result_keys import OF_A_RUN, OF_STATICS, OF_STUDIES
 from heeltoe.views.explain.study_keys import OF_OTHERS
 from heeltoe.views.words.numbers import ENDINGS
 from heeltoe.warnings.notice import Notice
@@ -31,7 +45,7 @@ from heeltoe.warnings.notice import Notice
 _RUN, _STATICS = "heeltoe run --json", "heeltoe statics --json"
 # Whose attributes stand where, and which command writes them.
 _CLASSES: tuple[tuple[str, type, str], ...] = (
-    ("", Response, _RUN),
+    ("", ResponseData, _RUN),
     ("warnings[].", Notice, _RUN),
     ("", Statics, _STATICS),
 )
@@ -57,6 +71,9 @@ _BLOCKS: tuple[tuple[str, type[Block], str], ...] = (
     ("governing.*.", Check, _STATICS),
     ("", Solved, "heeltoe solve --json"),
     ("", OverturningMap, "heeltoe overturning --json"),
+    ("fragility[].", Curve, "heeltoe study --json"),
+    ("hazard[].", AnnualRate, "heeltoe study --json"),
+    ("portfolio[].", Ranks, "heeltoe study --json"),
 )
 # Attributes that the JSON does not have, or says by keys of their own.
 _WITHOUT_KEY = {
@@ -106,14 +123,14 @@ def numbers_of_results() -> Iterator[tuple[str, Number, str]]:
 
 def columns() -> Iterator[Meaning]:
     """Walk the columns of the tables that runs and studies leave."""
-    tables: tuple[tuple[str, str, Mapping[str, str]], ...] = (
-        ("column of the histories", "histories.parquet", OF_HISTORIES),
-        ("column of the events", "events.parquet", OF_EVENTS),
-        ("column of a study", "runs of heeltoe study", OF_STUDIES),
-    )
-    for kind, where, table in tables:
-        for name, meaning in table.items():
-            yield Meaning(name, kind, meaning, unit_of(name), found_in=where)
+    for kind, where, table in (
+        ("column of the histories", "histories.parquet", columns_of(Histories)),
+        ("column of the events", "events.parquet", columns_of(EventLog)),
+    ):
+        for name, number in table.items():
+            yield Meaning(name, kind, number.meaning, number.unit, found_in=where)
+    for name, meaning in OF_STUDIES.items():
+        yield Meaning(name, "column of a study", meaning, unit_of(name), found_in="runs of heeltoe study")
 
 
 def attribute_meanings(kind: type) -> dict[str, str]:

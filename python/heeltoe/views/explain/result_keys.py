@@ -60,66 +60,6 @@ OF_STATICS: dict[str, str] = {
     "governing_elevation_m": "Elevation of the joint that is worst.",
 }
 
-#: Columns of the histories, of a block and of an elastic dam.
-OF_HISTORIES: dict[str, str] = {
-    "time_s": "The moment.",
-    "ground_acceleration_m_s2": "Acceleration of the ground, positive downstream; of the chain that of the crack.",
-    "vertical_ground_acceleration_m_s2": "The same upwards.",
-    "ground_rotation_rad_s2": "Angular acceleration of the crack under the block of the chain.",
-    "slip_m": "Slip of the part above the crack, positive downstream.",
-    "slip_velocity_m_s": "Its velocity.",
-    "slip_acceleration_m_s2": "Its acceleration.",
-    "gap_heel_m": "Opening of the crack at the upstream face.",
-    "gap_toe_m": "Opening of the crack at the downstream face.",
-    "rotation_rad": "Rotation, positive counter-clockwise: upstream, about the heel.",
-    "rotation_velocity_rad_s": "Its velocity.",
-    "crest_displacement_m": "Horizontal displacement of the crest's upstream edge from its first place, relative to "
-    "the ground, positive downstream.",
-    "crest_acceleration_m_s2": "Its horizontal acceleration with that of the ground, the mean over two steps.",
-    "friction_strength_n": "Friction that a crack with a law could bear at the moment, per metre of dam.",
-    "dilation_m": "How high the flank of a rough crack is under the block, over the valley in which it stood at first.",
-    "asperity_angle_rad": "Angle of the flanks of a rough crack, as worn as they are.",
-    "plastic_work_j_m2": "Work of friction on the asperities of a rough crack, per area.",
-    "cracked_upstream_m": "Length that a joint has cracked from the upstream face.",
-    "cracked_downstream_m": "Length that a joint has cracked from the downstream face.",
-    "cracked_length_m": "Length of a joint that has cracked in all.",
-    "softening_length_m": "Length of a joint that has begun to crack and still holds in part.",
-    "fracture_energy_j": "Energy that the bond of a joint has taken up to here.",
-    "slip_path_m": "How far a crack with a friction law has slipped, to and fro.",
-    "friction_force_n": "Friction on the part above, positive downstream, per metre of dam.",
-    "normal_force_heel_n": "Force across the crack at the heel.",
-    "normal_force_toe_n": "Force across the crack at the toe.",
-    "normal_force_n": "Force across the whole crack.",
-    "touching": "Number of contacts along the crack that touch.",
-    "stored_energy_j": "Kinetic and strain energy.",
-    "input_energy_j": "Work of the earthquake and the loads up to here.",
-    "damping_energy_j": "Lost in the concrete's damping up to here.",
-    "friction_energy_j": "Lost in friction up to here.",
-    "impact_energy_j": "Lost in impacts up to here.",
-    "mode": "Mode of motion: rest, sliding, rocking, slide-rocking, drifting.",
-}
-
-#: Columns of the events of a block.
-OF_EVENTS: dict[str, str] = {
-    "time_s": "Moment of the event.",
-    "kind": "What happens.",
-    "mode_before": "Mode of motion until then.",
-    "mode_after": "Mode of motion from then on.",
-    "slip_m": "Slip, positive downstream.",
-    "gap_heel_m": "Gap at the heel.",
-    "gap_toe_m": "Gap at the toe.",
-    "slip_velocity_m_s": "Slip velocity after the event.",
-    "gap_velocity_heel_m_s": "Velocity of the gap at the heel after the event.",
-    "gap_velocity_toe_m_s": "Velocity of the gap at the toe after the event.",
-    "approach_slip_velocity_m_s": "Slip velocity before a blow.",
-    "approach_velocity_heel_m_s": "Velocity of the gap at the heel before a blow.",
-    "approach_velocity_toe_m_s": "Velocity of the gap at the toe before a blow.",
-    "friction_impulse_n_s": "Impulse of friction of a blow.",
-    "heel_impulse_n_s": "Impulse at the heel.",
-    "toe_impulse_n_s": "Impulse at the toe.",
-    "energy_lost_j": "Energy lost in the event.",
-}
-
 #: Columns of the runs of a study, beside those of what varies and the headline numbers.
 OF_STUDIES: dict[str, str] = {
     "run": "Number of the run.",

@@ -159,7 +159,7 @@ def _laws(case: Case, units: str) -> dict[str, Callable[[], Figure]]:
 def has_pictures(response: Response) -> bool:
     """Whether there are histories to draw: more than their first moment, and no number that has left all bounds."""
     h = response.histories
-    return bool(h) and len(h["time_s"]) > 1 and all(np.isfinite(values).all() for values in h.values())
+    return bool(h) and len(h.time_s) > 1 and all(np.isfinite(values).all() for values in h.values())
 
 
 def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]:

@@ -27,7 +27,7 @@ def anchor_figure(case: Case, response: Response, units: str = "si") -> Figure:
 
     Of an elastic dam the curves are those of the frames, between which the largest force of a step may lie.
     """
-    time = response.histories["time_s"]
+    time = response.histories.time_s
     anchors = moving_anchors(case)
     forces = [anchor_force(anchor, *_moved(response, anchor.distance)) for _, anchor in anchors]
     capacities = [anchor.capacity for _, anchor in anchors if anchor.capacity is not None]
@@ -61,7 +61,7 @@ def _moved(response: Response, distance: float) -> tuple[Floats, Floats]:
         return moved[:, 0], moved[:, 1]
     h = response.histories
     share = distance / response.crack_width_m
-    return h["slip_m"], (1.0 - share) * h["gap_heel_m"] + share * h["gap_toe_m"]
+    return h.slip_m, (1.0 - share) * h.gap_heel_m + share * h.gap_toe_m
 
 
 def _at(face: Floats, distance: float) -> Floats:

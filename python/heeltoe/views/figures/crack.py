@@ -107,7 +107,7 @@ def joint_figure(response: FlexibleResponse, units: str = "si") -> Figure:
         ("cracked_upstream_m", "from the upstream face", COLOURS["slip"], "--"),
         ("cracked_downstream_m", "from the downstream face", COLOURS["rotation"], ":"),
     ):
-        lengths.plot(h["time_s"], scale(h[key]), color=colour, linestyle=dash, linewidth=1.4, label=label)
+        lengths.plot(h.time_s, scale(h[key]), color=colour, linestyle=dash, linewidth=1.4, label=label)
     lengths.set_ylabel(f"cracked length [{scale.unit}]")
     lengths.set_ylim(0.0, 1.05 * scale(response.crack_width_m))
     lengths.legend(loc="best")
@@ -133,9 +133,9 @@ def joints_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     for crack, level in zip(joints, levels, strict=True):
         h, bond = crack.histories, crack.joint
         assert bond is not None
-        share = 100.0 * h["cracked_length_m"] / crack.crack_width_m
+        share = 100.0 * h.cracked_length_m / crack.crack_width_m
         edges = scale(np.array([level - half, level + half]))
-        axes.pcolormesh(borders(h["time_s"]), edges, share[None, :], cmap="Greys", norm=norm, rasterized=True)
+        axes.pcolormesh(borders(h.time_s), edges, share[None, :], cmap="Greys", norm=norm, rasterized=True)
         axes.axhline(scale(level), color="#BBBBBB", linewidth=0.4, zorder=0.5)
         for moment, mark, colour in (
             (bond.first_cracking_s, "o", COLOURS["slip"]),

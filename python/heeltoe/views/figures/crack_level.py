@@ -39,7 +39,7 @@ def crack_level_figure(response: DecoupledResponse) -> Figure:
         (histories[0], "ground_acceleration_m_s2", COLOURS["ground"], "ground"),
         (histories[1], "crack_acceleration_m_s2", _CRACK, "crack"),
     ):
-        axes.plot(h["time_s"], h[key] / g, color=colour, linewidth=0.6)
+        axes.plot(h.time_s, h[key] / g, color=colour, linewidth=0.6)
         axes.set_ylabel(f"{label} [g]")
     time_axis(histories[1], response)
     spectra, transfer = bottom.subplots(1, 2)

@@ -19,17 +19,17 @@ def filled_in(response: Response) -> Response:
     straight lines.
     """
     h, log = response.histories, response.event_log
-    if not 2 <= len(h["time_s"]) < _ENOUGH or "time_s" not in log:
+    if not 2 <= len(h.time_s) < _ENOUGH or "time_s" not in log:
         return response
-    time = np.unique(np.concatenate([h["time_s"], log["time_s"], np.linspace(0.0, h["time_s"][-1], _ENOUGH)]))
-    time = time[time <= h["time_s"][-1]]
+    time = np.unique(np.concatenate([h.time_s, log.time_s, np.linspace(0.0, h.time_s[-1], _ENOUGH)]))
+    time = time[time <= h.time_s[-1]]
     # Forces and accelerations jump at events; in an interval with one they keep the value of its start.
-    place = np.clip(np.searchsorted(h["time_s"], time, side="right") - 1, 0, len(h["time_s"]) - 2)
-    events = np.searchsorted(log["time_s"], h["time_s"], side="right")
-    broken = (events[place + 1] > events[place]) & (time < h["time_s"][place + 1])
+    place = np.clip(np.searchsorted(h.time_s, time, side="right") - 1, 0, len(h.time_s) - 2)
+    events = np.searchsorted(log.time_s, h.time_s, side="right")
+    broken = (events[place + 1] > events[place]) & (time < h.time_s[place + 1])
     histories = {}
     for name, values in h.items():
-        straight = np.interp(time, h["time_s"], values)
+        straight = np.interp(time, h.time_s, values)
         jumps = name.endswith(("_n", "_acceleration_m_s2")) and not name.startswith("ground")
         histories[name] = np.where(broken, values[place], straight) if jumps else straight
     histories |= {"time_s": time, "slip_m": _slip(response, time)}
@@ -38,20 +38,20 @@ def filled_in(response: Response) -> Response:
         if motion is not None:
             ground = np.interp(time, motion.time, motion.acceleration, right=0.0)
             histories[f"{name}ground_acceleration_m_s2"] = ground
-    modes = np.array(["rest", *log["mode_after"]])
-    mode = modes[np.searchsorted(log["time_s"], time, side="right")]
+    modes = np.array(["rest", *log.mode_after])
+    mode = modes[np.searchsorted(log.time_s, time, side="right")]
     return response.with_crack(histories=histories, mode=tuple(mode.tolist()))
 
 
 def _slip(response: Response, time: Floats) -> Floats:
     h, log = response.histories, response.event_log
-    at = np.concatenate([h["time_s"], log["time_s"]])
+    at = np.concatenate([h.time_s, log.time_s])
     # Of what happens at one moment, the sample comes first and the last event last.
     order = np.argsort(at, kind="stable")
     at = at[order]
-    slip = np.concatenate([h["slip_m"], log["slip_m"]])[order]
-    after = np.concatenate([h["slip_velocity_m_s"], log["slip_velocity_m_s"]])[order]
-    before = np.concatenate([h["slip_velocity_m_s"], log["approach_slip_velocity_m_s"]])[order]
+    slip = np.concatenate([h.slip_m, log.slip_m])[order]
+    after = np.concatenate([h.slip_velocity_m_s, log.slip_velocity_m_s])[order]
+    before = np.concatenate([h.slip_velocity_m_s, log.approach_slip_velocity_m_s])[order]
     # An event at a moment of the histories: they have the state after it.
     start = np.clip(np.searchsorted(at, time, side="right") - 1, 0, at.size - 2)
     last = at[start] == at[-1]

@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from heeltoe.base.arrays import Floats
-from heeltoe.result.response import Energy, Response
+from heeltoe.result.numbers import Energy
+from heeltoe.result.response import Response
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import number
 from heeltoe.views.figures.panels import kind_of, largest
@@ -57,7 +58,7 @@ def energy_figure(response: Response, units: str = "si") -> Figure:
     figure = Figure(figsize=(WIDTH, 3.6), layout="constrained")
     over_time, in_the_end = figure.subplots(1, 2, width_ratios=[2.0, 1.4])
     describe(figure, response)
-    time = response.histories["time_s"]
+    time = response.histories.time_s
     for entry, values in curves:
         over_time.plot(time, scale(values), color=entry.colour, linestyle=entry.dash, linewidth=1.2, label=entry.label)
     over_time.set_ylabel(f"energy [{scale.unit}]")
@@ -70,11 +71,11 @@ def energy_figure(response: Response, units: str = "si") -> Figure:
 def _elastic_curves(response: Response) -> list[tuple[_Entry, Floats]]:
     h = response.histories
     return [
-        (_INPUT, h["input_energy_j"]),
-        (_FRICTION, h["friction_energy_j"]),
-        (_DAMPING, h["damping_energy_j"]),
-        (_IMPACT, h["impact_energy_j"]),
-        (_STORED, h["stored_energy_j"] - h["stored_energy_j"][0]),
+        (_INPUT, h.input_energy_j),
+        (_FRICTION, h.friction_energy_j),
+        (_DAMPING, h.damping_energy_j),
+        (_IMPACT, h.impact_energy_j),
+        (_STORED, h.stored_energy_j - h.stored_energy_j[0]),
     ]
 
 
@@ -82,9 +83,9 @@ def _rigid_curves(response: Response) -> list[tuple[_Entry, Floats]]:
     curves = [(_FRICTION, friction_loss(response))]
     if "energy_lost_j" in response.event_log:
         log = response.event_log
-        lost = np.concatenate([[0.0], np.cumsum(log["energy_lost_j"])])
+        lost = np.concatenate([[0.0], np.cumsum(log.energy_lost_j)])
         if lost[-1]:
-            curves.append((_IMPACT, lost[np.searchsorted(log["time_s"], response.histories["time_s"], side="right")]))
+            curves.append((_IMPACT, lost[np.searchsorted(log.time_s, response.histories.time_s, side="right")]))
     return curves
 
 
@@ -94,12 +95,12 @@ def friction_loss(response: Response) -> Floats:
     work lifts the block: what is lost is the plastic work of its flanks."""
     h = response.histories
     if "plastic_work_j_m2" in h:
-        return np.asarray(h["plastic_work_j_m2"] * response.crack_width_m, dtype=np.float64)
+        return np.asarray(h.plastic_work_j_m2 * response.crack_width_m, dtype=np.float64)
     slides = np.array([kind_of(mode) in ("slide", "slide-rock") for mode in response.mode])
-    force = np.where(slides, np.abs(h["friction_force_n"]), 0.0)
+    force = np.where(slides, np.abs(h.friction_force_n), 0.0)
     ends = slides[1:].astype(float) + slides[:-1]
     mean = (force[1:] + force[:-1]) / np.maximum(ends, 1.0)
-    return np.concatenate([[0.0], np.cumsum(mean * np.abs(np.diff(h["slip_m"])))])
+    return np.concatenate([[0.0], np.cumsum(mean * np.abs(np.diff(h.slip_m)))])
 
 
 def _bars(ledger: Energy) -> list[tuple[_Entry, float]]:

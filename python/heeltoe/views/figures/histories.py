@@ -86,18 +86,18 @@ def acceleration_figure(response: Response, units: str = "si") -> Figure:
     """Draw the ground's acceleration, that of the slip, and the forces in the crack of a rigid block."""
     force = unit_system(units)
     h = response.histories
-    time, g = h["time_s"], response.gravity
+    time, g = h.time_s, response.gravity
     figure, (*shaking, base, forces) = panels([*shaking_heights(response), 1.0, 1.2], 1.7)
     describe(figure, response)
     draw_shaking(shaking, response)
-    base.plot(time, h["slip_acceleration_m_s2"] / g, color=COLOURS["slip"], linewidth=0.8)
+    base.plot(time, h.slip_acceleration_m_s2 / g, color=COLOURS["slip"], linewidth=0.8)
     base.set_ylabel("slip\nacceleration [g]")
     keys = {"heel": "normal_force_heel_n", "toe": "normal_force_toe_n"}
-    scale = force.scale("force", largest(*(h[key] for key in keys.values()), h["friction_force_n"]))
+    scale = force.scale("force", largest(*(h[key] for key in keys.values()), h.friction_force_n))
     for (name, key), dash in zip(keys.items(), ("-", "--"), strict=True):
         label = f"normal force, {name}"
         forces.plot(time, scale(h[key]), color=COLOURS[name], linewidth=0.9, linestyle=dash, label=label)
-    friction = scale(h["friction_force_n"])
+    friction = scale(h.friction_force_n)
     forces.plot(time, friction, color="#000000", linewidth=0.7, linestyle=":", label="friction, + downstream")
     forces.set_ylabel(f"force [{scale.unit}]\non part above")
     time_axis(forces, response)
@@ -111,18 +111,18 @@ def force_figure(response: Response, units: str = "si") -> Figure:
     """Draw ground acceleration, slip velocity, what of an elastic dam's crack touches, and the forces in it."""
     system = unit_system(units)
     h = response.histories
-    time = h["time_s"]
+    time = h.time_s
     figure, (*shaking, velocity, touching, forces) = panels([*shaking_heights(response), 1.0, 0.6, 1.3], 1.45)
     describe(figure, response)
     draw_shaking(shaking, response)
     scale = system.scale("velocity")
-    velocity.plot(time, scale(h["slip_velocity_m_s"]), color=COLOURS["slip"], linewidth=0.7)
+    velocity.plot(time, scale(h.slip_velocity_m_s), color=COLOURS["slip"], linewidth=0.7)
     velocity.set_ylabel(f"slip rate\n[{scale.unit}]")
-    touching.fill_between(time, 100.0 * h["touching"], color=COLOURS["toe"], alpha=0.6, linewidth=0, step="mid")
+    touching.fill_between(time, 100.0 * h.touching, color=COLOURS["toe"], alpha=0.6, linewidth=0, step="mid")
     touching.set_ylabel("touching\n[%]")
     touching.set_ylim(0.0, 100.0)
     # The first frame has no time before it over which a mean could be taken.
-    normal, friction = h["normal_force_n"][1:], h["friction_force_n"][1:]
+    normal, friction = h.normal_force_n[1:], h.friction_force_n[1:]
     scale = system.scale("force", largest(normal, friction))
     forces.plot(time[1:], scale(normal), color=COLOURS["heel"], linewidth=0.9, label="normal force")
     forces.plot(
@@ -145,12 +145,12 @@ def slip_by_mode_figure(response: Response, units: str = "si") -> Figure:
     exact = "time_s" in response.event_log
     summed = slip_by_kind(response) if exact else {}
     named = {kind: key for kind, key in _SLIP_KEYS.items() if abs(response.slip_by_mode_m[key]) > NO_SLIP}
-    scale = unit_system(units).scale("displacement", largest(*summed.values(), response.histories["slip_m"]))
+    scale = unit_system(units).scale("displacement", largest(*summed.values(), response.histories.slip_m))
     figure = Figure(figsize=(WIDTH, 3.6), layout="constrained")
     curves, bars = figure.subplots(1, 2, sharey=True, width_ratios=[3.0, 1.2])
     describe(figure, response)
-    time = response.histories["time_s"]
-    total = scale(response.histories["slip_m"])
+    time = response.histories.time_s
+    total = scale(response.histories.slip_m)
     if exact:
         curves.plot(time, total, color="#999999", linewidth=2.4, label="all")
     else:
@@ -194,11 +194,11 @@ def slip_by_kind(response: Response) -> dict[str, Floats]:
     Events split the time between two moments exactly. Kinds that bring nothing are left out.
     """
     h = response.histories
-    time, slip = h["time_s"], h["slip_m"]
+    time, slip = h.time_s, h.slip_m
     log = response.event_log
-    at = np.concatenate([[0.0], log["time_s"]])
-    where = np.concatenate([slip[:1], log["slip_m"]])
-    kinds = np.array([kind_of(mode) for mode in ("rest", *log["mode_after"])])
+    at = np.concatenate([[0.0], log.time_s])
+    where = np.concatenate([slip[:1], log.slip_m])
+    kinds = np.array([kind_of(mode) for mode in ("rest", *log.mode_after)])
     # Of a moment, the event before it; the slip since then belongs to the mode that began there.
     last = np.searchsorted(at, time, side="right") - 1
     steps = np.diff(where, append=where[-1])
@@ -221,18 +221,18 @@ def crest_figure(response: Response, units: str = "si") -> Figure:
     draw_horizontal(shaking, response)
     scale = unit_system(units).scale("displacement", largest(h[DISPLACEMENT]))
     # What all cracks slip, which the crest goes with.
-    slip = np.sum([crack.histories["slip_m"] for crack in response.cracks], axis=0)
-    shift.plot(h["time_s"], scale(h[DISPLACEMENT]), color=COLOURS["rotation"], linewidth=0.9, label="crest")
+    slip = np.sum([crack.histories.slip_m for crack in response.cracks], axis=0)
+    shift.plot(h.time_s, scale(h[DISPLACEMENT]), color=COLOURS["rotation"], linewidth=0.9, label="crest")
     label = "slip of all cracks" if response.several else "slip of the crack"
-    shift.plot(h["time_s"], scale(slip), color=COLOURS["slip"], linewidth=1.0, linestyle="--", label=label)
+    shift.plot(h.time_s, scale(slip), color=COLOURS["slip"], linewidth=1.0, linestyle="--", label=label)
     shift.set_ylabel(f"crest [{scale.unit}]\n(+ downstream)")
     shift.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize=7, borderaxespad=0.0)
     beside(shift, f"largest {scale(crest.displacement_m):.4g} {scale.unit}")
-    draw_limits(shift, response, ("crest_displacement",), scale)
-    shakes.plot(h["time_s"], h[ACCELERATION] / response.gravity, color=COLOURS["rotation"], linewidth=0.7)
+    draw_limits(shift, response, ("crest_displacement_m",), scale)
+    shakes.plot(h.time_s, h[ACCELERATION] / response.gravity, color=COLOURS["rotation"], linewidth=0.7)
     shakes.set_ylabel("acceleration\nof crest [g]")
     beside(shakes, f"largest {crest.acceleration_g:.3g} g")
-    draw_limits(shakes, response, ("crest_acceleration",), Scale(1.0, "g"))
+    draw_limits(shakes, response, ("crest_acceleration_m_s2",), Scale(1.0, "g"))
     time_axis(shakes, response)
     align_labels([shaking, shift, shakes])
     return figure
@@ -258,8 +258,8 @@ def edge_stresses(response: Response) -> tuple[Floats, Floats, Floats]:
         arm = history.upper_position[1:, 0] - history.upper_position[0, 0].mean()
         time, normal, moment = history.time[1:], across.sum(axis=1), (across * arm).sum(axis=1)
     else:
-        heel, toe = h["normal_force_heel_n"], h["normal_force_toe_n"]
-        time, normal, moment = h["time_s"], heel + toe, (toe - heel) * width / 2.0
+        heel, toe = h.normal_force_heel_n, h.normal_force_toe_n
+        time, normal, moment = h.time_s, heel + toe, (toe - heel) * width / 2.0
     bending = 6.0 * moment / width**2
     return time, normal / width - bending, normal / width + bending
 
@@ -301,13 +301,6 @@ _PANELS = (
     ("gap_heel_m", "displacement", "opening,\nheel [{}]"),
     ("gap_toe_m", "displacement", "opening,\ntoe [{}]"),
 )
-# The limits that each panel shows.
-_LIMITS = {
-    "slip_m": ("residual_slip", "peak_slip"),
-    "rotation_rad": ("rotation",),
-    "gap_heel_m": ("opening_upstream",),
-    "gap_toe_m": ("opening_downstream",),
-}
 
 
 @styled
@@ -332,14 +325,14 @@ def comparison_figure(dam: Response, block: Response, units: str = "si") -> Figu
             panel.set_ylim(-1.1 * scale(most) if quantity == "rotation" else 0.0, 1.1 * scale(most))
         for response, colour, dash in models:
             panel.plot(
-                response.histories["time_s"],
+                response.histories.time_s,
                 scale(response.histories[key]),
                 color=colour,
                 linestyle=dash,
                 linewidth=1.1,
                 label=f"{response.model} model",
             )
-        draw_limits(panel, dam, _LIMITS[key], scale)
+        draw_limits(panel, dam, (key,), scale)
         panel.set_ylabel(label.format(scale.unit))
     time_axis(rest[-1], dam, block)
     figure.legend(*rest[-1].get_legend_handles_labels(), loc="outside lower center", ncols=2)

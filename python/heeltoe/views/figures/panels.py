@@ -55,31 +55,31 @@ def draw_slip(axes: Axes, response: Response, units: Units) -> None:
     ends = np.array([] if spread is None else [spread["min"], spread["max"]])
     converged = converged_slip(response)
     within = np.array([] if converged is None else [converged[0] - converged[1], converged[0] + converged[1]])
-    scale = units.scale("displacement", largest(h["slip_m"], ends, within))
-    axes.plot(h["time_s"], scale(h["slip_m"]), color=COLOURS["slip"], linewidth=1.4)
+    scale = units.scale("displacement", largest(h.slip_m, ends, within))
+    axes.plot(h.time_s, scale(h.slip_m), color=COLOURS["slip"], linewidth=1.4)
     axes.set_ylabel(f"slip [{scale.unit}]\n(+ downstream)")
     if spread is not None:
         # It is of the slip that remains, at the end of the run alone.
-        end = float(h["time_s"][-1])
+        end = float(h.time_s[-1])
         axes.fill_between(
             [end * _LAST, end], scale(ends[0]), scale(ends[1]), color=COLOURS["slip"], alpha=0.3, linewidth=0
         )
     for edge in within:
         axes.axhline(scale(edge), color=COLOURS["slip"], linewidth=0.6, linestyle=":")
-    if largest(h["slip_m"], ends, within) == 0.0:
+    if largest(h.slip_m, ends, within) == 0.0:
         axes.set_ylim(-1.0, 1.0)
-    draw_limits(axes, response, ("residual_slip", "peak_slip"), scale)
+    draw_limits(axes, response, ("slip_m",), scale)
     varied = "" if spread is None else f", {scale(ends[0]):.4g} to {scale(ends[1]):.4g} with the shaking varied"
     beside(axes, f"{slip_in_the_end(response, scale)}{varied}", colour=COLOURS["slip"])
 
 
-def draw_limits(axes: Axes, response: Response, names: Sequence[str], scale: Scale) -> None:
+def draw_limits(axes: Axes, response: Response, columns: Sequence[str], scale: Scale) -> None:
     """Draw what the case allows as lines, as far as they are near what there is.
 
     Parameters
     ----------
-    names
-        Names of the fields of ``limits``.
+    columns
+        Columns of the histories that the axis shows.
     scale
         The unit of the axis.
     """
@@ -87,14 +87,14 @@ def draw_limits(axes: Axes, response: Response, names: Sequence[str], scale: Sca
     low, high = axes.get_ylim()
     for check in response.limits:
         allowed = float(scale(check.allowed))
-        if check.name not in names or not 0.0 < allowed <= _NEAR * reach:
+        if LIMITS[check.name].column not in columns or not 0.0 < allowed <= _NEAR * reach:
             continue
         # Where nothing goes, there is no need of a line.
         sides = [allowed] if low > -0.25 * reach else [-allowed] if high < 0.25 * reach else [allowed, -allowed]
         for side in sides:
             axes.axhline(side, color=COLOURS["crack"], linewidth=0.9, linestyle=(0, (6, 2)))
             axes.annotate(
-                f"{LIMITS[check.name].short} allowed",
+                f"{LIMITS[check.name].label} allowed",
                 # At the beginning, where nothing has moved yet, beyond the line and within the panel.
                 (0.0, side),
                 xycoords=("axes fraction", "data"),
@@ -130,13 +130,13 @@ def draw_rotation(axes: Axes, response: Response, units: Units) -> None:
     """Draw the rotation; that of a block which overturns goes on by powers of ten beyond its rocking before."""
     h = response.histories
     cut = shown_rotation(response)
-    scale = units.scale("rotation", largest(h["rotation_rad"]))
-    axes.plot(h["time_s"], scale(h["rotation_rad"]), color=COLOURS["rotation"], linewidth=1.0)
+    scale = units.scale("rotation", largest(h.rotation_rad))
+    axes.plot(h.time_s, scale(h.rotation_rad), color=COLOURS["rotation"], linewidth=1.0)
     axes.set_ylabel(f"rotation [{scale.unit}]\n(+ about heel)")
-    draw_limits(axes, response, ("rotation",), scale)
+    draw_limits(axes, response, ("rotation_rad",), scale)
     if cut is not None:
         axes.set_yscale("symlog", linthresh=float(scale(cut)), linscale=2.0)
-        ends = [float(scale(h["rotation_rad"].min())), float(scale(h["rotation_rad"].max()))]
+        ends = [float(scale(h.rotation_rad.min())), float(scale(h.rotation_rad.max()))]
         axes.set_ylim(1.15 * min(ends[0], -float(scale(cut)) / 2.0), 1.15 * max(ends[1], float(scale(cut)) / 2.0))
         axes.set_yticks([value for value in (-1.5, -0.5, -0.1, 0.0, 0.1, 0.5, 1.5) if ends[0] <= value <= ends[1]])
         axes.yaxis.set_major_formatter("{x:g}")
@@ -148,7 +148,7 @@ def draw_openings(axes: Axes, response: Response, units: Units) -> None:
     """Draw how far the crack is open at heel and toe."""
     h = response.histories
     cut = shown_rotation(response)
-    most = largest(h["gap_heel_m"], h["gap_toe_m"])
+    most = largest(h.gap_heel_m, h.gap_toe_m)
     if cut is not None:
         most = min(most, cut * response.crack_width_m)
     scale = units.scale("displacement", most)
@@ -156,11 +156,11 @@ def draw_openings(axes: Axes, response: Response, units: Units) -> None:
         ("heel", "gap_heel_m", "-", "heel (upstream)"),
         ("toe", "gap_toe_m", "--", "toe (downstream)"),
     ):
-        axes.plot(h["time_s"], scale(h[key]), color=COLOURS[name], linewidth=1.0, linestyle=dash, label=label)
+        axes.plot(h.time_s, scale(h[key]), color=COLOURS[name], linewidth=1.0, linestyle=dash, label=label)
     axes.set_ylabel(f"opening [{scale.unit}]")
     top = scale(most) * 1.05
     axes.set_ylim(min(0.0, axes.get_ylim()[0]) if cut is None else -0.05 * top, top or 1.0)
-    draw_limits(axes, response, ("opening_upstream", "opening_downstream"), scale)
+    draw_limits(axes, response, ("gap_heel_m", "gap_toe_m"), scale)
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=8, borderaxespad=0.0)
 
 
@@ -169,7 +169,7 @@ def shown_rotation(response: Response) -> float | None:
     that stays up."""
     if response.outcome != Outcome.OVERTURNED:
         return None
-    rotation = response.histories["rotation_rad"]
+    rotation = response.histories.rotation_rad
     turns = np.flatnonzero(np.diff(np.sign(rotation)) != 0)
     before = np.abs(rotation[: turns[-1] + 1]) if turns.size else np.zeros(1)
     rocking = float(before.max())
@@ -178,8 +178,8 @@ def shown_rotation(response: Response) -> float | None:
 
 def note_overturned(axes: Axes, response: Response) -> None:
     """Say in a panel whose axis is cut that the block turns over, and when."""
-    way = "downstream, about its toe" if response.histories["rotation_rad"][-1] < 0.0 else "upstream, about its heel"
-    beside(axes, f"overturns {way}, at {response.histories['time_s'][-1]:.2f} s")
+    way = "downstream, about its toe" if response.histories.rotation_rad[-1] < 0.0 else "upstream, about its heel"
+    beside(axes, f"overturns {way}, at {response.histories.time_s[-1]:.2f} s")
 
 
 def draw_ribbon(axes: Axes, response: Response) -> None:
@@ -218,11 +218,11 @@ def _spans(response: Response, kind: str) -> list[tuple[float, float]]:
 def pieces(response: Response) -> list[tuple[str, float, float]]:
     """Return kind, start and end; events give the exact changes, where there are any, else the frames."""
     if "time_s" in response.event_log:
-        times = np.concatenate([[0.0], response.event_log["time_s"], [response.end_time_s]])
-        modes = ("rest", *response.event_log["mode_after"])
+        times = np.concatenate([[0.0], response.event_log.time_s, [response.end_time_s]])
+        modes = ("rest", *response.event_log.mode_after)
     else:
         # A frame has the state of the step that ends with it.
-        times, modes = np.concatenate([[0.0], response.histories["time_s"]]), response.mode
+        times, modes = np.concatenate([[0.0], response.histories.time_s]), response.mode
     kinds = [kind_of(mode) for mode in modes]
     return list(zip(kinds, times[:-1].tolist(), times[1:].tolist(), strict=True))
 

@@ -35,9 +35,9 @@ def path_figure(response: Response, units: str = "si") -> Figure:
     h = response.histories
     system = unit_system(units)
     cut = shown_rotation(response)
-    heel, toe = h["gap_heel_m"], h["gap_toe_m"]
+    heel, toe = h.gap_heel_m, h.gap_toe_m
     lift = largest(heel, toe) if cut is None else min(largest(heel, toe), cut * response.crack_width_m)
-    across, up = system.scale("displacement", largest(h["slip_m"])), system.scale("displacement", lift)
+    across, up = system.scale("displacement", largest(h.slip_m)), system.scale("displacement", lift)
     figure = Figure(figsize=(WIDTH, 3.6), layout="constrained")
     axes = figure.subplots(1, 3, sharex=True, sharey=True)
     describe(figure, response)
@@ -45,13 +45,13 @@ def path_figure(response: Response, units: str = "si") -> Figure:
     for panel, values, name in zip(
         axes, (heel, (heel + toe) / 2.0, toe), ("heel (upstream)", "middle", "toe (downstream)"), strict=True
     ):
-        draw_pieces(panel, across(h["slip_m"]), up(values), kinds)
-        panel.plot(across(h["slip_m"][0]), up(values[0]), "o", color="#000000", markersize=5, fillstyle="none")
+        draw_pieces(panel, across(h.slip_m), up(values), kinds)
+        panel.plot(across(h.slip_m[0]), up(values[0]), "o", color="#000000", markersize=5, fillstyle="none")
         if cut is None:
-            panel.plot(across(h["slip_m"][-1]), up(values[-1]), "x", color="#000000", markersize=6)
+            panel.plot(across(h.slip_m[-1]), up(values[-1]), "x", color="#000000", markersize=6)
         panel.set_xlabel(f"slip [{across.unit}]")
         panel.set_title(name, fontsize=9)
-    _limits(axes[0], h["slip_m"], across, up(lift))
+    _limits(axes[0], h.slip_m, across, up(lift))
     axes[0].set_ylabel(f"lift-off [{up.unit}]")
     marks = {"start": "o"} if cut is not None else {"start": "o", "end": "x"}
     handles = piece_handles(kinds) + [

@@ -60,7 +60,7 @@ def slips_figure(grid: SmallStudy, units: str = "si") -> Figure:
     """Draw the slip of every run over time: a line for each value of the first varied field, a panel for each
     combination of the others."""
     first, *others = grid.axes
-    slips = [response.histories["slip_m"] for response in grid.responses if response.histories]
+    slips = [response.histories.slip_m for response in grid.responses if response.histories]
     scale = unit_system(units).scale("displacement", largest(*slips))
     panels = list(dict.fromkeys(cell[1:] for cell in grid.cells))
     columns = 1 if len(panels) <= _ONE_COLUMN else 2
@@ -77,7 +77,7 @@ def slips_figure(grid: SmallStudy, units: str = "si") -> Figure:
             colour, dash = _line(first.values.index(cell[0]))
             label = f"{cell[0]}: {length(response.residual_slip_m, units) if response.ok else response.outcome}"
             h = response.histories
-            time, slip = (h["time_s"], scale(h["slip_m"])) if h else ([], [])
+            time, slip = (h.time_s, scale(h.slip_m)) if h else ([], [])
             panel.plot(time, slip, color=colour, linestyle=dash, linewidth=1.2, label=label)
         # Beside the curves, none of which it can cover there.
         panel.legend(

@@ -59,20 +59,20 @@ def draw_horizontal(axes: Axes, response: Response) -> None:
 def _draw(axes: Axes, response: Response, motion: GroundMotion, at_crack: str, label: str) -> None:
     h, g = response.histories, response.gravity
     # The motion itself, which may jump between two moments of the histories.
-    time, ground = until(motion, float(h["time_s"][-1]))
+    time, ground = until(motion, float(h.time_s[-1]))
     axes.set_ylabel(label)
     crack = h.get(at_crack)
     if crack is None:
         axes.plot(time, ground / g, color=COLOURS["ground"], linewidth=0.7)
         return
-    axes.plot(h["time_s"], crack / g, color=COLOURS["slip"], linewidth=0.7, label="at the crack")
+    axes.plot(h.time_s, crack / g, color=COLOURS["slip"], linewidth=0.7, label="at the crack")
     axes.plot(time, ground / g, color="#999999", linewidth=0.7, linestyle="--", label="ground", zorder=1.8)
     axes.legend(loc="lower left", ncols=2, fontsize=7, bbox_to_anchor=(0.0, 1.0), borderaxespad=0.0)
 
 
 def _limit(start: Start, response: Response) -> tuple[Floats, Floats]:
     """Return moments [s] and the acceleration of the ground [g] at which the block starts to move then."""
-    time, up = response.histories["time_s"], response.histories.get(_VERTICAL)
+    time, up = response.histories.time_s, response.histories.get(_VERTICAL)
     if start.vertical is None or up is None:
         return time[[0, -1]], np.full(2, start.of_the_ground())
     return time, start.of_the_ground(up / response.gravity)

@@ -117,4 +117,4 @@ def _crack_motion(response: Response) -> GroundMotion | None:
     values = response.histories.get("crack_acceleration_m_s2")
     if values is None:
         return None
-    return GroundMotion("at the crack", response.histories["time_s"], values)
+    return GroundMotion("at the crack", response.histories.time_s, values)

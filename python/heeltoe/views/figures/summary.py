@@ -84,11 +84,11 @@ def _draw_section(axes: Axes, case: Case, units: Units) -> None:
 def _draw_slips(axes: Axes, shown: tuple[Response, ...], units: Units) -> None:
     """Draw the slip of each run, of several cracks those at each, and say what remains of the first."""
     curves = _of_cracks(shown[0], units) or [(f"{item.model} model", item) for item in shown]
-    scale = units.scale("displacement", largest(*(response.histories["slip_m"] for _, response in curves)))
+    scale = units.scale("displacement", largest(*(response.histories.slip_m for _, response in curves)))
     for (label, response), (colour, dash) in zip(curves, LOOKS, strict=False):
-        time, slip = response.histories["time_s"], scale(response.histories["slip_m"])
+        time, slip = response.histories.time_s, scale(response.histories.slip_m)
         axes.plot(time, slip, color=COLOURS[colour], linestyle=dash, linewidth=1.2, label=label)
-    if not any(response.histories["slip_m"].any() for _, response in curves):
+    if not any(response.histories.slip_m.any() for _, response in curves):
         axes.set_ylim(-1.0, 1.0)
     axes.set_ylabel(f"slip [{scale.unit}]\n(+ downstream)")
     time_axis(axes, *shown)

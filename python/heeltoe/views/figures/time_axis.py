@@ -26,7 +26,7 @@ _NEARLY = 1.005
 
 def time_axis(axes: Axes, *responses: Response) -> None:
     """Label the axis of time, from zero to the end of what happens in any of these runs."""
-    end = max(float(response.histories["time_s"][-1]) for response in responses if response.histories)
+    end = max(float(response.histories.time_s[-1]) for response in responses if response.histories)
     shown = max(shown_until(response) for response in responses if response.histories)
     # The last frame of 30 s may stand at 29.99 s.
     round_end = float(f"{end:.2g}")
@@ -74,7 +74,7 @@ def _mark(axes: Axes, end: float) -> None:
 
 def shown_until(response: Response) -> float:
     """Return up to when [s] a run is worth drawing: until the strong shaking is over and the dam is at rest."""
-    end = float(response.histories["time_s"][-1])
+    end = float(response.histories.time_s[-1])
     happens = max((stop for kind, _, stop in pieces(response) if kind != "rest"), default=0.0)
     # The crack may have closed while an elastic dam still swings, a kinked one on two of its pieces; and while one of
     # several cracks is still the dam moves at another.

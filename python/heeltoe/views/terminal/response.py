@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -25,10 +24,6 @@ from heeltoe.views.words.numbers import Amount, Cell, Numbers, in_one_unit
 from heeltoe.views.words.response import listed
 
 _MORE = "the ground motion, static loads, modes of motion, energy and convergence"
-# What a sentence names as its source, for which the report has room.
-_SOURCE = re.compile(r" \(Zhu 2004[^)]*\)")
-# What a sentence gives as the reason for the difference of two models, for which the report has room.
-_REASON = re.compile(r": [^:]*(?=\. Trust )")
 # So many cracks have a row of their own.
 _ROWS = 6
 _GRAVITIES = ("grave", "caution", "note")
@@ -78,7 +73,7 @@ def _verdicts(response: Response, units: str) -> Table:
     if block is not None and not block.ok:
         rows.append((block.model.capitalize(), False, verdict(block, units, brief=True)))
     elif block is not None:
-        rows.append(("Beside it", response.ok, _REASON.sub("", _SOURCE.sub("", response.meaning(units)))))
+        rows.append(("Beside it", response.ok, response.meaning(units, brief=True)))
     grid = Table.grid(padding=(0, 2))
     grid.add_column(no_wrap=True)
     grid.add_column()
@@ -97,15 +92,13 @@ def _table(response: Response, units: str) -> Table:
         shown = _shown(run.cracks)
         for crack in shown:
             where = f"at {written('{at_m:g m}', units, at_m=crack.elevation)}" if run.several else ""
-            amounts = [Amount(item.way * crack[item.key], item.kind) for item in LENGTHS]
+            amounts = [Amount(item.way * item.of(crack), item.kind) for item in LENGTHS]
             bond = _bond(crack)
             cracked = [NOTHING if bond is None else length(bond.cracked_length_m, units)] if bonded else []
             cells.append([f"{NAMES.get(run.model, run.model)} {where}".strip(), *amounts, *cracked])
         others = [crack for crack in run.cracks if not any(crack is one for one in shown)]
         if others:
-            largest = [
-                Amount(max(item.way * (crack[item.key] or 0.0) for crack in others), item.kind) for item in LENGTHS
-            ]
+            largest = [Amount(max(item.way * item.of(crack) for crack in others), item.kind) for item in LENGTHS]
             lengths = [bond.cracked_length_m for crack in others if (bond := _bond(crack)) is not None]
             cracked = [length(max(lengths), units) if lengths else NOTHING] if bonded else []
             cells.append([f"{len(others)} others, at most", *largest, *cracked])
@@ -128,7 +121,7 @@ def _shown(cracks: Sequence[Any]) -> Sequence[Any]:
 
     def moved(crack: Any) -> tuple[float, float]:
         bond = _bond(crack)
-        return max(abs(crack[item.key] or 0.0) for item in LENGTHS), bond.cracked_length_m if bond else 0.0
+        return max(abs(item.of(crack)) for item in LENGTHS), bond.cracked_length_m if bond else 0.0
 
     least = sorted(map(moved, cracks))[-_ROWS]
     return [crack for crack in cracks if moved(crack) >= least][:_ROWS]

@@ -41,7 +41,7 @@ def limit_of(limit: str, value: float, units: str = "si", of: str = "") -> str:
     """Write a limit with its amount; `of` stands between them."""
     unit = LIMITS[limit].unit
     amount = length(value, units) if unit == "m" else f"{value:.3g} {unit}"
-    return f"{LIMITS[limit].short}{of} {amount}"
+    return f"{LIMITS[limit].label}{of} {amount}"
 
 
 def limits_of(limits: Sequence[tuple[str, float]], units: str = "si") -> dict[tuple[str, float], str]:
@@ -51,7 +51,7 @@ def limits_of(limits: Sequence[tuple[str, float]], units: str = "si") -> dict[tu
     amounts = lengths([value for _, value in of_length], units)
     for limit, amount in zip(of_length, amounts, strict=True):
         number, unit = amount.split()
-        texts[limit] = f"{LIMITS[limit[0]].short} {number.rstrip('0').rstrip('.') if '.' in number else number} {unit}"
+        texts[limit] = f"{LIMITS[limit[0]].label} {number.rstrip('0').rstrip('.') if '.' in number else number} {unit}"
     return texts
 
 

@@ -16,7 +16,8 @@ from heeltoe.result.numbers import (
     SelfExcitation,
     Tension,
 )
-from heeltoe.result.response import CrackResponse, Of, Response
+from heeltoe.result.record import CrackResponse, Of
+from heeltoe.result.response import Response
 
 # Not at run time: who asks whether a response is one of these need not wait for the elastic parts.
 if TYPE_CHECKING:

@@ -24,6 +24,7 @@ from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.slip_history import law_result, sliding_friction, worn_of
 from heeltoe.result.contract import ground_histories, headlines, slip_by_mode, time_by_mode
 from heeltoe.result.crest import CrestSeries, crest_series
+from heeltoe.result.histories import EventLog, Histories
 from heeltoe.result.numbers import (
     AnchorForce,
     BeforeShaking,
@@ -32,6 +33,7 @@ from heeltoe.result.numbers import (
     ElasticCrack,
     ElasticDam,
     ElasticGive,
+    Energy,
     EvidenceNumbers,
     Mesh,
     Penetration,
@@ -39,7 +41,6 @@ from heeltoe.result.numbers import (
     Tension,
 )
 from heeltoe.result.quantity import computed
-from heeltoe.result.response import Energy
 
 
 def anchors_of(case: Case, run: DamRun, place: int) -> list[AnchorForce]:
@@ -270,18 +271,18 @@ def crack_responses(
             ElasticCrackResponse(
                 elevation=section.heel[1] - section.base_elevation,
                 of_crack=crack_numbers(case, shaken.dam, run, history, evidence),
-                histories={
-                    **histories_of(
+                histories=Histories(
+                    histories_of(
                         shaken.shaking,
                         run,
                         place,
                         law=case.crack.law is not None,
                         bonded_width=None if case.crack.bond is None else section.crack_width,
-                    ),
-                    **moved,
-                },
+                    )
+                    | moved
+                ),
                 mode=modes_of(run, place),
-                event_log={},
+                event_log=EventLog({}),
                 static=static if place == shaken.dam.asked else static_state(build_block(case)),
                 frames=history,
             )

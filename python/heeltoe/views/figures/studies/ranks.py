@@ -24,19 +24,19 @@ def ranks_figure(study: StudyResults, units: str = "si") -> Figure | None:
     if not study.portfolio:
         return None
     row = study.portfolio[-1]
-    dams = row["dams"][:_SHOWN]
+    dams = row.dams[:_SHOWN]
     scale, unit = slip_scale(units)
     rows = np.arange(len(dams))[::-1]
     layout = ConstrainedLayoutEngine(w_pad=0.12)
     figure = Figure(figsize=(WIDTH, 1.5 + 0.22 * max(len(dams), 5)), layout=layout)
-    limits, one = row["limits"], row["motions"] == 1
+    limits, one = row.limits, row.motions == 1
     # One motion has no share, and no median.
     count = 2 if limits and not one else 1
     panels = figure.subplots(1, count, sharey=True, squeeze=False, width_ratios=[1.6, 1][:count])[0]
     slips = panels[0]
     for at, dam in zip(rows.tolist(), dams, strict=True):
-        middle, high, most = (dam["residual_slip_m"][name] for name in ("median", "84%", "largest"))
-        if high is not None:
+        middle, high, most = (dam.residual_slip_m[name] for name in ("median", "84%", "largest"))
+        if middle is not None and high is not None:
             low = max(middle, JOINT_METER_M)
             slips.barh(at, scale * max(high - low, 0.0), 0.6, left=scale * low, color=COLOURS["slip"])
         if most is not None:
@@ -49,7 +49,7 @@ def ranks_figure(study: StudyResults, units: str = "si") -> Figure | None:
                 fontsize=7,
                 va="center",
             )
-    slips.set_yticks(rows, [f"{dam['rank']}  {plain(dam['name'])[:_LONGEST]}" for dam in dams], fontsize=8)
+    slips.set_yticks(rows, [f"{dam.rank}  {plain(dam.name)[:_LONGEST]}" for dam in dams], fontsize=8)
     slips.set_ylim(-0.7, len(dams) - 0.3)
     slips.set_xscale("log")
     slips.set_xlim(scale * JOINT_METER_M, None)
@@ -58,11 +58,9 @@ def ranks_figure(study: StudyResults, units: str = "si") -> Figure | None:
     slips.grid(visible=False, axis="y")
     if len(panels) > 1:
         shares = panels[1]
-        shares.barh(rows, [100.0 * dam["exceeds"][0] for dam in dams], 0.6, color=COLOURS["rotation"])
+        shares.barh(rows, [100.0 * dam.exceeds[0] for dam in dams], 0.6, color=COLOURS["rotation"])
         shares.set_xlim(0.0, 100.0)
-        shares.set_xlabel(f"motions that exceed the\n{limit_of(limits[0]['limit'], limits[0]['value'], units)} [%]")
+        shares.set_xlabel(f"motions that exceed the\n{limit_of(limits[0].limit, limits[0].value, units)} [%]")
         shares.grid(visible=False, axis="y")
-    many = (
-        f"the {len(dams)} worst of {len(row['dams']):,} dams" if len(row["dams"]) > len(dams) else f"{len(dams)} dams"
-    )
-    return headed(figure, study, f"{row['model']} model, {many}, with their ranks")
+    many = f"the {len(dams)} worst of {len(row.dams):,} dams" if len(row.dams) > len(dams) else f"{len(dams)} dams"
+    return headed(figure, study, f"{row.model} model, {many}, with their ranks")
