@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import sys
 from contextlib import suppress
+from itertools import pairwise
 
 import ezdxf
 import pytest
@@ -118,6 +119,39 @@ def test_of_several_outlines_one_is_named(tmp_path):
     assert read(tmp_path / "a.dxf", content, layer="dam").section.polygon is not None
     with pytest.raises(InputError, match=r'section.layer: there are 2 closed .*"DAM" \(1\), "DAM1" \(1\)'):
         read(tmp_path / "a.dxf", content)
+
+
+def test_a_frame_around_a_dam_that_is_drawn_as_lines_is_not_taken_for_the_dam(tmp_path):
+    """The right answer is a question: a frame of 60 x 60 m would be a block that stands."""
+    made = ezdxf.new("R2010", units=6)
+    made.layers.add("FRAME")
+    space = made.modelspace()
+    frame = [(-10.0, -5.0), (50.0, -5.0), (50.0, 55.0), (-10.0, 55.0)]
+    space.add_lwpolyline(frame, close=True, dxfattribs={"layer": "FRAME"})
+    for start, end in pairwise([*CORNERS, CORNERS[0]]):
+        space.add_line(start, end, dxfattribs={"layer": "DAM"})
+    space.add_text("Section A-A", dxfattribs={"layer": "TEXT"})
+    path = tmp_path / "a.dxf"
+    made.saveas(path)
+    with pytest.raises(InputError, match=r'section.layer: the only closed .*"FRAME", stands .*: 6 on "DAM"') as refused:
+        read(path, path.read_bytes())
+    assert refused.value.code == "drawing-beside"
+    with pytest.raises(InputError, match='"DAM" has no closed polyline'):
+        read(path, path.read_bytes(), layer="DAM")
+    assert read(path, path.read_bytes(), layer="FRAME").outline.area == pytest.approx(3600.0)
+
+
+def test_a_hidden_outline_is_not_taken_for_the_dam(tmp_path):
+    made = ezdxf.new("R2010", units=6)
+    layer = made.layers.add("OLD")
+    made.modelspace().add_lwpolyline(CORNERS, close=True, dxfattribs={"layer": "OLD"})
+    path = tmp_path / "a.dxf"
+    made.saveas(path)
+    assert read(path, path.read_bytes()).outline.is_valid
+    layer.freeze()
+    made.saveas(path)
+    with pytest.raises(InputError, match='"OLD", is hidden'):
+        read(path, path.read_bytes())
 
 
 TRIANGLE = CORNERS[:3]

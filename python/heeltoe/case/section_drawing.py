@@ -16,6 +16,8 @@ Corners = list[tuple[float, float]]
 # What $INSUNITS of a drawing says.
 _UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 10: "yd", 14: "dm", 21: "survey_foot"}
 _MOST_NAMES = 8
+# What else may be the outline of a dam, or a part of one; texts, dimensions and hatches are not.
+_LINES = "LINE LWPOLYLINE POLYLINE ARC CIRCLE ELLIPSE SPLINE INSERT"
 
 
 def corners_of_drawing(path: Path, layer: str | None) -> tuple[Corners, str]:
@@ -32,7 +34,8 @@ def corners_of_drawing(path: Path, layer: str | None) -> tuple[Corners, str]:
     Raises
     ------
     InputError
-        Where it is no drawing, or has no closed polyline, several, or one with arcs.
+        Where it is no drawing, or has no closed polyline, several, or one with arcs; without a layer, also where the
+        only one is hidden, or stands beside other lines, of which the dam may be drawn.
     """
     drawing, closed = _read(path)
     on_layers = Counter(line.dxf.layer for line in closed)
@@ -45,6 +48,8 @@ def corners_of_drawing(path: Path, layer: str | None) -> tuple[Corners, str]:
         raise InputError("drawing-empty", "section.file")
     if len(mine) > 1:
         raise InputError("drawing-several", "section.file" if layer else "section.layer", len(mine), layers=known)
+    if layer is None and (beside := _beside(drawing, mine[0])):
+        raise InputError("drawing-beside", "section.layer", shown(mine[0].dxf.layer), beside=beside)
     if mine[0].has_arc:
         raise InputError("drawing-arcs", "section.file", shown(mine[0].dxf.layer))
     lightweight = mine[0].dxftype() == "LWPOLYLINE"
@@ -79,3 +84,13 @@ def _closed(drawing: Any) -> Iterator[Any]:
             continue
         if len(points) > 2 and (line.is_closed or points[0] == points[-1]):
             yield line
+
+
+def _beside(drawing: Any, line: Any) -> str:
+    """Return in words why a closed polyline may not be the dam; nothing where it is the only line that is shown."""
+    layer = drawing.layers.get(line.dxf.layer) if line.dxf.layer in drawing.layers else None
+    if layer is not None and (layer.is_frozen() or layer.is_off()):
+        return "is hidden"
+    others = Counter(other.dxf.layer for other in drawing.modelspace().query(_LINES) if other is not line)
+    names = ", ".join(f"{count} on {shown(name)}" for name, count in others.most_common(_MOST_NAMES))
+    return f"stands beside other lines: {names}" if names else ""

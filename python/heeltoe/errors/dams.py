@@ -34,6 +34,10 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "there are {value} closed polylines; by layers: {layers}",
         "name a layer that has one alone by section.layer",
     ),
+    "drawing-beside": (
+        "the only closed polyline, on the layer {value}, {beside}",
+        "say by section.layer that it is the dam, or draw the dam as a closed polyline and name its layer",
+    ),
     "drawing-layer": ("{value} has no closed polyline; layers that have: {layers}", "name one of them"),
     "drawing-arcs": ("the polyline on the layer {value} has arcs", "replace them by short straight pieces"),
     "neck-above-crest": ("{value} is above the crest at {height}", "give a height up to {height}"),

@@ -70,7 +70,9 @@ class Histories(Columns):
         ),
     ]
     asperity_angle_rad: Annotated[Floats, Number("Angle of the flanks of a rough crack, as worn as they are.", "rad")]
-    plastic_work_j_m2: Annotated[Floats, Number("Work of friction on the asperities of a rough crack, per area.", "J/m²")]
+    plastic_work_j_m2: Annotated[
+        Floats, Number("Work of friction on the asperities of a rough crack, per area.", "J/m²")
+    ]
     cracked_upstream_m: Annotated[Floats, Number("Length that a joint has cracked from the upstream face.", "m")]
     cracked_downstream_m: Annotated[Floats, Number("Length that a joint has cracked from the downstream face.", "m")]
     cracked_length_m: Annotated[Floats, Number("Length of a joint that has cracked in all.", "m")]
