@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 import heeltoe
+from heeltoe.case.suite import SuiteMotion
 from heeltoe.case.toml_writer import case_text
 from heeltoe.errors.error import InputError
 from heeltoe.motion.targets import target_of
 from heeltoe.study.answers.suite import below, suite_spectra
+from heeltoe.study.plan.motions import suite_events
 from heeltoe.views.content.study import study_answer, study_sections
 from heeltoe.views.figures.studies.suite import suite_figures
 from shared.command import command
@@ -222,6 +224,23 @@ def test_a_number_without_a_bound_may_be_off_by_as_much_as_it_is(records):
     assert turn["value"] > 0.0
     assert turn["uncertainty"] == pytest.approx(turn["value"])
     assert turn["certain"] == (abs(turn["value"] - 1e-3) > turn["value"])
+
+
+PEER = ("RSN9_MADEUP_ABC-UP.AT2", "RSN9_MADEUP_ABC000.AT2", "RSN9_MADEUP_ABC090.AT2")
+KNET = ("AOM0010001.EW", "AOM0010001.NS", "AOM0010001.UD")
+SEED = ("XX.STA..HNE.txt", "XX.STA..HNN.txt", "XX.STA..HNZ.txt")
+
+
+@pytest.mark.parametrize("names", [PEER, KNET, SEED])
+def test_the_vertical_component_of_a_download_is_no_earthquake_of_its_own(tmp_path, names):
+    for name in names:
+        (tmp_path / name).write_text("0 0.1\n0.01 0.2\n")
+    (up,) = (name for name in names if name.rpartition(".")[0].endswith(("UP", "HNZ")) or name.endswith("UD"))
+    for vertical in (False, True):
+        events, _ = suite_events([SuiteMotion(file=".")], tmp_path, vertical=vertical)
+        assert len({event.name for event in events}) == len(events) == 2
+        assert {event.horizontal[0].rpartition("/")[2] for event in events} == {*names} - {up}
+        assert {event.vertical and event.vertical.rpartition("/")[2] for event in events} == {up if vertical else None}
 
 
 SCALED = {"suite.pga": "0.7 g", "suite.judge": "mean", "suite.target": "en1998:0.3g,B"}

@@ -30,9 +30,11 @@ from heeltoe.study.plan.file import Event, Motions
 from heeltoe.study.plan.problems import Problems
 
 # What the last part of a vertical component's name is.
-_VERTICAL = re.compile(r"up|ud\d?|v|ver|vert|vertical|z|dwn|down", re.IGNORECASE)
+_VERTICAL = re.compile(r"up|ud\d?|v|ver|vert|vertical|vrt|z|[bceghs][dghln]z|dwn|down", re.IGNORECASE)
 # The last part of a name, which tells the components of an event apart: behind a dash, an underscore or a blank.
 _LAST = re.compile(r"(.+)[-_ .]([^-_ .]+)")
+# Endings of K-NET and KiK-net, which tell the components apart where names do not.
+_ENDING = re.compile(r"\.(EW|NS|UD)[12]?", re.IGNORECASE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,7 +180,9 @@ def _events(motions: Motions, directory: Path) -> Iterator[Event]:
     names = motions.files or _folder(motions.folder or "", directory)
     groups: dict[str, list[str]] = {}
     for name in names:
-        common, _ = _parts(name)
+        common, last = _parts(name)
+        if _VERTICAL.fullmatch(last):
+            common = next((_parts(other)[0] for other in names if _goes_with(name, other)), common)
         groups.setdefault(common, []).append(name)
     for common, files in groups.items():
         vertical = [file for file in files if _VERTICAL.fullmatch(_parts(file)[1])]
@@ -211,13 +215,13 @@ def suite_events(motions: Sequence[SuiteMotion], directory: Path, *, vertical: b
         for name in _folder(motion.file, directory, f"motions[{place}].file") if is_folder else [motion.file]:
             files[name] = f"motions[{place}]", motion.vertical
             names.append(name)
-    upward = {
-        _parts(file)[0]: file
+    upward = [
+        file
         for file in files
         if _VERTICAL.fullmatch(_parts(file)[1]) and any(_goes_with(file, other) for other in files)
-    }
-    horizontal = [file for file in names if file not in upward.values()]
-    stems = [Path(file).stem if os.path.isfile(directory / file) else file for file in horizontal]
+    ]
+    horizontal = [file for file in names if file not in upward]
+    stems = [_name_of(file) if os.path.isfile(directory / file) else file for file in horizontal]
     twice = [stem for stem in stems if stems.count(stem) > 1]
     if twice:
         raise InputError("study-twice", "motions", shown(twice[0]))
@@ -225,7 +229,8 @@ def suite_events(motions: Sequence[SuiteMotion], directory: Path, *, vertical: b
         Event(
             name=stem,
             horizontal=(file,),
-            vertical=files[file][1] or (upward.get(_parts(file)[0]) if vertical else None),
+            vertical=files[file][1]
+            or (next((up for up in upward if _goes_with(up, file)), None) if vertical else None),
         )
         for stem, file in zip(stems, horizontal, strict=True)
     ]
@@ -235,15 +240,26 @@ def suite_events(motions: Sequence[SuiteMotion], directory: Path, *, vertical: b
 def _goes_with(upward: str, other: str) -> bool:
     """Whether another record is a horizontal component beside a vertical one."""
     common, last = _parts(other)
-    return common == _parts(upward)[0] and not _VERTICAL.fullmatch(last)
+    beside = _parts(upward)[0]
+    # PEER writes STATION-UP beside STATION000 and STATION090.
+    joined = Path(other).stem.lower().removeprefix(beside.lower())
+    return not _VERTICAL.fullmatch(last) and (common == beside or re.fullmatch(r"\d{3}", joined) is not None)
 
 
 def _parts(name: str) -> tuple[str, str]:
     """Return what the components of one event have in common in their names, and the part that tells them apart; a name
     of one part is an event by itself."""
-    stem = Path(name).stem
-    match = _LAST.fullmatch(stem)
-    return (match[1], match[2]) if match else (stem, "")
+    path = Path(name)
+    if ending := _ENDING.fullmatch(path.suffix):
+        return path.stem, ending[1]
+    match = _LAST.fullmatch(path.stem)
+    return (match[1], match[2]) if match else (path.stem, "")
+
+
+def _name_of(name: str) -> str:
+    """Return what a record is called by its file: with its ending where that alone tells it from others."""
+    path = Path(name)
+    return path.name if _ENDING.fullmatch(path.suffix) else path.stem
 
 
 def _folder(name: str, directory: Path, field: str = "motions.folder") -> list[str]:
