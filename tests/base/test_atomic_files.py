@@ -159,6 +159,42 @@ def test_a_forged_list_reaches_nothing_outside(tmp_path):
     assert (tmp_path / "far" / "file").exists()
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
+@pytest.mark.parametrize("left", [True, False])
+def test_a_link_in_a_folder_of_a_stranger_leads_nothing_out(tmp_path, left):
+    """A left-over result, or a new one, is to go through a directory that is a link to one elsewhere."""
+    (tmp_path / "far").mkdir()
+    (tmp_path / "far" / "file").write_text("mine")
+    place = tmp_path / "out"
+    place.mkdir()
+    (place / "figures").symlink_to(tmp_path / "far")
+    if left:
+        (place / READY / "figures").mkdir(parents=True)
+        (place / READY / "figures" / "file").write_text("theirs")
+        (place / READY / LISTED).write_text("figures/file\n")
+        assert refusal(settle, place) == "cannot-write"
+
+    def fill(fresh):
+        (fresh / "figures").mkdir()
+        (fresh / "figures" / "new").write_text("ours")
+
+    with pytest.raises(InputError, match="a link leads out of the directory"):
+        write_whole(fill, place, ("*",))
+    assert found(tmp_path / "far") == {"file": "mine"}
+    assert (place / READY).exists() == left
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
+def test_a_file_within_a_directory_is_no_link_out_of_it(tmp_path):
+    (tmp_path / "mine").write_text("mine")
+    place = tmp_path / "study"
+    place.mkdir()
+    (place / "study.json").symlink_to(tmp_path / "mine")
+    with pytest.raises(InputError, match="a link leads out of the directory"):
+        write_text(place / "study.json", "theirs", "--out", within=place)
+    assert (tmp_path / "mine").read_text() == "mine"
+
+
 KILLED = """
 import os, sys
 from pathlib import Path

@@ -84,11 +84,26 @@ def check_directory(directory: Path, field: str, names: Sequence[str] = ()) -> N
         _check_own(directory, names, files(directory), field)
 
 
+def check_inside(directory: Path, place: Path, field: str) -> None:
+    """Refuse a place in a directory that a link leads out of it: a stranger may have made that.
+
+    Raises
+    ------
+    InputError
+        Then.
+    """
+    inner = place.relative_to(directory)
+    for part in (inner, *inner.parents[:-1]):
+        if (directory / part).is_symlink():
+            raise InputError("cannot-write", field, place, reason="a link leads out of the directory")
+
+
 @contextmanager
-def written(path: str | Path, field: str = "file") -> Iterator[Path]:
+def written(path: str | Path, field: str = "file", *, within: Path | None = None) -> Iterator[Path]:
     """Yield a place to write a file to, which then replaces the one that `path` means, with the mode of that.
 
-    Links are followed. What is no regular file, as a device or a pipe, is written to.
+    Links are followed, but for those in a directory `within` which all has to stay. What is no regular file, as a
+    device or a pipe, is written to.
 
     Raises
     ------
@@ -96,6 +111,8 @@ def written(path: str | Path, field: str = "file") -> Iterator[Path]:
         Where it cannot be written; there is then what was there before.
     """
     with _refusing(field, path):
+        if within is not None:
+            check_inside(within, Path(path), field)
         check_file(path, field)
         target = _target(path)
         if target is None:
@@ -133,9 +150,9 @@ def temporary() -> Iterator[Path]:
         raise InputError("no-room", "TMPDIR", reason=error.strerror or error) from None
 
 
-def write_text(path: str | Path, text: str, field: str = "file") -> Path:
+def write_text(path: str | Path, text: str, field: str = "file", *, within: Path | None = None) -> Path:
     """Write a file of text, as :func:`written`, and return its path."""
-    with written(path, field) as fresh:
+    with written(path, field, within=within) as fresh:
         fresh.write_text(text, encoding="utf-8")
     return Path(path)
 
@@ -200,6 +217,8 @@ def _publish(fresh: Path, directory: Path, own: Sequence[str], field: str) -> li
         _move_in(directory)
         listed = files(directory)
         _check_own(directory, names, listed, field)
+        for name in names:
+            check_inside(directory, directory / name, field)
         kept = [name for name in listed if not any(fnmatch(PurePosixPath(name).name, pattern) for pattern in own)]
         (fresh / LISTED).write_text("".join(f"{name}\n" for name in sorted({*kept, *names})), encoding="utf-8")
         with _uninterrupted():
@@ -222,6 +241,7 @@ def _move_in(directory: Path) -> None:
                     (directory / folder).rmdir()
         for source in sorted(path for path in ready.rglob("*") if path.is_file() and path != ready / LISTED):
             place = directory / source.relative_to(ready)
+            check_inside(directory, place, "--out")
             place.parent.mkdir(parents=True, exist_ok=True)
             source.replace(place)
         (ready / LISTED).replace(directory / LISTED)

@@ -79,7 +79,7 @@ class Store:
         InputError
             Where it cannot be written, as on a full disk; what is there stays.
         """
-        with written(self.path(part), "--out") as fresh:
+        with written(self.path(part), "--out", within=self.directory) as fresh:
             pq.write_table(table, fresh, compression="zstd")
 
 
@@ -190,7 +190,7 @@ def keep_seconds(directory: Path, seconds: Mapping[str, float]) -> None:
 
 
 def _write_record(directory: Path, record: Mapping[str, Any]) -> None:
-    write_text(directory / STUDY, json_text(record), "--out")
+    write_text(directory / STUDY, json_text(record), "--out", within=directory)
 
 
 def pilot_of(directory: Path) -> Pilot | None:
