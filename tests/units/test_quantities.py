@@ -112,6 +112,12 @@ def test_read(text, dimension, expected):
         ("2 kton/m^3", "density", "may mean the metric ton"),
         ("15 ton_force/m", "line force", "may mean the metric ton"),
         ("15 force_ton/m", "line force", "may mean the metric ton"),
+        ("20 mPa", "pressure", "counts in thousandths, by a small m; write a large M for millions"),
+        ("1.5 mN/m", "line force", "counts in thousandths"),
+        ("2.4 mt/m^3", "density", "counts in thousandths"),
+        # Digits of other scripts.
+        ("\u0661\u0660 m", "length", "is not a length"),
+        ("\uff11\uff10 m", "length", "is not a length"),
         # An angle is no number, although pint takes it for one.
         ("45 deg", "number", '"45 deg" is not a number; write for example 1.0'),
     ],

@@ -58,6 +58,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "{value} may mean the metric ton of 1000 kg or the one of 2000 lb",
         'write "t" (or "tonne") for the metric one, "short_ton" for the other',
     ),
+    "unit-milli": ("{value} counts in thousandths, by a small m", "write a large M for millions, as in MPa or MN"),
     "wrong-quantity": ("{value} is not {kind}", "write for example {example}"),
     "not-finite": ("{value} is not a finite number", "write for example {example}"),
     "unknown-field": ("no such field", "{suggestion}"),

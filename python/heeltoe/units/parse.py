@@ -19,7 +19,7 @@ STANDARD_GRAVITY = 9.80665
 
 # A number, then a unit made of names, powers, products and quotients. pint would read more (sums, "1,5 m" as
 # 15 m), and wrongly.
-_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s.,+-].{0,39})?", re.DOTALL)
+_QUANTITY = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*([^\d\s.,+-].{0,39})?", re.DOTALL)
 _PARTS = {"": 1.0, "%": 0.01, "percent": 0.01}
 _FREQUENCY = re.compile(r"[mkM]?Hz|hertz|1/s|s\^-1")
 _MEMORY = re.compile(r"[kMGT]i?B|B")
@@ -28,6 +28,8 @@ _ANGLE = re.compile(r"deg|degrees?|°|rad|radians?|mrad")
 _TON = re.compile(
     r"(?<![A-Za-z_])(?:[kM]|kilo|mega)?tons?(?:_force)?(?![A-Za-z_])|(?<![A-Za-z_])force_tons?(?![A-Za-z_])"
 )
+# A slip of the shift key: stresses and forces of dams are no thousandths.
+_MILLI = re.compile(r"(?<![A-Za-z_])m(?:Pa|N|t)(?![A-Za-z_])")
 # What engineers of the United States write and pint does not know. A pound on an area or a length is a force to them.
 _SHORT = {
     "pcf": "(lb/ft^3)",
@@ -205,6 +207,8 @@ def _factor(unit: str, value: object, dimension: str, field: str) -> float:
     expected = DIMENSIONS[dimension]
     if _TON.search(unit):
         raise InputError("unit-ton", field, shown(value))
+    if _MILLI.search(unit):
+        raise InputError("unit-milli", field, shown(value))
     try:
         if not expected.unit:
             # Not by way of pint, to which a degree is a number too: a friction of "45 deg" is not 0.785.
