@@ -97,7 +97,7 @@ def test_all_pairs_of_features(tmp_path, record_property):
 SOUND: dict[str, Any] = {
     "model": "rigid",
     "outcome": "ok",
-    "verdict": "As a rigid block, the dam slides 10.0 mm downstream. It does not keep within its limits: so it is.",
+    "verdict": "As a rigid block, the dam slides 10.0 mm downstream. A limit is not met: so it is.",
     "residual_slip_m": 0.01,
     "peak_slip_downstream_m": 0.02,
     "peak_slip_upstream_m": 0.0,

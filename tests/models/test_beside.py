@@ -147,4 +147,4 @@ def test_what_a_rigid_block_passes_and_the_dam_fails(elevation):
     response = run(case)
     assert response.model == "flexible"
     assert not any(check.met for check in response.limits)
-    assert "It does not keep within its limits" in verdict(response)
+    assert "A limit is not met: its" in verdict(response)

@@ -49,26 +49,26 @@ def judged(response: Response, limit: str, *, evidence: bool = True):
 @pytest.mark.parametrize(
     ("limit", "met", "certain", "words"),
     [
-        ("100 mm", True, True, "It keeps within its limits."),
+        ("100 mm", True, True, "All limits are met."),
         (
             "65 mm",
             True,
             False,
-            "It keeps within its limits, but not for certain: its residual slip of 60.0 mm ± 11.0 mm may "
+            "All limits are met, but not for certain: its residual slip of 60.0 mm ± 11.0 mm may "
             "be more than the 65.0 mm allowed.",
         ),
         (
             "55 mm",
             False,
             False,
-            "It does not keep within its limits, though not for certain: its residual slip of 60.0 mm ± 11.0 mm is "
+            "A limit is not met, though not for certain: its residual slip of 60.0 mm ± 11.0 mm is "
             "more than the 55.0 mm allowed.",
         ),
         (
             "40 mm",
             False,
             True,
-            "It does not keep within its limits: its residual slip of 60.0 mm is more than the 40.0 mm allowed.",
+            "A limit is not met: its residual slip of 60.0 mm is more than the 40.0 mm allowed.",
         ),
     ],
 )

@@ -87,7 +87,7 @@ def _limits(answer: Answer, verdict: str, outcome: str) -> Iterator[str]:
         sure = used is not None and outcome == "ok" and not math.isclose(used, 1.0, rel_tol=1e-12)
         if sure and (used <= 1.0) is not met:
             yield f"limit {check}"
-    reported = "not keep within its limits" in verdict or "No limit is met" in verdict
+    reported = "not met" in verdict or "No limit is met" in verdict
     if reported is not any(not check["met"] for check in limits):
         yield f"limits {limits}, verdict {verdict!r}"
     if len(answer.get("cracks") or ()) > 1:

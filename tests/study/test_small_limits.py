@@ -13,6 +13,6 @@ def test_limits_and_failures_of_a_table():
     runs = json.loads(result.stdout)["runs"]
     assert [run["outcome"] for run in runs] == ["ok", "ok", "unstable"]
     assert [[check["met"] for check in run["limits"]] for run in runs] == [[False], [True], [False]]
-    for words in ("limits", "kept", "NO", "yes", "1 of 3 runs keep within the limits, each as a rigid block"):
+    for words in ("limits", "kept", "NO", "yes", "1 of 3 runs meet the limits, each as a rigid block"):
         assert words in result.stderr, words
     assert "1 of 3 runs have no result to trust" in " ".join(result.stderr.split())

@@ -47,7 +47,10 @@ def test_the_verdict_names_it_where_the_concrete_does_not_bear_it(judged):
     tension = judged.tension
     message = verdict(judged)
     assert f"Its tension of {tension['stress_pa'] / 1e6:.3g} MPa {place_phrase(tension)}" in message
-    assert "more than the 0.75 MPa that the concrete bears: that nothing else cracks does not hold." in message
+    assert (
+        "more than the 0.75 MPa that the concrete bears, so the assumption of no further cracking is not valid."
+        in message
+    )
     assert "psi" in verdict(judged, "us")
     strong = replace(tension, strength=replace(tension.strength, exceeds=False))
     assert (

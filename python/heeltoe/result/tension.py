@@ -27,7 +27,7 @@ def tension_sentence(tension: Tension | None, units: str) -> str:
         return ""
     return written(
         "Its tension of {stress_pa:.3g MPa} {where}, {z_m:.3g m} up, at {time_s:.2f s} is more than the "
-        "{dynamic_pa:.3g MPa} that the concrete bears: that nothing else cracks does not hold.",
+        "{dynamic_pa:.3g MPa} that the concrete bears, so the assumption of no further cracking is not valid.",
         units,
         stress_pa=tension.stress_pa,
         where=place_phrase(tension),

@@ -101,7 +101,8 @@ def _limits(response: ResponseData, units: str) -> str:
     ]
     if broken:
         doubt = "" if any(check.certain for check in response.limits if not check.met) else ", though not for certain"
-        return f"It does not keep within its limits{doubt}: its {' and its '.join(broken)}."
+        subject = "A limit is" if len(broken) == 1 else f"{len(broken)} limits are"
+        return f"{subject} not met{doubt}: {listed([f'its {item}' for item in broken])}."
     doubted = [
         f"{limited(check, units)} of {_judged(check, units)} may be more than the "
         f"{measured(check.allowed, check.unit, units)} allowed"
@@ -109,12 +110,12 @@ def _limits(response: ResponseData, units: str) -> str:
         if not check.certain
     ]
     if doubted:
-        return f"It keeps within its limits, but not for certain: its {' and its '.join(doubted)}."
+        return f"All limits are met, but not for certain: {listed([f'its {item}' for item in doubted])}."
     if response.model == "rigid":
-        return "As a rigid block it keeps within its limits; as a dam that vibrates it may not."
+        return "As a rigid block it meets all limits; as a dam that vibrates it may not."
     if response.model == "decoupled":
-        return "As a rigid block it keeps within its limits; as a dam whose top vibrates, too, it may not."
-    return "It keeps within its limits."
+        return "As a rigid block it meets all limits; as a dam whose top vibrates, too, it may not."
+    return "All limits are met."
 
 
 def limited(check: LimitCheck, units: str = "si") -> str:

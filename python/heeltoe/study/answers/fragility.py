@@ -108,7 +108,7 @@ class Curve(Block):
 
 
 def not_met(walk: Walk) -> dict[str, dict[str, int]]:
-    """Return for each model how many runs do not keep within the limits of the case, by the name of the limit: where
+    """Return for each model how many runs do not meet the limits of the case, by the name of the limit: where
     any crack exceeds it, or the dam fails. A run without a result is not counted."""
     limits = walk.limits
     counts = {model: dict.fromkeys(limits, 0) for model in walk.models}

@@ -73,7 +73,7 @@ def _limits(subject: StudySubject) -> dict[str, str]:
 
 
 def _not_kept(subject: StudySubject, summary: dict[str, Any]) -> list[str]:
-    """Say how many runs do not keep within each limit of the base case."""
+    """Say how many runs do not meet each limit of the base case."""
     where = ", at one crack at least" if subject.results.walk.cracks > 1 else ""
     return [
         f"{summary['limits_not_met'][name]:,} of {summary['runs']:,} runs exceed the {limit} that the case "

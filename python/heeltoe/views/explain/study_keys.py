@@ -56,7 +56,7 @@ OF_OTHERS: dict[str, dict[str, str]] = {
         "summary[].share_that_slides": "Share of the runs that slide by more than a joint meter reads.",
         "summary[].slid_off": "How many slide off.",
         "summary[].undetermined": "How many depend on the last digit of the motion, as bounces amplify it.",
-        "summary[].limits_not_met": "How many runs do not keep within each limit of the base case.",
+        "summary[].limits_not_met": "How many runs do not meet each limit of the base case.",
         "summary[].limits_not_met.*": "How many runs exceed this limit at any crack, or fail.",
         "summary[].dominant_mode": "Which mode of motion makes most of the slip, in shares of the runs that slide.",
         "summary[].dominant_mode.*": "Share of the runs that slide in which this mode makes most of the slip.",

@@ -125,13 +125,13 @@ def _of_crack(place: int) -> _Column:
 
 
 def _judged(grid: SmallStudy) -> list[str]:
-    """Say how many runs keep within the limits, and how many have no result."""
+    """Say how many runs meet the limits, and how many have no result."""
     sentences = []
     judged = [response for response in grid.responses if response.limits]
     if judged:
         kept = sum(all(check.met for check in response.limits) for response in judged)
         as_what = "" if judged[0].elastic else ", each as a rigid block"
-        sentences.append(f"{kept} of {len(grid.responses)} runs keep within the limits{as_what}.")
+        sentences.append(f"{kept} of {len(grid.responses)} runs meet the limits{as_what}.")
     failed = sum(not response.ok for response in grid.responses)
     if failed:
         sentences.append(f"{failed} of {len(grid.responses)} runs have no result to trust.")
