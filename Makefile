@@ -22,8 +22,8 @@ PASSED = echo "$@: passed in $(SECONDS_SINCE)"
 
 help:
 	@echo "make demo       run the typical dam through El Centro 1940; report, figures and results in out/demo"
-	@echo "make test       the tests: kernels, every number of the physics, each figure, page and command once; 5 minutes"
-	@echo "make test-slow  longer validation, which a change must pass too; 15 minutes"
+	@echo "make test       the tests: kernels, every number of the physics, each figure, page and command once; 6 minutes"
+	@echo "make test-slow  longer validation, which a change must pass too; 20 minutes"
 	@echo "make test-all   both, and products: every figure of every example, every field under every model; an hour"
 	@echo "make attack     tries to break it, for hours; writes docs/attack.md (CASES=2000 SEED=7 ADD=1 for fewer, others, added)"
 	@echo "make test-pythons  the tests under every Python of 3.11 to 3.13 that is installed"
