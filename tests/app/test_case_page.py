@@ -35,6 +35,15 @@ def value_is(page, selector, value):
     page.wait_for_function("([at, is]) => document.querySelector(at).value === is", arg=[selector, value])
 
 
+def place_of(page, selector):
+    """Return where something is once it has stopped moving: the drawing takes its size while the page fills."""
+    before = None
+    while before != (now := page.locator(selector).bounding_box()):
+        before = now
+        page.wait_for_timeout(200)
+    return now
+
+
 @pytest.mark.path
 def test_what_is_typed_is_checked_at_its_field(case, picture):
     picture(case, "case")
@@ -61,7 +70,7 @@ def test_what_is_typed_is_checked_at_its_field(case, picture):
 
 def test_the_water_level_is_dragged_and_the_answer_follows(case):
     verdict = case.inner_text(VERDICT)
-    box = case.locator(f"{WATER} .knob").bounding_box()
+    box = place_of(case, f"{WATER} .knob")
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     case.mouse.move(x, y)
     case.mouse.down()
@@ -201,7 +210,7 @@ def test_looks(case, places):
 def drag_by_finger(page):
     before = page.input_value(DEPTH)
     page.locator(WATER).scroll_into_view_if_needed()
-    box = page.locator(f"{WATER} .knob").bounding_box()
+    box = place_of(page, f"{WATER} .knob")
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     fingers = page.context.new_cdp_session(page)
     for kind, points in (("Start", [{"x": x, "y": y}]), ("Move", [{"x": x, "y": y + 25}]), ("End", [])):

@@ -13,6 +13,9 @@ const DRAINS = "uplift.drain_efficiency";
  * @param {(began: number) => void} moved Called with the time of the event.
  */
 export function showSliders(root, sliders, drained, values, moved) {
+  // Who is about to press a key goes on where they are.
+  const active = document.activeElement;
+  const focused = root.contains(active) ? active?.id ? `#${active.id}` : `[aria-label="${active?.getAttribute("aria-label")}"]` : "";
   root.replaceChildren();
   for (const slider of sliders) {
     const id = `slider-${slider.path.replace(".", "-")}`;
@@ -41,6 +44,7 @@ export function showSliders(root, sliders, drained, values, moved) {
     box.append(wrong);
     root.append(box);
   }
+  if (focused) /** @type {HTMLElement | null} */ (root.querySelector(focused))?.focus();
 }
 
 /**
