@@ -90,7 +90,7 @@ def test_the_water_level_is_dragged_and_the_answer_follows(case):
         "([at, is]) => Number(document.querySelector(at).value) === is", arg=["#slider-reservoir-depth", depth]
     )
     # And back: what a slider changes stands in the form.
-    # What the drag has made may still arrive, and draws the sliders anew.
+    # The state after the drag may still arrive, and draws the sliders anew.
     while case.input_value("#slider-crack-friction") != "1.01":
         case.focus("#slider-crack-friction")
         case.keyboard.press("ArrowRight")

@@ -371,6 +371,7 @@ def test_a_hazard_file_is_what_its_headings_say(tmp_path, name, content):
         ("a.csv", OPENQUAKE.format(*probabilities(50), imt="SA(0.3)"), "hazard-measure"),
         ("a.csv", OPENQUAKE.format(*probabilities(50), imt="PGA") + "11,45,0,0.5,0.4,0.3,0.2,0\n", "hazard-sites"),
         ("a.json", '{"response": {}}', "hazard-unreadable"),
+        ("a.json", "[" * 20_000, "hazard-unreadable"),
     ],
 )
 def test_a_hazard_file_that_says_something_else_is_refused(tmp_path, name, content, code):

@@ -34,7 +34,7 @@ from heeltoe.app.workers import Workers
 _PAGE = Path(__file__).parent / "page"
 # What plays the moving dam, on the pages of animations and here.
 _PLAYER = Path(__file__).parents[1] / "views" / "animation" / "player"
-# What a tab can ask for, by name, page by page.
+# Requests of a tab by name, page by page.
 _ACTIONS = {
     name: entry
     for module in (open_case, case, motion, answer, checks, studies, export)

@@ -102,8 +102,7 @@ def check_inside(directory: Path, place: Path, field: str) -> None:
 def written(path: str | Path, field: str = "file", *, within: Path | None = None) -> Iterator[Path]:
     """Yield a place to write a file to, which then replaces the one that `path` means, with the mode of that.
 
-    Links are followed, but for those in a directory `within` which all has to stay. What is no regular file, as a
-    device or a pipe, is written to.
+    Links are followed, but for those in a directory `within` which all has to stay. A device or a pipe is written to.
 
     Raises
     ------

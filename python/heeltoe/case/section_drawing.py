@@ -16,7 +16,7 @@ Corners = list[tuple[float, float]]
 # What $INSUNITS of a drawing says.
 _UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 10: "yd", 14: "dm", 21: "survey_foot"}
 _MOST_NAMES = 8
-# What else may be the outline of a dam, or a part of one; texts, dimensions and hatches are not.
+# Lines that may be the outline of a dam, or a part of one; texts, dimensions and hatches are not.
 _LINES = "LINE LWPOLYLINE POLYLINE ARC CIRCLE ELLIPSE SPLINE INSERT"
 
 

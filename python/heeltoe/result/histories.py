@@ -102,7 +102,7 @@ class EventLog(Columns):
     """Columns of the events of a block."""
 
     time_s: Annotated[Floats, Number("Moment of the event.", "s")]
-    kind: Annotated[tuple[str, ...], Number("What happens.")]
+    kind: Annotated[tuple[str, ...], Number("Kind of event.")]
     mode_before: Annotated[tuple[str, ...], Number("Mode of motion until then.")]
     mode_after: Annotated[tuple[str, ...], Number("Mode of motion from then on.")]
     slip_m: Annotated[Floats, Number("Slip, positive downstream.", "m")]

@@ -57,7 +57,7 @@ class LimitCheck(Block):
     name: Annotated[str, Number("Field of limits in the case.")]
     value: Annotated[
         float | None,
-        Number("What the run has, without its sign, in `unit`; null of a dam that has failed without a result."),
+        Number("Size of the result in `unit`; null of a dam that has failed without a result."),
     ]
     allowed: Annotated[float, Number("How much the case allows, in `unit`.")]
     failed: Annotated[
@@ -69,7 +69,7 @@ class LimitCheck(Block):
     elevation_m: Annotated[
         float | None,
         Number(
-            "Of the crack whose result it is, where there are several: the largest of all, or each bonded joint's own.",
+            "Elevation of the crack that has this result, where there are several; each bonded joint has its own.",
             "m",
             optional=True,
         ),
@@ -91,7 +91,7 @@ class LimitCheck(Block):
 
     @property
     def label(self) -> str:
-        """What people call the result."""
+        """Name of the result in words."""
         return LIMITS[self.name].label
 
     @property

@@ -740,7 +740,7 @@ class Energy(Block):
         ),
     ]
     residual: Annotated[
-        float, Number("What is left of the balance of all others, over the turnover; rounding if the run is sound.")
+        float, Number("Error of the balance of all others, over the turnover; rounding if the run is sound.")
     ]
     damping_j: Annotated[float, Number("Energy lost in the concrete's damping; zero for a block.", _JOULE)] = 0.0
     fracture_j: Annotated[float, Number("Energy that the bonds of joints have taken; zero without one.", _JOULE)] = 0.0
@@ -757,7 +757,7 @@ class Energy(Block):
     gained_j: Annotated[
         float,
         Number(
-            "What contact added in steps of positive work, and bonds beyond what they held; it should be nothing.",
+            "Energy that contact added in steps of positive work, and bonds beyond their own; it should be nothing.",
             _JOULE,
         ),
     ] = 0.0
@@ -766,14 +766,14 @@ class Energy(Block):
 class Chosen(Block):
     """How a model came to be the one that the numbers are from."""
 
-    asked: Annotated[str, Number("What was asked for: a model, two of them, or auto.")]
+    asked: Annotated[str, Number("Model that was requested: one, two of them, or auto.")]
     why: Annotated[str, Number("Why it is this model.")]
 
 
 class Stage(Block):
     """A motion of a sequence, as the histories of its run have it."""
 
-    name: Annotated[str, Number("What the record is called.")]
+    name: Annotated[str, Number("Name of the record.")]
     pga_g: Annotated[float, Number("Peak acceleration of the motion.", "g")]
     begins_s: Annotated[float, Number("When the motion begins, in the time of the whole run.", "s")]
     ends_s: Annotated[float, Number("When it ends.", "s")]
@@ -790,5 +790,5 @@ class Stage(Block):
     ]
     static: Annotated[
         Mapping[str, Any],
-        Number("What the static checks say of the dam that it leaves: ok, what is missed, drainage that is left."),
+        Number("Static checks of the dam that it leaves: ok, the checks that are missed, drainage that is left."),
     ] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""What an analysis has found: one immutable record of plain data, which verdict, limits and comparison read."""
+"""The result of an analysis: one immutable record of plain data, which verdict, limits and comparison read."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ for _quantity in quantities_of(CrackNumbers):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CrackResponse(Numbered):
-    """What one crack did.
+    """The result of one crack.
 
     Attributes
     ----------
@@ -288,7 +288,7 @@ class ResponseData(Numbered):
 
     @property
     def sequence(self) -> tuple[Stage, ...]:
-        """What each motion does where the dam meets several, one after the other."""
+        """The result of each motion where the dam meets several, one after the other."""
         return self.cracks[self.asked].sequence
 
     @property

@@ -167,7 +167,7 @@ def draw(seed: int, kind: Kind = "plain") -> Case:
             "damping": float(own.choice([0.0, 0.02, 0.05] if kind == "rock and water" else [0.02, 0.05])),
         }
     if kind == "bonds":
-        # Of old lift joints and of good ones; energies are those of mass concrete.
+        # Old lift joints and good ones; energies are those of mass concrete.
         tensile = float(own.uniform(0.2, 1.5))
         fields["crack"]["bond"] = {
             "tensile_strength": f"{tensile:.3f} MPa",

@@ -226,7 +226,7 @@ pub(super) struct Bonds {
     sum: Vec<f64>,
     /// What they have taken in the step from each component of each contact.
     pub taken: Vec<f64>,
-    /// What they have given in the step beyond what they held; they ought to give no more (J).
+    /// Energy (J) that they have given in the step beyond what they held; they ought to give none.
     pub made: f64,
     /// Damage of each contact, 1 where it has no bond.
     pub damage: Vec<f64>,
@@ -499,8 +499,8 @@ impl Bonds {
         for (bonds, cracked) in self.cracks.iter_mut().zip(&mut self.cracked) {
             for bond in bonds.iter_mut() {
                 let k = bond.contact;
-                // Friction is that of pressure. Of what slips under tension all shear is the bond's; of what is pressed
-                // that, too, which the tension that it is shifted by adds to friction.
+                // Friction is that of pressure. All shear of a node that slips under tension is the bond's; so is the
+                // part that the shift adds to the friction of a node that is pressed.
                 let rubs = problem.mu_slip[k] * self.shift[m + k] * solver.status[k].sign();
                 let bond_share = if solver.p[m + k] < 0.0 {
                     solver.p[k]

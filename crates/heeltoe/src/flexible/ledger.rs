@@ -40,8 +40,8 @@ pub struct Ledger {
     pub floor: f64,
     /// Left through its far end.
     pub far_end: f64,
-    /// What contact has added in steps in which its work was positive, and bonds beyond what they held; neither ought to
-    /// add anything.
+    /// Energy that contact has added in steps of positive work, and bonds beyond what they held; neither ought to add
+    /// any.
     pub gained: f64,
     /// All that went in or out, without sign.
     pub turnover: f64,

@@ -22,7 +22,7 @@ from heeltoe.units.systems import unit_system
 _UPLIFT = 0.16
 # Margins of the view, as parts of the size: left, right, above, below.
 _MARGINS = (0.42, 0.36, 0.12, 0.2)
-# Of the points of a law so many are one that is drawn.
+# A law is drawn by one of this many of its points.
 _EVERY = 4
 _KINDS = {"slip path": "displacement", "slip speed": "velocity", "normal stress": "pressure"}
 

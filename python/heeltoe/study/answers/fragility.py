@@ -39,16 +39,16 @@ class Share(Block):
         tuple[float, float], Number("Exact bounds of the share for independent runs (Clopper and Pearson).")
     ]
     fitted: Annotated[float | None, Number("The same by the curve; null without one.")] = None
-    fitted_interval: Annotated[
-        tuple[float, float] | None, Number("What that lies within; null where it is not known.")
-    ] = None
+    fitted_interval: Annotated[tuple[float, float] | None, Number("Interval of that; null where it is not known.")] = (
+        None
+    )
 
 
 class NotStanding(Block):
     """The dams that do not stand before they are shaken."""
 
     count: Annotated[int, Number("How many.")]
-    dams: Annotated[int, Number("Of how many dams.")]
+    dams: Annotated[int, Number("Number of dams.")]
     runs: Annotated[int, Number("How many runs they have.")]
     share: Annotated[float, Number("Which part of the dams.")]
     interval: Annotated[
@@ -59,7 +59,7 @@ class NotStanding(Block):
 class Curve(Block):
     """A fragility curve with what it rests on; `knowledge` says how well it is known, None of a single event."""
 
-    limit: Annotated[str, Number("What is limited.")]
+    limit: Annotated[str, Number("Name of the limit.")]
     value: Annotated[float, Number("The limit, in SI.")]
     measure: Annotated[str, Number("How strong the motion is by.")]
     confidence: Annotated[float, Number("Probability of the intervals.")]
@@ -68,14 +68,14 @@ class Curve(Block):
     ] = None
     dispersion: Annotated[float | None, Number("Standard deviation of the logarithm of that strength.")] = None
     median_interval: Annotated[
-        Ends | None, Number("What the median lies within; null for an end that the runs do not give.")
+        Ends | None, Number("Interval of the median; null for an end that the runs do not give.")
     ] = None
-    dispersion_interval: Annotated[Ends | None, Number("What the dispersion lies within, as the median.")] = None
+    dispersion_interval: Annotated[Ends | None, Number("Interval of the dispersion, as of the median.")] = None
     record: Annotated[float | None, Number("Part of the dispersion from event to event.")] = None
     other: Annotated[float | None, Number("Part of it that is left where each event has a median of its own.")] = None
     runs: Annotated[int, Number("How many runs are behind the curve.")]
     exceeding: Annotated[int, Number("How many of them exceed the limit.")]
-    events: Annotated[int, Number("Of how many events.")]
+    events: Annotated[int, Number("Number of events.")]
     unknown: Annotated[int, Number("How many runs have no result and are behind no curve.")]
     reached: Annotated[bool, Number("Whether the runs reach up to the median.")] = True
     why: Annotated[str, Number("Why there is no curve; empty where there is one.")] = ""

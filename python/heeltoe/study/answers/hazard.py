@@ -127,7 +127,7 @@ def motions_of(strength: Floats, rate: Floats, width: float) -> Motions:
 
 
 class EventRate(Block):
-    """What an event makes of a rate."""
+    """Share of an event in a rate."""
 
     event: Annotated[str, Number("Name of the event.")]
     median: Annotated[float, Number("Strength at which half of the dams exceed the limit in its motions, in SI.")]
@@ -136,9 +136,9 @@ class EventRate(Block):
 
 
 class RateAt(Block):
-    """What a limit does in motions of one strength."""
+    """Probability of a limit in motions of one strength."""
 
-    strength: Annotated[float, Number("Of the motion, in SI.")]
+    strength: Annotated[float, Number("Strength of the motion, in SI.")]
     annual_rate: Annotated[float | None, Number("How often a year it is exceeded at the site; null beyond the curve.")]
     probability: Annotated[float, Number("Probability that the limit is exceeded in such a motion.")]
 
@@ -146,7 +146,7 @@ class RateAt(Block):
 class AnnualRate(Block):
     """How often a year a limit is exceeded; without a fragility curve nothing but why."""
 
-    limit: Annotated[str, Number("What is limited.")]
+    limit: Annotated[str, Number("Name of the limit.")]
     value: Annotated[float, Number("The limit, in SI.")]
     measure: Annotated[str, Number("Strength of the motions by which the curves go.")]
     why: Annotated[str, Number("Why there is no rate; empty where there is one.")]
@@ -167,7 +167,7 @@ class AnnualRate(Block):
     bounds_why: Annotated[str, Number("Why there is no upper bound; empty where there is one.")] = ""
     annual_rate_interval: Annotated[
         list[float] | None,
-        Number("What the rate lies within by the uncertainty of the fragility curve; null of a single event."),
+        Number("Interval of the rate by the uncertainty of the fragility curve; null of a single event."),
     ] = None
     extrapolated: Annotated[
         float | None,

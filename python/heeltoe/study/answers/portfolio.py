@@ -18,7 +18,7 @@ from heeltoe.study.run.aggregate import Walk
 class LimitValue(Block):
     """A limit by which dams are ranked."""
 
-    limit: Annotated[str, Number("What is limited.")]
+    limit: Annotated[str, Number("Name of the limit.")]
     value: Annotated[float, Number("The limit, in SI.")]
 
 
@@ -41,7 +41,7 @@ class RankedDam(Block):
 class Ranks(Block):
     """The dams of a table by their ranks, of one model."""
 
-    model: Annotated[str, Number("Of which model.")]
+    model: Annotated[str, Number("Model of the dam.")]
     limits: Annotated[tuple[LimitValue, ...], Number("The limits by which dams are ranked.")]
     motions: Annotated[int, Number("How many motions there are, each counted at each of its strengths.")]
     dams: Annotated[tuple[RankedDam, ...], Number("The dams, the worst first.")]

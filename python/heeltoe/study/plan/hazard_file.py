@@ -116,7 +116,7 @@ def _of_json(path: Path, field: str) -> tuple[str, Pairs]:
         name = str(known["imt"]["value"])
         unit = _UNITS.get(name.lower(), "g")
         return name, [(f"{float(x)!r} {unit}", rate(float(y))) for x, y in zip(values["xs"], values["ys"], strict=True)]
-    except (KeyError, TypeError, AttributeError, StopIteration):
+    except (KeyError, TypeError, AttributeError, StopIteration, RecursionError):
         raise ValueError("it is no response of NSHMP's hazard service") from None
 
 
