@@ -62,7 +62,7 @@ class Of(Generic[T]):
 
 
 class Numbered(ABC):
-    """What has the numbers of a crack, each an attribute by its JSON name; :mod:`heeltoe.result.numbers` says what they
+    """A holder of the numbers of a crack, each an attribute by its JSON name; :mod:`heeltoe.result.numbers` says what they
     mean."""
 
     @property

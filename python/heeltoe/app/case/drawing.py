@@ -1,4 +1,4 @@
-"""What the page of a case draws: its section as shapes [m], and the curve of its friction law."""
+"""Drawings on the page of a case: its section as shapes [m], and the curve of its friction law."""
 
 from __future__ import annotations
 
