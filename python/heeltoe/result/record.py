@@ -62,8 +62,8 @@ class Of(Generic[T]):
 
 
 class Numbered(ABC):
-    """A holder of the numbers of a crack, each an attribute by its JSON name; :mod:`heeltoe.result.numbers` says what they
-    mean."""
+    """A holder of the numbers of a crack, each an attribute by its JSON name, with the meaning that
+    :mod:`heeltoe.result.numbers` states."""
 
     @property
     @abstractmethod
