@@ -44,6 +44,9 @@ mod _kernel {
     use crate::stack::run_rigid_stack;
     #[pymodule_export]
     use crate::watch::Ending;
+    #[cfg(unix)]
+    #[pymodule_export]
+    use crate::watch::{end_if_deaf, hear_interruption};
 
     /// Response spectrum; see `_kernel.pyi`.
     #[pyfunction]

@@ -160,12 +160,12 @@ columns!(BlockHistories of Moment {
 
 columns!(BlockEvents of Event {
     time kind mode_before mode_after slip gap_heel gap_toe slip_velocity gap_velocity_heel gap_velocity_toe
-    approach_slip_velocity approach_velocity_heel approach_velocity_toe impulse_friction impulse_heel impulse_toe
+    approach_slip_velocity approach_velocity_heel approach_velocity_toe friction_impulse heel_impulse toe_impulse
     energy_lost
 }, joined);
 
 numbers!(DamSummary of elastic::Summary {
-    outcome end_time slip slip_max slip_min slip_velocity rotation_max rotation_min opening_heel opening_toe penetration
+    outcome end_time slip slip_max slip_min slip_velocity rotation_max rotation_min opening_upstream opening_downstream penetration
     slip_sliding slip_slide_rocking slip_drifting time_rest time_sliding time_rocking time_slide_rocking time_drifting
     impacts largest_impact_velocity peak_normal_force energy_start energy_stored energy_penalty energy_input
     energy_damping energy_numerical energy_impact energy_friction energy_gained energy_turnover energy_residual steps
@@ -175,9 +175,9 @@ numbers!(DamSummary of elastic::Summary {
 });
 
 columns!(DamFrames of Frames {
-    time slip slip_velocity rotation opening_heel opening_toe normal_force friction_force touching state energy_stored
-    energy_input energy_damping energy_impact energy_friction energy_numerical slip_path friction_strength
-    energy_fracture energy_boundary energy_floor energy_far_end cracked_from_heel cracked_from_toe cracked_length softening_length
+    time slip slip_velocity rotation gap_heel gap_toe normal_force friction_force touching state stored_energy
+    input_energy damping_energy impact_energy friction_energy numerical_energy slip_path friction_strength
+    fracture_energy boundary_energy floor_energy far_end_energy cracked_upstream cracked_downstream cracked_length softening_length
 });
 
 columns!(StressExtremes of elastic::Extreme { tension tension_time xx zz xz compression compression_time });

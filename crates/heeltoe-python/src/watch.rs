@@ -35,6 +35,49 @@ impl Ending {
     }
 }
 
+/// Whether Python has heard of the last interruption.
+#[cfg(unix)]
+static HEARD: AtomicBool = AtomicBool::new(true);
+
+/// See `_kernel.pyi`.
+#[cfg(unix)]
+#[pyfunction]
+pub fn end_if_deaf(descriptor: i32, seconds: f64) {
+    use std::io::{Read, Write};
+    use std::os::fd::FromRawFd;
+
+    extern "C" {
+        fn _exit(code: i32) -> !;
+    }
+    const INTERRUPTION: u8 = 2;
+    // SAFETY: Python has made the descriptor for this thread alone, and never closes it.
+    let mut signals = unsafe { std::fs::File::from_raw_fd(descriptor) };
+    let patience = Duration::from_secs_f64(seconds);
+    thread::spawn(move || {
+        let mut number = [0];
+        while signals.read_exact(&mut number).is_ok() {
+            if number[0] != INTERRUPTION {
+                continue;
+            }
+            HEARD.store(false, Ordering::Relaxed);
+            // Python hears at its next step, if it is not deep in a library.
+            thread::sleep(patience);
+            if !HEARD.load(Ordering::Relaxed) {
+                let _ = std::io::stderr().write_all(b"heeltoe: interrupted\n");
+                // SAFETY: nothing of this process runs after it; what it has put aside the next one removes.
+                unsafe { _exit(130) }
+            }
+        }
+    });
+}
+
+/// See `_kernel.pyi`.
+#[cfg(unix)]
+#[pyfunction]
+pub fn hear_interruption() {
+    HEARD.store(true, Ordering::Relaxed);
+}
+
 /// How long an interruption (Ctrl-C) may wait until it is seen.
 const OFTEN: Duration = Duration::from_millis(50);
 

@@ -79,7 +79,7 @@ impl Frames {
     pub(super) fn rest(&self, cracks: usize, seconds: f64, moved: f64) -> bool {
         let column = |name: &str| Self::FIELDS.iter().position(|field| *field == name);
         let at = |name| column(name).expect("a frame has it");
-        let (time, watched) = (at("time"), ["slip", "opening_heel", "opening_toe"].map(at));
+        let (time, watched) = (at("time"), ["slip", "gap_heel", "gap_toe"].map(at));
         let Some(end) = self.rows.last().map(|row| row[time]) else {
             return false;
         };
@@ -179,26 +179,26 @@ columns!(Snapshot<'_>, now => {
     "slip": now.motion.slip,
     "slip_velocity": now.summary.slip_velocity,
     "rotation": now.motion.rotation,
-    "opening_heel": now.motion.opening_heel,
-    "opening_toe": now.motion.opening_toe,
+    "gap_heel": now.motion.opening_heel,
+    "gap_toe": now.motion.opening_toe,
     "normal_force": now.force[1],
     "friction_force": now.force[0],
     "touching": now.touching(),
     "state": f64::from(now.summary.final_state as u8),
-    "energy_stored": now.ledger.stored,
-    "energy_input": now.ledger.input,
-    "energy_damping": now.ledger.damping,
-    "energy_impact": now.ledger.impact,
-    "energy_friction": now.ledger.friction,
-    "energy_numerical": now.ledger.numerical,
+    "stored_energy": now.ledger.stored,
+    "input_energy": now.ledger.input,
+    "damping_energy": now.ledger.damping,
+    "impact_energy": now.ledger.impact,
+    "friction_energy": now.ledger.friction,
+    "numerical_energy": now.ledger.numerical,
     "slip_path": now.summary.slip_path,
     "friction_strength": now.force[2],
-    "energy_fracture": now.summary.cracked.energy,
-    "energy_boundary": now.ledger.boundary,
-    "energy_floor": now.ledger.floor,
-    "energy_far_end": now.ledger.far_end,
-    "cracked_from_heel": now.summary.cracked.lengths[0],
-    "cracked_from_toe": now.summary.cracked.lengths[1],
+    "fracture_energy": now.summary.cracked.energy,
+    "boundary_energy": now.ledger.boundary,
+    "floor_energy": now.ledger.floor,
+    "far_end_energy": now.ledger.far_end,
+    "cracked_upstream": now.summary.cracked.lengths[0],
+    "cracked_downstream": now.summary.cracked.lengths[1],
     "cracked_length": now.summary.cracked.lengths[2],
     "softening_length": now.summary.cracked.lengths[3],
 });

@@ -47,9 +47,9 @@ pub struct Summary {
     /// Least rotation.
     pub rotation_min: f64,
     /// Largest opening at the heel (m).
-    pub opening_heel: f64,
+    pub opening_upstream: f64,
     /// Largest opening at the toe (m).
-    pub opening_toe: f64,
+    pub opening_downstream: f64,
     /// Largest depth (m) to which a watched node has gone into the other face.
     pub penetration: f64,
     /// Slip (m) while all watched nodes touch, while some do, and while none does.
@@ -91,8 +91,8 @@ columns!(Summary, s => {
     "slip_velocity": s.slip_velocity,
     "rotation_max": s.rotation_max,
     "rotation_min": s.rotation_min,
-    "opening_heel": s.opening_heel,
-    "opening_toe": s.opening_toe,
+    "opening_upstream": s.opening_upstream,
+    "opening_downstream": s.opening_downstream,
     "penetration": s.penetration,
     "slip_sliding": s.slip_by_state[0],
     "slip_slide_rocking": s.slip_by_state[1],

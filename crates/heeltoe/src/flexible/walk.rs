@@ -97,8 +97,8 @@ impl Watch {
         summary.slip_min = summary.slip_min.min(after.slip);
         summary.rotation_max = summary.rotation_max.max(after.rotation);
         summary.rotation_min = summary.rotation_min.min(after.rotation);
-        summary.opening_heel = summary.opening_heel.max(after.opening_heel);
-        summary.opening_toe = summary.opening_toe.max(after.opening_toe);
+        summary.opening_upstream = summary.opening_upstream.max(after.opening_heel);
+        summary.opening_downstream = summary.opening_downstream.max(after.opening_toe);
         summary.peak_normal_force = summary.peak_normal_force.max(normal_force);
         summary.final_state = state;
         self.motion = after;

@@ -88,9 +88,9 @@ columns!(Event, e => {
     "approach_slip_velocity": e.approach[SLIP],
     "approach_velocity_heel": e.approach[HEEL],
     "approach_velocity_toe": e.approach[TOE],
-    "impulse_friction": e.impulse[SLIP],
-    "impulse_heel": e.impulse[HEEL],
-    "impulse_toe": e.impulse[TOE],
+    "friction_impulse": e.impulse[SLIP],
+    "heel_impulse": e.impulse[HEEL],
+    "toe_impulse": e.impulse[TOE],
     "energy_lost": e.energy_lost,
 });
 

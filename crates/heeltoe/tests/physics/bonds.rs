@@ -375,7 +375,7 @@ fn a_bond_without_strength_is_a_crack_to_the_last_bit() {
         "rotation",
         "normal_force",
         "friction_force",
-        "energy_stored",
+        "stored_energy",
     ] {
         assert_eq!(column(&dam, name), column(&crack, name), "{name}");
     }

@@ -268,7 +268,7 @@ fn a_node_that_drops_does_not_rebound_and_its_energy_is_the_impacts() {
         weight * pair.gap,
         weight * crack.impact_velocity * dt,
     );
-    near(crack.opening_heel, pair.gap, GRAVITY * dt * dt);
+    near(crack.opening_upstream, pair.gap, GRAVITY * dt * dt);
     // It is held on velocities: half a step of its speed at most.
     assert!(
         crack.penetration <= 0.500_001 * crack.impact_velocity * dt,
