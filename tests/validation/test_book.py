@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from heeltoe.validation.book import numbers, pages, store
-from heeltoe.validation.book.__main__ import make
-from heeltoe.validation.row import Row
+from validation.book import numbers, pages, store
+from validation.book.__main__ import make
+from validation.row import Row
 
 
 @pytest.mark.parametrize(

@@ -1,16 +1,17 @@
 """The reference cases hold, their pages say what they find, and a wrong number would be seen."""
 
 import io
+import re
 
 import pytest
 from rich.console import Console
 
-from heeltoe import InputError
-from heeltoe.validation.book import pages, store
-from heeltoe.validation.cases import CASES, run_case
-from heeltoe.validation.row import Row, Skipped
-from heeltoe.validation.table import run_all
 from shared.dams import ROOT
+from shared.pages import PAGES
+from validation.__main__ import run_all
+from validation.book import pages, store
+from validation.cases import CASES, run_case, wanted
+from validation.row import Row, Skipped
 
 BOOK = ROOT / "docs" / "validation"
 
@@ -92,12 +93,18 @@ def test_what_deviates_is_said_and_not_called_ok():
 
 def test_the_tables_are_printed():
     text = io.StringIO()
-    assert run_all("impulse", Console(file=text, width=160))
+    assert run_all(["impulse"], Console(file=text, width=160))
     assert "slip after 0.4 s" in text.getvalue()
     assert "chapters IV and V: the printed parabolas" in " ".join(text.getvalue().split())
     assert "2 within what their reference is good for, 0 deviate and say why, 0 outside" in text.getvalue()
 
 
 def test_an_unknown_case_is_refused():
-    with pytest.raises(InputError, match="choose one of impulse"):
-        run_all("koyna", Console(file=io.StringIO()))
+    with pytest.raises(SystemExit, match="no reference case: koyna; there are impulse"):
+        wanted(["impulse", "koyna"])
+
+
+def test_the_pages_name_cases_that_are_there():
+    named = [name for text in PAGES.values() for name in re.findall(r"python -m validation ([a-z][\w.-]*)", text)]
+    assert len(named) > len(CASES)
+    assert set(named) == set(CASES)

@@ -1,5 +1,0 @@
-"""The reference cases as small programs: reference, ours, deviation, verdict.
-
-A case is a function that yields rows. It runs through the same calls a user makes wherever the case file can express
-it. ``heeltoe validate`` prints the tables; the tests assert them.
-"""
