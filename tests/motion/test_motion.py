@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from importlib.util import find_spec
 
 import numpy as np
@@ -231,3 +232,38 @@ def test_a_factor_beyond_all_numbers_is_refused():
         with pytest.raises(InputError) as refused:
             motion.scaled(factor)
         assert refused.value.code == "motion-not-finite"
+
+
+@pytest.mark.parametrize(
+    ("time", "acceleration", "code"),
+    [
+        ([0.0, 0.1, 0.2], np.ma.masked_array([0.0, 1.0, 0.0], [False, True, False]), "motion-not-finite"),
+        (np.ma.masked_array([0.0, 0.1, 0.2], [False, True, False]), [0.0, 1.0, 0.0], "motion-not-finite"),
+        (np.array(["2024-01-01", "2024-01-02"], "datetime64[s]"), [0.0, 1.0], "motion-no-numbers"),
+        (np.array([0, 10], "timedelta64[ms]"), [0.0, 1.0], "motion-no-numbers"),
+        ([datetime(2024, 1, 1), datetime(2024, 1, 2)], [0.0, 1.0], "motion-no-numbers"),
+        (np.array([np.datetime64("2024-01-01"), 1.0], dtype=object), [0.0, 1.0], "motion-no-numbers"),
+        ([0.0, 1.0], [0.0, 1.0j], "motion-no-numbers"),
+        ([0.0, 1.0], ["0", "1"], "motion-no-numbers"),
+        ([0.0, 1.0], [False, True], "motion-no-numbers"),
+        ([0.0, 1.0, 2.0], [0.0, 1e300, 0.0], "motion-peak"),
+        ([0.0, 1e300, 2e300], [0.0, 1.0, 0.0], "motion-peak"),
+    ],
+)
+def test_what_is_no_motion_is_refused(time, acceleration, code):
+    for make in (GroundMotion.from_points, lambda t, a: GroundMotion("made", t, a)):
+        with pytest.raises(InputError) as refused:
+            make(time, acceleration)
+        assert refused.value.code == code
+
+
+def test_numbers_of_any_kind_make_a_motion():
+    expected = GroundMotion("made", np.array([0.0, 1.0, 2.0]), np.array([0.0, 3.0, -1.0]))
+    for kind in (list, np.float32, np.int16, object):
+        values = [
+            np.asarray(values) if kind is list else np.asarray(values, kind) for values in ([0, 1, 2], [0, 3, -1])
+        ]
+        motion = GroundMotion("made", *values)
+        assert motion.acceleration.tolist() == expected.acceleration.tolist()
+    unmasked = np.ma.masked_array([0.0, 3.0, -1.0])
+    assert GroundMotion("made", expected.time, unmasked).pga == 3.0

@@ -17,6 +17,7 @@ from heeltoe.motion.measures import (
     cumulative_absolute_velocity,
     fourier_amplitudes,
     husid_time,
+    level_of,
     mean_period,
     measures,
     significant_duration,
@@ -172,9 +173,78 @@ def test_a_band_pass_keeps_what_the_filter_puts_beside_the_record():
     # With five times the zeros, all of them kept.
     padded = GroundMotion("padded", 0.01 * np.arange(64001), np.pad(pulse.acceleration, 30000))
     assert passed.pgd == pytest.approx(band_pass(padded, low=0.1).pgd, rel=0.01)
-    assert passed.duration < 120.0
+    # Not all of the zeros stay: 60 s on either side of 40 s.
+    assert passed.duration < 160.0
     own = GroundMotion("cut off", time, of_the_record(passed, pulse))
     assert own.pgd > 2.0 * passed.pgd
+
+
+def shaking():
+    """A record that starts and ends at rest, of no mean worth a word."""
+    time = 0.01 * np.arange(3001)
+    wave = np.hanning(3001) * (np.sin(9.0 * time) + 0.4 * np.sin(2.3 * time + 1.0))
+    return GroundMotion("shaking", time, wave)
+
+
+@pytest.mark.parametrize(("level", "trend"), [(9.80665, 0.0), (-0.3, 0.0), (0.0, 0.02), (1.0, -0.05)])
+def test_a_band_pass_makes_no_shock_of_the_edges_of_an_offset(level, trend):
+    """What the record is without offset and trend is the right value; padded with zeros, an offset makes it another."""
+    clean = shaking()
+    lifted = GroundMotion("lifted", clean.time, clean.acceleration + level + trend * (clean.time - 15.0))
+    right, passed = band_pass(clean, 0.1, 25.0), band_pass(lifted, 0.1, 25.0)
+    assert (passed.pgv, passed.pgd) == pytest.approx((right.pgv, right.pgd), rel=1e-6)
+    if level:
+        assert f"level of {level:.4g} m/s2" in passed.processing[0]
+        edges = GroundMotion("edges", 0.01 * np.arange(27001), np.pad(clean.acceleration + level, 12000))
+        assert band_pass(edges, 0.1, 25.0).pgd > 1.1 * right.pgd
+
+
+def test_a_pulse_to_one_side_is_no_offset():
+    """Its mean is a tenth of its peak: taken out, it would leave a box behind."""
+    time = 0.01 * np.arange(4001)
+    pulse = GroundMotion("pulse", time, np.exp(-(((time - 20.0) / 1.5) ** 2)))
+    level, trend = level_of(pulse)
+    assert abs(level) < 1e-4 < 1e-2 < pulse.acceleration.mean()
+    assert abs(trend) < 1e-9
+
+
+def test_what_a_filter_leaves_beside_a_record_is_said():
+    said = band_pass(shaking(), 0.1, 25.0).processing[0]
+    assert "s of zeros on either side, of which" in said
+    share = float(said.rsplit("with up to ", 1)[1].split(" ")[0])
+    assert 0.0 < share < 0.05
+
+
+def test_a_record_that_is_cut_off_as_it_shakes_fades_to_its_next_change_of_sign():
+    """Cut at its largest value: an edge of 1 m/s2 that ends there is what the filter would make a shock of."""
+    time = 0.01 * np.arange(2001)
+    begun = GroundMotion("begun", time, np.cos(2.0 * np.pi * time) * np.exp(-0.2 * time))
+    passed = band_pass(begun, 0.1)
+    first = round(passed.lead / 0.01)
+    assert abs(passed.acceleration[first]) < 0.2
+    # From a quarter of a period on it is the record.
+    assert np.corrcoef(passed.acceleration[first + 25 : first + 500], begun.acceleration[25:500])[0, 1] > 0.97
+
+
+def test_a_record_with_gravity_in_it_is_recognised(tmp_path):
+    clean = shaking()
+    for name, level in (("gravity", 1.0), ("offset", 0.02), ("none", 0.0)):
+        rows = "\n".join(f"{t:.2f} {0.1 * a + level:.6f}" for t, a in zip(clean.time, clean.acceleration, strict=True))
+        (tmp_path / f"{name}.txt").write_text(f"time [s] acceleration [g]\n{rows}\n")
+
+    def resolved(name, *steps):
+        case = read_case(DAM | {"motion": {"file": f"{name}.txt", "processing": list(steps)}})
+        return resolve(case.motion, case.gravity, tmp_path)[0]
+
+    passing = {"step": "band-pass", "low": "0.1 Hz", "high": "25 Hz"}
+    with pytest.raises(InputError, match=r"motion: gravity rests at 1 g: gravity is in it.*band-pass"):
+        resolved("gravity")
+    through = resolved("gravity", passing)
+    assert "motion-gravity" in {notice.code for notice in through.warnings}
+    assert through.pgd == pytest.approx(resolved("none", passing).pgd, rel=1e-3)
+    notices = {notice.code for notice in resolved("offset", passing).warnings}
+    assert "motion-offset" in notices
+    assert not {"motion-offset", "motion-gravity"} & {notice.code for notice in resolved("none").warnings}
 
 
 def test_seconds_before_a_record_keep_its_times_and_its_other_component(tmp_path):

@@ -135,8 +135,8 @@ CSMNC
 """
 
 
-def unam(step: str = "/0.005/0.005/0.005") -> str:
-    """Three channels side by side."""
+def unam(step: str = "/0.005/0.005/0.005", heads: int = 3, channels: int = 3) -> str:
+    """Three channels side by side, some files with headings for more."""
     table = np.column_stack([GAL, 0.5 * GAL, -0.3 * GAL])
     line = "---------+" * 8
     return f"""\
@@ -146,7 +146,7 @@ def unam(step: str = "/0.005/0.005/0.005") -> str:
 ARCHIVO ESTANDAR DE ACELERACION:
 VERSION DEL FORMATO                    : 2.0
 NOMBRE DE LA ESTACION                  : VALLE VACIO
-NUMERO DE CANALES                      : 3
+NUMERO DE CANALES                      : {channels}
 INTERVALO DE MUESTREO, C1-C6 (s)       : {step}
 INTERVALO DE MUESTREO, C7-C12 (s)      :
 FECHA DEL SISMO [GMT]                  : 1980/01/01
@@ -158,7 +158,7 @@ UNIDADES DE LOS DATOS                  : Gal (cm/s/s)
 FORMATO DATOS (FORTRAN,10 campos/dato) : 3F10.4
 DATOS DE ACELERACION:
 {line}
-   CANAL-1   CANAL-2   CANAL-3
+{"".join(f"   CANAL-{k}" for k in range(1, heads + 1))}
       N00E      N90E         V
 {line}
 {rows(table.ravel(), 3, "10.4f")}
@@ -215,6 +215,99 @@ RMS ACCEL OF COMPLETE RECORD = 0.106 G
     )
 
 
+def csmip_v1(values: np.ndarray = 10.0 * WAVE, *, equal: bool = False, of_1998: bool = False) -> str:
+    """Two components: as pairs of time and tenths of g, or, as of late, in equal steps and g, in the words of two
+    years."""
+    numbers = f"{rows(np.zeros(100, dtype=int), 16, '5d')}\n{rows(np.zeros(50), 8, '10.3f')}\n"
+    parts = []
+    for number, way, share in ((1, "90 DEG", 1.0), (2, "UP", 0.5)):
+        of = share * values
+        if equal:
+            units = "Units of uncor data are sec and g ."
+            record = f" {len(of)} Accelerogram points at 100 pts/sec in units of g .      Format: (8f9.6)\n"
+            record += rows(of / 10.0, 8, "9.6f")
+            event = ("Record of Tue Jan 1, 1980 12:00:00.0 PST             (Avol1 v9.2)", "XYZ Preliminary Processing")
+            if of_1998:
+                units = "UNITS OF UNCOR ACCEL IS G.             "
+                record = f"{len(of)} POINTS OF ACCEL DATA EQUALLY SPACED AT .010 SEC.  (UNITS: G)\n"
+                record += rows(of / 10.0, 8, "9.6f")
+        else:
+            units = "UNITS OF UNCOR ACCEL ARE SEC AND G/10."
+            record = rows(np.column_stack([0.01 * np.arange(len(of)), of]).ravel(), 10, "7.3f")
+            event = (
+                "NOWHERE EARTHQUAKE",
+                "JANUARY 1, 1980 12:00 PST              (ORIGIN(XYZ): 01/01/80, 20:00:00.0 GMT)",
+            )
+        parts.append(
+            f"""\
+UNCORRECTED ACCELEROGRAM DATA              PROCESSED: 02/08/80, XYZ QN94A403
+{event[0]}
+{event[1]}
+99999-S1234-80001.02               TRIGGER TIME: 01/01/80, 20:00:10.0 UTC
+STATION NO. 99999   35.000N, 120.000W     SMA-1  S/N 1234
+EMPTY VALLEY - DAM
+CHAN  {number}: {way}
+NOWHERE EARTHQUAKE     JANUARY 1, 1980 12:00 PST
+HYPOCENTER(XYZ): 35.000N, 120.000W, H=18KM. ML=6.6
+INSTR PERIOD =  .0397 SEC,  DAMPING =  .592,  SENSITIVITY = 1.77 CM/G.
+NO. OF POINTS =  {len(of)}  RECORD LENGTH = {0.01 * len(of):.3f} SEC
+{units}     MAX  = {_peak(of) / 10.0:6.3f} G, AT   0.780 SEC.
+RMS ACCEL OF COMPLETE RECORD =  .021 G.
+{numbers}{record}
+/&  ----------  END OF DATA FOR CHANNEL {number}  ----------
+"""
+        )
+    return "".join(parts)
+
+
+def usc_v1(values: np.ndarray = 10.0 * WAVE) -> str:
+    """One component as pairs of time and tenths of g; its lines of text end with their lengths."""
+    numbers = f"{rows(np.zeros(100, dtype=int), 16, '5d')}\n{rows(np.zeros(50), 8, '10.3f')}\n"
+    pairs = np.column_stack([0.01 * np.arange(len(values)), values]).ravel()
+    record = "\n".join(" " + row for row in rows(pairs, 10, "7.3f").split("\n"))
+    return f"""\
+FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:
+NOWHERE EARTHQUAKE                                                      18
+JAN 1, 1980 -2000 GMT                                                   21
+IBB999  80.001.0 N                                                      18
+STATION USC# 9999   35 00 00N, 120 00 00W                               39
+EMPTY VALLEY, DAM                                                       17
+COMP S05W                                                               9
+NOWHERE EARTHQUAKE   JAN 1, 1980 -2000 GMT                              46
+EPICENTER -   35 00 00N, 120 00 00W                                     35
+INSTR PERIOD =  .037 SEC  DAMPING =   .568  SENSITIVITY =   1.69CM/G    69
+NO. OF POINTS =   {len(values)}      DURATION =  {0.01 * (len(values) - 1):.3f} SEC                      50
+UNITS ARE SEC AND G/10                                                  22
+RMS ACCLN. OF COMPLETE RECORD =     .211 G/10                           45
+{numbers}{record}
+"""
+
+
+def taiwan(order: str = "U(+); N(+); E(+)") -> str:
+    """Time and three components side by side."""
+    table = np.column_stack([0.01 * np.arange(len(GAL)), GAL, 0.5 * GAL, -0.3 * GAL])
+    peaks = "".join(
+        f"#AmplitudeMAX. {way}: {column.max():9.3f}~ {column.min():9.3f}\n"
+        for way, column in zip("UNE", table.T[1:], strict=True)
+    )
+    return f"""\
+#Earthquake Information
+#Origin Time(GMT+08): 1980/01/01-20:00:00
+#Magnitude(Ml): 6.5
+#Depth(km): 10.0
+
+#StationCode: ABC
+#InstrumentKind: FBA
+#StartTime(GMT+08): 1980/01/01-20:00:10.000
+#RecordLength(sec): 2
+#SampleRate(Hz): 100
+#AmplitudeUnit:  gal. DCoffset(corr)
+{peaks}#DataSequence: Time {order}
+#Data: 4F10.3
+{rows(table.ravel(), 4, "10.3f")}
+"""
+
+
 # Of 100 s and more there is no blank left between the columns.
 _LATE = 100.0
 
@@ -229,4 +322,9 @@ SAMPLES = {
     "unam": unam,
     "bhrc": bhrc,
     "renadic": renadic,
+    "csmip v1": lambda: csmip_v1(equal=True),
+    "csmip v1 of 1998": lambda: csmip_v1(equal=True, of_1998=True),
+    "csmip v1 of pairs": csmip_v1,
+    "usc v1": usc_v1,
+    "taiwan": taiwan,
 }

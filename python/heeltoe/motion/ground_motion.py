@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from heeltoe.base.arrays import Floats
 from heeltoe.base.display import Shown
+from heeltoe.base.frozen import ReadOnlyArrays
 from heeltoe.base.pandas import dataframe
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
@@ -22,6 +23,10 @@ UNCORRECTED = "record-uncorrected"
 _CUT = "cut to "
 # Of a refined motion: days of shaking at a thousandth of a second, and still within memory.
 _MOST_SAMPLES = 5e7
+# What arrays hold that are no numbers, by NumPy's letters.
+_KINDS = {"M": "dates", "m": "NumPy's durations", "c": "complex numbers", "b": "truth values", "U": "words"}
+#: No acceleration of a record is larger [m/s2], nor any time [s]; numbers of several runs multiply them.
+LARGEST_VALUE = 1e12
 
 
 def integrals(time: Floats, acceleration: Floats) -> tuple[Floats, Floats]:
@@ -57,7 +62,7 @@ class Part:
 
 
 @dataclass(frozen=True, eq=False)
-class GroundMotion(Shown):
+class GroundMotion(Shown, ReadOnlyArrays):
     """An immutable ground acceleration.
 
     Attributes
@@ -98,7 +103,7 @@ class GroundMotion(Shown):
 
     def __post_init__(self) -> None:
         for name in ("time", "acceleration"):
-            values = np.ascontiguousarray(getattr(self, name), dtype=np.float64)
+            values = self._numbers(name)
             if values.flags.writeable:
                 values = values.copy()
                 values.flags.writeable = False
@@ -121,6 +126,30 @@ class GroundMotion(Shown):
             object.__setattr__(self, "time", shifted)
             object.__setattr__(self, "processing", (*self.processing, f"time counted from {t[0]:g} s"))
 
+    def _numbers(self, name: str) -> Floats:
+        """Return times or accelerations as an array of numbers.
+
+        Raises
+        ------
+        InputError
+            Where they are none, some are masked, or one is beyond all motions of the ground.
+        """
+        given = getattr(self, name)
+        if np.ma.is_masked(given):
+            bad = int(np.flatnonzero(np.ma.getmaskarray(given))[0])
+            raise InputError("motion-not-finite", self.name, f"{name}, masked", number=bad + 1)
+        values = np.ma.getdata(np.ma.asanyarray(given))
+        if values.dtype.kind == "O":
+            values = np.asarray(values.tolist())
+        if values.dtype.kind not in "iuf":
+            kind = _KINDS.get(values.dtype.kind, "no numbers")
+            raise InputError("motion-no-numbers", self.name, name, kind=kind)
+        values = np.ascontiguousarray(values, dtype=np.float64)
+        beyond = np.flatnonzero(np.isfinite(values) & (np.abs(values) > LARGEST_VALUE))
+        if beyond.size:
+            raise InputError("motion-peak", self.name, f"{values.flat[beyond[0]]:.4g}", name=f"its {name}")
+        return values
+
     def __repr__(self) -> str:
         ways = "".join(f", {plain(text)}" for text in (self.event, self.component) if text)
         return (
@@ -135,7 +164,7 @@ class GroundMotion(Shown):
     @classmethod
     def from_points(cls, time: ArrayLike, acceleration: ArrayLike, *, name: str = "points") -> GroundMotion:
         """Make a motion of moments [s] and accelerations [m/s2], straight in between."""
-        return cls(name, np.array(time, dtype=np.float64), np.array(acceleration, dtype=np.float64))
+        return cls(name, time, acceleration)  # type: ignore[arg-type]
 
     @property
     def duration(self) -> float:

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Annotated
+
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.blocks import Block, Number
 from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion, integrals
 from heeltoe.units.parse import STANDARD_GRAVITY
 
 # Samples up to which zeros behind a record cost nothing to speak of: some 20 MB.
 _PADDED = 1 << 20
+# Samples of which medians tell a level, and rounds after which a trend no longer changes.
+_FEWEST, _ROUNDS = 30, 20
 
 
 def velocity_displacement(motion: GroundMotion) -> tuple[Floats, Floats]:
@@ -23,6 +29,26 @@ def velocity_displacement(motion: GroundMotion) -> tuple[Floats, Floats]:
         here = motion.part_slice(part)
         velocity[here], displacement[here] = integrals(motion.time[here], motion.acceleration[here])
     return velocity, displacement
+
+
+def level_of(motion: GroundMotion) -> tuple[float, float]:
+    """Return the level at which a record in equal steps rests [m/s2] and the trend of it [m/s3].
+
+    It is the resistant line of Tukey (1977): its slope is that between the medians of the first and the last third, its
+    height in the middle the median of what remains. The strong part of a record and pulses to one side, which shift a
+    mean, hardly move it. A motion drawn by points rests at zero by what points mean.
+    """
+    values = motion.acceleration
+    if motion.format == "points" or values.size < _FEWEST:
+        return 0.0, 0.0
+    third, place = values.size // 3, motion.time - motion.duration / 2.0
+    away = place[-third:].mean() - place[:third].mean()
+    slope, rest = 0.0, values
+    # The medians of thirds with a trend in them are not its own; a few rounds find it.
+    for _ in range(_ROUNDS):
+        more = float((float(np.median(rest[-third:]) - np.median(rest[:third]))) / away)
+        slope, rest = slope + more, rest - more * place
+    return float(np.median(rest)), slope
 
 
 def husid(motion: GroundMotion) -> Floats:
@@ -146,27 +172,48 @@ def mean_period(motion: GroundMotion) -> float:
     return float(np.sum(power / frequency) / power.sum())
 
 
-def measures(motion: GroundMotion, gravity: float = STANDARD_GRAVITY) -> dict[str, float]:
-    """Return all measures by names that carry their units.
+class Measures(Block):
+    """All measures of a motion."""
+
+    duration_s: Annotated[float, Number("Length of the motion.", "s")]
+    pga_m_s2: Annotated[float, Number("Peak acceleration, without sign.", "m/s²")]
+    pgv_m_s: Annotated[float, Number("Peak velocity.", "m/s")]
+    pgd_m: Annotated[float, Number("Peak displacement, by integration from rest.", "m")]
+    arias_intensity_m_s: Annotated[float, Number("Arias intensity.", "m/s")]
+    cav_m_s: Annotated[float, Number("Cumulative absolute velocity.", "m/s")]
+    end_velocity_m_s: Annotated[float, Number("Velocity at the end: what a sound record leaves is small.", "m/s")]
+    end_displacement_m: Annotated[float, Number("Displacement at the end, from rest.", "m")]
+    significant_duration_s: Annotated[
+        float | None, Number("Time in which 5 to 95 % of the Arias intensity come in.", "s", optional=True)
+    ]
+    mean_period_s: Annotated[float | None, Number("Mean period of the Fourier amplitudes.", "s", optional=True)]
+
+
+def measures(motion: GroundMotion, gravity: float = STANDARD_GRAVITY) -> Measures:
+    """Return all measures.
 
     The mean period is left out where the motion jumps and so has no samples to take a Fourier transform of, and
     durations and periods of a motion that is zero throughout.
     """
     velocity, displacement = velocity_displacement(motion)
-    result = {
-        "duration_s": motion.duration,
-        "pga_m_s2": motion.pga,
-        "pgv_m_s": motion.pgv,
-        "pgd_m": motion.pgd,
-        "arias_intensity_m_s": arias_intensity(motion, gravity),
-        "cav_m_s": cumulative_absolute_velocity(motion),
-        "end_velocity_m_s": float(velocity[-1]),
-        "end_displacement_m": float(displacement[-1]),
-    }
-    for name, measure in (("significant_duration_s", significant_duration), ("mean_period_s", mean_period)):
-        try:
-            result[name] = measure(motion)
-        except InputError as error:
-            if error.code not in ("order-zero", "order-uniform"):
-                raise
-    return result
+    return Measures(
+        duration_s=motion.duration,
+        pga_m_s2=motion.pga,
+        pgv_m_s=motion.pgv,
+        pgd_m=motion.pgd,
+        arias_intensity_m_s=arias_intensity(motion, gravity),
+        cav_m_s=cumulative_absolute_velocity(motion),
+        end_velocity_m_s=float(velocity[-1]),
+        end_displacement_m=float(displacement[-1]),
+        significant_duration_s=_known(significant_duration, motion),
+        mean_period_s=_known(mean_period, motion),
+    )
+
+
+def _known(measure: Callable[[GroundMotion], float], motion: GroundMotion) -> float | None:
+    try:
+        return measure(motion)
+    except InputError as error:
+        if error.code not in ("order-zero", "order-uniform"):
+            raise
+        return None

@@ -12,9 +12,10 @@ from typing import Literal, Protocol
 
 import numpy as np
 
+from heeltoe.base.arrays import Floats
 from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion, integrals
-from heeltoe.motion.measures import arias_intensity, fourier_amplitudes, husid_time, measures, uniform
+from heeltoe.motion.measures import arias_intensity, fourier_amplitudes, husid_time, level_of, measures, uniform
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.warnings.notice import Notice
@@ -118,11 +119,16 @@ def band_pass(
 ) -> GroundMotion:
     """Filter with a Butterworth filter, forward and backward, so that phases stay (scipy's sosfiltfilt).
 
-    Before and after the record stand 1.5 `order` / `low` seconds of zeros, the rule of Converse and Brady (1992). What
-    the filter puts there belongs to the motion: cut off, it leaves a velocity behind that makes displacements several
-    times too large. So it stays, up to where it falls below a millionth of the peak, and `lead` of the motion says how
-    much of it stands before the record. The two passes together have twice the order; each corner is down by half
-    (6 dB).
+    With a corner `low`, the level at which the record rests goes first, a resistant line (Tukey, 1977; see
+    :func:`heeltoe.motion.measures.level_of`): padded with zeros, an offset would have edges that the filter takes for
+    shocks. A pulse to one side, which shifts a mean, hardly moves that line. Then the record fades in up to its first
+    change of sign and out from its last one, a twentieth of it at most, where Converse and Brady (1992) begin and end
+    it.
+
+    Before and after the record stand 1.5 `order` / `low` seconds of zeros, their rule. What the filter puts there
+    belongs to the motion: cut off, it leaves a velocity behind that makes displacements several times too large. So it
+    stays, up to where it falls below a millionth of the peak, and `lead` of the motion says how much of it stands
+    before the record. The two passes together have twice the order; each corner is down by half (6 dB).
 
     Parameters
     ----------
@@ -162,16 +168,20 @@ def band_pass(
     sections = signal.butter(
         order, corners if len(corners) == 2 else corners[0], kind, fs=1.0 / motion.dt, output="sos"
     )
-    filtered = signal.sosfiltfilt(sections, np.pad(motion.acceleration, zeros), padlen=0)
+    rested, taken = (motion.acceleration, "") if low is None else _at_rest(motion)
+    filtered = signal.sosfiltfilt(sections, np.pad(rested, zeros), padlen=0)
     size = np.abs(filtered)
     felt = np.flatnonzero(size > _FADED * size.max())
     first = min(zeros, int(felt[0])) if felt.size else zeros
     last = max(zeros + motion.time.size - 1, int(felt[-1])) if felt.size else zeros + motion.time.size - 1
     before, behind = (zeros - first) * motion.dt, (last - zeros - motion.time.size + 1) * motion.dt
+    beside = np.concatenate([size[first:zeros], size[zeros + motion.time.size : last + 1]]).max(initial=0.0)
+    felt_there = f", with up to {beside / size.max():.2g} of the peak" if beside > 0.0 else ""
     band = " to ".join(f"{corner:g}" for corner in corners)
     step = (
-        f"{kind} {band} Hz (Butterworth of order {order}, forward and backward, {zeros * motion.dt:g} s of zeros on "
-        f"either side, of which {before:.4g} s before and {behind:.4g} s behind the record stay)"
+        f"{kind} {band} Hz (Butterworth of order {order}, forward and backward, {taken}"
+        f"{zeros * motion.dt:g} s of zeros on either side, of which {before:.4g} s before and {behind:.4g} s behind "
+        f"the record stay{felt_there})"
     )
     return replace(
         motion if low is None else motion.corrected(),
@@ -180,6 +190,25 @@ def band_pass(
         lead=motion.lead + before,
         processing=(*motion.processing, step),
     )
+
+
+# Of a record, what may fade at either end before it is filtered.
+_FADES = 0.05
+
+
+def _at_rest(motion: GroundMotion) -> tuple[Floats, str]:
+    """Return the accelerations without the level that they rest at, faded in and out, and a word on both."""
+    level, slope = level_of(motion)
+    values = motion.acceleration - level - slope * (motion.time - motion.duration / 2.0)
+    most = max(1, int(_FADES * values.size))
+    turns = np.flatnonzero(np.signbit(values[1:]) != np.signbit(values[:-1])) + 1
+    first = min(int(turns[0]), most) if turns.size else most
+    last = min(values.size - int(turns[-1]), most) if turns.size else most
+    values[:first] *= 0.5 - 0.5 * np.cos(np.pi * np.arange(first) / first)
+    values[values.size - last :] *= 0.5 + 0.5 * np.cos(np.pi * np.arange(1, last + 1) / last)
+    trend = f" and a trend of {slope:.3g} m/s3" if slope else ""
+    fades = f"faded over its first {first * motion.dt:.3g} s and last {last * motion.dt:.3g} s"
+    return values, f"after a level of {level:.4g} m/s2{trend} was taken out of the record and it was {fades}, "
 
 
 def taper(motion: GroundMotion, share: float = 0.05, ends: Ends = "both") -> GroundMotion:

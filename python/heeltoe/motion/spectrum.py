@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.frozen import ReadOnlyArrays
 from heeltoe.errors.error import InputError
 from heeltoe.kernel.shaking import peak_responses
 from heeltoe.motion.ground_motion import GroundMotion
@@ -19,7 +20,7 @@ PERIODS: Floats = np.geomspace(0.02, 10.0, 200)
 
 
 @dataclass(frozen=True, eq=False)
-class Spectrum:
+class Spectrum(ReadOnlyArrays):
     """Response spectrum of one ground motion.
 
     Attributes

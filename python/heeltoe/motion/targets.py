@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -101,13 +102,7 @@ def en_1998(peak: float, ground: str = "A", type_: int = 1, damping: float = 0.0
     soil, tb, tc, td = _EN_1998[type_][ground]
     eta = max(0.55, float(np.sqrt(10.0 / (5.0 + 100.0 * damping))))
 
-    def ordinate(period: Floats) -> Floats:
-        flat = 2.5 * eta
-        # The branches agree where they meet, so the smallest of the last three is the one that holds.
-        safe = np.maximum(period, tb)
-        falling = flat * np.minimum(1.0, np.minimum(tc / safe, tc * td / safe**2))
-        return peak * soil * np.where(period < tb, 1.0 + period / tb * (flat - 1.0), falling)
-
+    ordinate = partial(_of_en_1998, peak * soil, 2.5 * eta, (tb, tc, td))
     return Target(f"EN 1998-1 type {type_}, ground {ground}, a_g {peak:.4g} m/s2", damping, 0.0, 4.0, ordinate)
 
 
@@ -134,13 +129,7 @@ def asce_7(short: float, one_second: float, transition: float) -> Target:
         raise InputError(
             "target-value", "transition", f"{transition:g} s", bounds=f"at least S_D1 / S_DS, {corner:g} s"
         )
-    start = 0.2 * corner
-
-    def ordinate(period: Floats) -> Floats:
-        safe = np.maximum(period, start)
-        falling = np.minimum(short, np.minimum(one_second / safe, one_second * transition / safe**2))
-        return np.where(period < start, short * (0.4 + 0.6 * period / start), falling)
-
+    ordinate = partial(_of_asce_7, short, one_second, transition)
     name = f"ASCE 7, S_DS {short:.4g} m/s2, S_D1 {one_second:.4g} m/s2, T_L {transition:g} s"
     return Target(name, 0.05, 0.0, float("inf"), ordinate)
 
@@ -166,15 +155,32 @@ def table(periods: ArrayLike, accelerations: ArrayLike, damping: float = 0.05, n
         raise InputError("target-table", "periods")
     if t[0] < 0.0 or (np.diff(t) <= 0.0).any() or (a <= 0.0).any():
         raise InputError("target-table", "periods")
-    positive = t > 0.0
-    logs = np.log(t[positive]), np.log(a[positive])
-    first = t[positive][0]
-
-    def ordinate(period: Floats) -> Floats:
-        result: Floats = np.exp(np.interp(np.log(np.maximum(period, first)), *logs))
-        return np.where(period < first, np.interp(period, t[:2], a[:2]), result)
-
+    ordinate = partial(_of_table, t, a)
     return Target(name, damping, float(t[0]), float(t[-1]), ordinate)
+
+
+# Ordinates are functions of a module, as a target may be sent to another process.
+def _of_en_1998(top: float, flat: float, corners: tuple[float, float, float], period: Floats) -> Floats:
+    tb, tc, td = corners
+    # The branches agree where they meet, so the smallest of the last three is the one that holds.
+    safe = np.maximum(period, tb)
+    falling = flat * np.minimum(1.0, np.minimum(tc / safe, tc * td / safe**2))
+    return top * np.where(period < tb, 1.0 + period / tb * (flat - 1.0), falling)
+
+
+def _of_asce_7(short: float, one_second: float, transition: float, period: Floats) -> Floats:
+    start = 0.2 * (one_second / short)
+    safe = np.maximum(period, start)
+    falling = np.minimum(short, np.minimum(one_second / safe, one_second * transition / safe**2))
+    return np.where(period < start, short * (0.4 + 0.6 * period / start), falling)
+
+
+def _of_table(periods: Floats, accelerations: Floats, period: Floats) -> Floats:
+    positive = periods > 0.0
+    first = periods[positive][0]
+    logs = np.log(periods[positive]), np.log(accelerations[positive])
+    result: Floats = np.exp(np.interp(np.log(np.maximum(period, first)), *logs))
+    return np.where(period < first, np.interp(period, periods[:2], accelerations[:2]), result)
 
 
 def _check_positive(name: str, value: float, unit: str) -> None:

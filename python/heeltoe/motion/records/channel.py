@@ -50,7 +50,7 @@ def choose(records: list[RawRecord], choice: str | int | None, name: str, field:
     text = str(choice).strip()
     chosen = [record for record in records if (record.channel or "1") == text]
     if not chosen:
-        chosen = [record for record in records if _direction(record.about.get("component", "")) == _direction(text)]
+        chosen = [record for record in records if _direction(text) in _directions(record.about.get("component", ""))]
     if len(chosen) != 1:
         count = len(chosen) or "none"
         raise InputError("record-channel", field, repr(text[:30]), count=count, name=name, channels=listed(records))
@@ -73,6 +73,12 @@ def listed(records: list[RawRecord]) -> str:
         direction = record.about.get("component") or "no direction"
         texts.append(f"{record.channel or '1'}: {direction}, peak {peak:.4g} {record.unit or '(no unit)'}")
     return "; ".join(texts) + ("; ..." if len(records) > _LISTED else "")
+
+
+def _directions(component: str) -> set[str]:
+    """A direction, and where a code stands behind it in brackets, as in 90 deg (HNE), each of the two by itself."""
+    parts = re.fullmatch(r"(.*?)\s*\(([^()]*)\)", component)
+    return {_direction(component), *map(_direction, parts.groups() if parts else ())}
 
 
 def _direction(text: str) -> str:

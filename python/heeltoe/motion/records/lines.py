@@ -7,6 +7,9 @@ from collections.abc import Iterable, Iterator
 
 # Columns that touch, or an exponent of Fortran's.
 _GLUED = re.compile(r"[\d.][-+dD]")
+_WORD, _NO_NUMBER = re.compile(r"[^\W\d_]{2}"), re.compile(r"[-+]?(?:nan|inf(?:inity)?)", re.IGNORECASE)
+# Of a line; longer ones are data or damage.
+_MOST = 40
 _SEPARATORS = str.maketrans({",": " ", ";": " ", "\t": " ", '"': None})
 
 
@@ -60,6 +63,12 @@ def is_data(line: str) -> bool:
     """Whether a line starts with something that wants to be a number; a NaN does, or it would pass for a header."""
     word = parted(line).split()[:1]
     return bool(word) and re.match(r"[-+]?(?:\.?\d|(?:nan|inf)$)", word[0], re.IGNORECASE) is not None
+
+
+def is_row(line: str) -> bool:
+    """Whether a line starts as data do, and has no word of letters; a sentence may begin with a number."""
+    words = parted(line).split()
+    return is_data(line) and not any(_WORD.search(word) and not _NO_NUMBER.fullmatch(word) for word in words[:_MOST])
 
 
 def unglued(line: str) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from heeltoe.base.arrays import Floats
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import unglued
+from heeltoe.motion.records.stated import Written
 from heeltoe.units.parse import acceleration_unit
 from heeltoe.warnings.notice import Notice
 
@@ -47,6 +48,12 @@ class RawRecord:
         Whether the file numbers its values where others say their times.
     format
         Of the file.
+    peaks, durations
+        What the file states of them, to be held against what was read; the durations in s.
+    named_units
+        Units the file names where it does not say which one is that of the values.
+    factor
+        What the header has as a factor without saying whether the values contain it.
     """
 
     values: Floats
@@ -60,6 +67,10 @@ class RawRecord:
     uncorrected: str = ""
     counts_samples: bool = False
     format: str = ""
+    peaks: tuple[Written, ...] = ()
+    durations: tuple[Written, ...] = ()
+    named_units: frozenset[str] = frozenset()
+    factor: float | None = None
 
 
 def numbers(lines: list[str], name: str, first_line: int, width: int = 0) -> Floats:

@@ -7,6 +7,7 @@ import io
 import re
 import struct
 import warnings
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -16,13 +17,18 @@ import numpy as np
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 from heeltoe.motion.records.raw import RawRecord, peaked
+from heeltoe.warnings.notice import Notice
 
 _MINISEED = re.compile(rb"\d{6}[DRQM][ \0]")
 # Of SAC: where a header states its version, and which ones there are.
 _VERSION, _VERSIONS, _HEADER = 304, (6, 7), 632
 _NO_NUMBER = -12345.0
 _OTHERS = {6: "displacement", 7: "velocity", 50: "velocity in volts"}
-_LARGEST_XML = 20_000_000
+_LARGEST_XML, _MOST_XML = 20_000_000, 500
+# Of miniSEED: where its header has the code of the station.
+_STATION = slice(8, 13)
+# A sensor within so much of upright, or of level, is that [deg].
+_UPRIGHT, _LEVEL = 80.0, 10.0
 _ACCELERATION = re.compile(r"(?P<unit>n|u|m|c)?m/(?:s\*\*2|s\^2|s/s|s2|sec\*\*2)", re.IGNORECASE)
 _PARTS = {"": 1.0, "c": 1e-2, "m": 1e-3, "u": 1e-6, "n": 1e-9}
 
@@ -44,15 +50,20 @@ def is_station_xml(data: bytes) -> bool:
     return b"<FDSNStationXML" in data[:2000]
 
 
-def beside(path: Path) -> list[bytes]:
-    """Return the StationXML that lies beside a file under its name."""
-    stations = path.with_suffix(".xml")
+def beside(path: Path, data: bytes) -> list[bytes]:
+    """Return the StationXML that lies beside a file of miniSEED under its name, or under that of its station."""
+    if not is_miniseed(data):
+        return []
+    station = data[_STATION].decode("ascii", "replace").strip().lower()
+    stations = []
     try:
-        if stations.is_file() and stations.stat().st_size <= _LARGEST_XML:
-            return [stations.read_bytes()]
+        for file in [path.with_suffix(".xml"), *sorted(path.parent.glob("*.xml"))[:_MOST_XML]]:
+            named = file.stem == path.stem or station in re.split(r"[^a-z0-9]+", file.stem.lower())
+            if named and file.is_file() and file.stat().st_size <= _LARGEST_XML:
+                stations.append(file.read_bytes())
     except (OSError, ValueError):
         pass
-    return []
+    return stations
 
 
 def read(data: bytes, name: str, stations: list[bytes]) -> list[RawRecord]:
@@ -93,7 +104,19 @@ def read(data: bytes, name: str, stations: list[bytes]) -> list[RawRecord]:
         twice = next((channel for channel in ids if ids.count(channel) > 1), None)
         if twice is not None:
             raise InputError("record-gaps", name, twice)
-        return [_of_counts(trace, name, stations) if seed else _of_sac(trace, name) for trace in stream]
+        said = _said(doubts, name)
+        records = [_of_counts(trace, name, stations) if seed else _of_sac(trace, name) for trace in stream]
+        return [replace(record, warnings=(*record.warnings, *said)) for record in records]
+
+
+def _said(doubts: list[warnings.WarningMessage], name: str) -> tuple[Notice, ...]:
+    """Return what the reader has warned of, but for what it says of itself and of the step, which is the header's."""
+    texts = [
+        _first_sentence(str(doubt.message))
+        for doubt in doubts
+        if issubclass(doubt.category, UserWarning) and "microsecond precision" not in str(doubt.message)
+    ]
+    return tuple(Notice("record-reader-warns", name=name, text=text) for text in dict.fromkeys(texts))
 
 
 def _first_sentence(text: str) -> str:
@@ -109,7 +132,9 @@ def _of_counts(trace: Any, name: str, stations: list[bytes]) -> RawRecord:
     if not stations and trace.data.dtype.kind == "f":
         # Somebody has turned it to a unit that miniSEED has no place for.
         return RawRecord(values, time_step=step, about=about, format="miniSEED")
-    sensitivity, part = _sensitivity(trace, name, stations)
+    sensitivity, part, direction = _sensitivity(trace, name, stations)
+    if direction:
+        about["component"] = f"{direction} ({about['component']})"
     with np.errstate(over="ignore", invalid="ignore"):
         values = values * (part / sensitivity)
         offset = float(values.mean()) if values.size else 0.0
@@ -126,20 +151,20 @@ def _of_counts(trace: Any, name: str, stations: list[bytes]) -> RawRecord:
     )
 
 
-def _sensitivity(trace: Any, name: str, stations: list[bytes]) -> tuple[float, float]:
-    """Counts for each unit of acceleration, and that unit in m/s2."""
+def _sensitivity(trace: Any, name: str, stations: list[bytes]) -> tuple[float, float, str]:
+    """Counts for each unit of acceleration, that unit in m/s2, and which way the sensor points, where that is known."""
     import obspy
 
     if not stations:
-        raise InputError("record-response", name, f"{Path(name).stem}.xml", reason="there is no StationXML")
+        wanted = f"{Path(name).stem}.xml or {trace.stats.station}.xml"
+        raise InputError("record-response", name, wanted, reason="there is no StationXML")
     for text in stations:
         # No station needs entities, and some of them never end.
         if b"<!DOCTYPE" in text or b"<!ENTITY" in text:
             continue
         try:
-            response = obspy.read_inventory(io.BytesIO(text), format="STATIONXML").get_response(
-                trace.id, trace.stats.starttime
-            )
+            inventory = obspy.read_inventory(io.BytesIO(text), format="STATIONXML")
+            response = inventory.get_response(trace.id, trace.stats.starttime)
             sensitivity = response.instrument_sensitivity
             value, unit = float(sensitivity.value), str(sensitivity.input_units)
         except Exception:
@@ -150,9 +175,22 @@ def _sensitivity(trace: Any, name: str, stations: list[bytes]) -> tuple[float, f
         if measured is None:
             quantity = "velocity" if re.fullmatch(r"[nuc]?m/s(?:ec)?", unit.strip(), re.IGNORECASE) else unit[:20]
             raise InputError("record-not-acceleration", name, quantity)
-        return value, _PARTS[(measured["unit"] or "").lower()]
+        return value, _PARTS[(measured["unit"] or "").lower()], _direction(inventory, trace)
     reason = f"no StationXML describes {trace.id} at that time"
     raise InputError("record-response", name, f"{Path(name).stem}.xml", reason=reason)
+
+
+def _direction(inventory: Any, trace: Any) -> str:
+    """Which way a sensor points by its StationXML: up, down, or degrees from north."""
+    try:
+        points = inventory.get_orientation(trace.id, trace.stats.starttime)
+        azimuth, dip = float(points["azimuth"]), float(points["dip"])
+    except Exception:  # a channel may have neither
+        return ""
+    if abs(dip) >= _UPRIGHT:
+        # A dip is counted down from the horizontal.
+        return "up" if dip < 0.0 else "down"
+    return f"{azimuth:g} deg" if abs(dip) <= _LEVEL else f"{azimuth:g} deg, {-dip:g} deg upward"
 
 
 def _of_sac(trace: Any, name: str) -> RawRecord:
@@ -161,6 +199,7 @@ def _of_sac(trace: Any, name: str) -> RawRecord:
         raise InputError("record-not-acceleration", name, quantity)
     values = np.asarray(trace.data, dtype=np.float64)
     extremes = [float(header.get(key, _NO_NUMBER)) for key in ("depmin", "depmax")]
+    scale = float(str(np.float32(header.get("scale", _NO_NUMBER))))
     known = all(np.isfinite(value) and value != _NO_NUMBER for value in extremes)
     return RawRecord(
         values,
@@ -173,5 +212,7 @@ def _of_sac(trace: Any, name: str) -> RawRecord:
             "date": trace.stats.starttime.strftime("%Y-%m-%d %H:%M:%S"),
         },
         warnings=peaked(values, f"{max(map(abs, extremes)):.6e}", name) if known else (),
+        # Some programs write a sensitivity there, others what they have multiplied by or want to.
+        factor=scale if np.isfinite(scale) and scale not in (_NO_NUMBER, 0.0, 1.0) else None,
         format="SAC",
     )

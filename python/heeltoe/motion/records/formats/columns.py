@@ -1,72 +1,79 @@
-"""Plain columns: time and acceleration, or acceleration alone; a header in words or behind ``#`` if there is one. More
-columns than two are read where a line above them names each.
+"""Plain numbers: time and acceleration, acceleration alone, several columns with a name each, or values that run along
+the rows; a header in words or behind ``#`` if there is one.
 
 Columns are parted by blanks, tabs, commas or semicolons; beside semicolons and tabs, commas are decimal, and beside
-blanks where every cell has one within. A header may state the units and the step::
+blanks where every cell has one within, as in one column of them. A header may state count, step, rate, duration, peak
+and unit in the words of :mod:`heeltoe.motion.records.words`; all of it is held against what was read::
 
     # time step: 0.02 s
     # units: column 1 time [s], column 2 acceleration [g]
     time [s], acceleration [cm/s2]
+
+Values run along the rows where the user says so, or where a header states a step and as many values as there are.
 """
 
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from heeltoe.base.arrays import Floats
 from heeltoe.errors.error import InputError
-from heeltoe.motion.records.lines import is_data, parted
+from heeltoe.motion.records.lines import is_data, is_row, parted
 from heeltoe.motion.records.quantities import (
     direction_in,
+    is_direction,
     is_time,
     names_of,
     other_quantity,
     quantity_of,
+    surely_time_in,
+    table_in,
+    time_in,
     unit_of,
     units_in,
+    units_of,
+    without_index,
 )
-from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real
+from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, real
+from heeltoe.motion.records.stated import IN_A_SENTENCE, Stated, read_stated, seconds_in
+from heeltoe.motion.records.words import TIME, folded
 from heeltoe.warnings.notice import Notice
 
 FORMAT = "columns"
 
-_STEP = re.compile(
-    r"(?:time[ -]?step|(?:time|sampling) interval|\bdt\b|delta[ -]?t|^step(?=\s*[:=]))"
-    r"\s*(?:[\[(]\s*([a-z]+)\s*[\])])?\s*[:=]?\s*([\d.]+(?:e[-+]?\d+)?)\s*([a-z]*)",
-    re.IGNORECASE,
+_TIME_IN = re.compile(
+    rf"(?<![/\w])(?:{TIME})\s+(?:in|en|em)\s+([^\W\d]+)|(?<![/\w])(?:{TIME})\s*[\[(]\s*([^\])]{{1,30}}?)\s*[\])]"
+    r"(?!\s*[:=]?\s*[-+]?\d)(?!\s*[:=])"
 )
-# Seconds in each unit of time, by the pattern of its names.
-_UNITS_OF_TIME = {
-    "s": (r"s|secs?|seconds?", 1.0),
-    "ms": (r"ms|msecs?|milliseconds?", 1e-3),
-    "min": (r"mins?|minutes?", 60.0),
-    "h": (r"h|hrs?|hours?", 3600.0),
-}
-_TIME_IN = re.compile(r"\btime\s+in\s+([^\W\d]+)|\bt(?:ime)?\s*[\[(]\s*([^\])]{1,30}?)\s*[\])]", re.IGNORECASE)
 # A factor beside a table, or one within its unit, as in "x 10 gal" or "g * 1e-3".
 _FACTOR = re.compile(
     r"\b(?:scale|scaling|multiplication|multiplier|conversion|calibration|amplification)(?:[ _-]?factor)?\s*[:=]\s*"
     rf"({NUMBER})|\bfactor\s*[:=]\s*({NUMBER})|[x×*]\s*(10\s*(?:\^|\*\*|e)?\s*[-+]?\d*)\b",
     re.IGNORECASE,
 )
-_AGAINST = re.compile(
-    r"\s*(?:freq(?:uency|\.)?|period|omega)\b|[^\W_]*\s*[\[(]\s*(?:hz|1/s|rad/s)\s*[\])]", re.IGNORECASE
-)
-_STATED = re.compile(r"(?:number of points|points|npts|samples)\s*[:=]\s*(\d{1,12})\b", re.IGNORECASE)
 _HEADER_LINES, _HEADER_WIDTH = 100, 400
-# More moments than this that are 1 s apart count samples: no record is so slow.
+# More moments than this that are 1 s apart count samples: no record is so slow. Of fewer, steps tell nothing.
 _FEW = 20
+# A column of times has this share of steps within so much of their median.
+_MOSTLY, _EVEN = 0.9, 0.02
+# A stated step is that of the times within so much of it.
+_SAME_STEP = 0.01
 # A line of data is shorter; of a longer one, a part tells what it is.
 _DATA_WIDTH, _MOST_COLUMNS = 4000, 20
 _DECIMAL_COMMA = re.compile(r"\d,\d")
 _BLANK_CELLS = re.compile(r"\s*[-+]?\d+,\d+(?:[eE][-+]?\d+)?(?:\s+[-+]?\d+,\d+(?:[eE][-+]?\d+)?)+\s*")
 _CELL = re.compile(r"\s*[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?\s*")
+_LONE = re.compile(r"([-+]?\d+),(\d+)(?:[eE][-+]?\d+)?")
 # 1,250 is 1250 to some, and 1.25 to others; 0,250 is clear, since no thousands begin with a zero.
 _THOUSANDS = re.compile(r"\s*[-+]?[1-9]\d{0,2},\d{3}\s*")
-_ABOUT = re.compile(r"^(event|earthquake|station|component|date|processing)\s*[:=]\s*(.+)$", re.IGNORECASE)
+_ABOUT = re.compile(
+    r"^(event|earthquake|station|site code|component|date|initial time|processing)\s*[:=]\s*(.+)$", re.IGNORECASE
+)
+_CALLED = {"earthquake": "event", "site code": "station", "initial time": "date"}
 
 
 def _split(lines: list[str]) -> tuple[list[str], int]:
@@ -74,11 +81,11 @@ def _split(lines: list[str]) -> tuple[list[str], int]:
     header: list[str] = []
     for k, line in enumerate(lines):
         text = line.strip()
-        if text and not text.startswith(("#", "%", "//")) and is_data(text[:_HEADER_WIDTH]):
+        if text and not text.startswith(("#", "%", "//")) and is_row(text[:_HEADER_WIDTH]):
             return header, k
         # What a header has to say it says early; a long one must not slow the search down.
         if k < _HEADER_LINES:
-            header.append(text.replace('"', "").lstrip("#%/ ").strip()[:_HEADER_WIDTH])
+            header.append(text.lstrip("#%/ ").strip(" ,;\t")[:_HEADER_WIDTH])
     return header, len(lines)
 
 
@@ -94,47 +101,64 @@ def matches(lines: list[str]) -> bool:
     return numeric and widths.count(widths[0]) > len(widths) / 3
 
 
-def read(lines: list[str], name: str) -> list[RawRecord]:
-    """Read a file that matches."""
+def read(lines: list[str], name: str, layout: str | None = None) -> list[RawRecord]:
+    """Read a file that matches; `layout` is "rows" or "columns" where the user says how its values run."""
     header, first = _split(lines)
-    data = [parted(line.split("#")[0]) for line in _with_points(lines[first:], name, first + 1)]
-    width = len(data[0].split())
-    names = names_of(header, width)
-    if any(_AGAINST.match(column) for column in names or ()):
-        raise InputError("record-not-acceleration", name, "spectrum, no time history: a")
-    _check_factor(header, name)
-    if width > 2 and names is None:
-        raise InputError("record-columns", name, width)
-    for k, line in enumerate(data):
-        if len(line.split()) not in (0, width):
-            raise InputError("record-ragged", name, f"{len(line.split())} columns", line=first + k + 1, width=width)
+    points, commas = _with_points(lines[first:], name, first + 1)
+    data = [parted(line.split("#")[0]) for line in points]
+    widths = [len(line.split()) for line in data]
+    width = widths[0]
+    bare = [line.replace('"', "") for line in header]
     values = numbers(data, name, first + 1)
-    if values.size % width:
-        raise InputError("record-ragged", name, f"{values.size} numbers", line=first + 1, width=width)
-    columns = np.ascontiguousarray(values.reshape(-1, width).T)
-    about = {}
-    for line in header:
-        if match := _ABOUT.match(line):
-            about[match[1].lower().replace("earthquake", "event")] = match[2].strip()
-    processing = (about.pop("processing"),) if "processing" in about else ()
-    stated = _STATED.search(" \n ".join(header))
-    warnings = check_series(columns[0], name, int(stated[1]) if stated else None)
-    timed = width == 2 or (names is not None and width > 2 and is_time(names[0]))
-    clock = _clock(columns[0] if timed else None, header, name)
-    series = _series(columns[1:] if timed else columns, (names or [""] * width)[int(timed) :], header, name)
+    said = [line for line in bare if not _ABOUT.match(line)]
+    if heading := table_in(said, width):
+        raise InputError("record-table", name, repr(heading[:60]))
+    stated = read_stated(said)
+    names = names_of(header, width)
+    if names is not None and not _is_named_time(names[without_index(names)]) and _counts_time(values[::width]):
+        # Accelerations do not grow in equal steps: what was taken for names says nothing of the first column.
+        names = None
+    if _run_along_rows(values, widths, names, stated, name, layout, bare):
+        table = _Table(values.reshape(1, -1), [""], None)
+        names = None
+    else:
+        table = _table(values, widths, names, name, first, layout, time_in(bare))
+    _check_count(stated, table.columns[0], values.size, name)
+    clock = _clock(table.time, table.time_name, said, stated, name)
+    series = _series(table, said, name)
+    # One series by itself is one over time where somebody says its step.
+    told = table.time is None or any(map(is_direction, names or ())) or surely_time_in(bare)
+    _check_sides(series, told or bool(stated.steps) or clock.counts, name)
+    about, processing = _about(bare)
+    done = (*processing, *(("decimal commas read",) if commas else ()), *clock.processing)
+    largest = max(range(len(series)), key=lambda k: float(np.abs(series[k][0]).max(initial=0.0)))
     return [
         RawRecord(
-            values,
+            acceleration,
             time=clock.time,
             time_step=clock.step,
             unit=unit,
             about={**about, "component": direction} if direction else dict(about),
-            processing=(*processing, *clock.processing),
-            warnings=(*warnings, *clock.warnings),
+            processing=done,
+            warnings=_warnings(stated, table.columns[0], name),
             counts_samples=clock.counts,
+            peaks=stated.peaks if k == largest and (len(series) == 1 or len(stated.peaks) == 1) else (),
+            durations=stated.durations,
+            named_units=frozenset() if unit else frozenset(units_of(said).union(*map(units_in, table.names))),
+            factor=_factor(bare, name),
         )
-        for values, direction, unit in series
+        for k, (acceleration, direction, unit) in enumerate(series)
     ]
+
+
+@dataclass(frozen=True)
+class _Table:
+    """The columns of a file without its times and the numbers of its rows, with their names."""
+
+    columns: Floats
+    names: list[str]
+    time: Floats | None
+    time_name: str = ""
 
 
 @dataclass(frozen=True)
@@ -144,32 +168,159 @@ class _Clock:
     time: Floats | None
     step: float | None
     processing: tuple[str, ...] = ()
-    warnings: tuple[Notice, ...] = ()
     counts: bool = False
 
 
-def _check_factor(header: list[str], name: str) -> None:
-    """Refuse a header with a factor other than 1: whether the values contain it nobody can tell."""
-    for line in header:
-        for match in () if _ABOUT.match(line) else _FACTOR.finditer(line):
-            value = match[1] or match[2]
-            if value is None or real(value) != 1.0:
-                raise InputError("record-factor", name, repr(value or match[0]))
+def _run_along_rows(
+    values: Floats,
+    widths: list[int],
+    names: list[str] | None,
+    stated: Stated,
+    name: str,
+    layout: str | None,
+    header: list[str],
+) -> bool:
+    """Whether the values run along the rows: said by the user, or by a count and a step of the header."""
+    width, rows = widths[0], sum(count > 0 for count in widths)
+    if layout is not None:
+        if layout == "rows" and width > 1 and _counts_time(values[: width * (rows - 1) : width]):
+            raise InputError("record-layout-time", "motion.layout", '"rows"', name=name)
+        return layout == "rows"
+    if width == 1:
+        return False
+    along = stated.is_count(values.size) and not stated.is_count(rows)
+    if along and stated.steps and names is not None and not any(map(_is_surely_named, names)):
+        # Words alone weigh less than numbers.
+        names = None
+    if along and names is not None:
+        raise InputError("record-layout", name, values.size, width=width, rows=rows)
+    if along and stated.steps:
+        return True
+    if width == 2 and names is None:
+        # Where values run along the rows, the last one may be short.
+        if values.size in (2 * rows, 2 * rows - 1) and not _is_time(values[: 2 * (rows - 1) : 2], time_in(header)):
+            raise InputError("record-time-column", name)
+        return False
+    if names is None:
+        raise InputError("record-columns", name, width)
+    return False
 
 
-def _seconds_in(unit: str) -> float | None:
-    """Return how many seconds a unit of time has; None where it is not known."""
-    return next(
-        (size for names, size in _UNITS_OF_TIME.values() if re.fullmatch(names, unit.strip(". "), re.IGNORECASE)), None
+def _is_surely_named(name: str) -> bool:
+    return is_time(name) or bool(units_in(name))
+
+
+def _is_time(column: Floats, named: bool) -> bool:
+    """Whether a column may be the times of a record: never back, and in equal steps unless its header names a time."""
+    if column.size <= _FEW:
+        return True
+    with np.errstate(invalid="ignore", over="ignore"):
+        steps = np.diff(column)
+        if not (steps >= 0.0).all() or abs(column[0]) > abs(column[-1] - column[0]):
+            # Damage is named by its row, where most of it is right.
+            return bool(named or (steps > 0.0).mean() > _MOSTLY)
+        median = float(np.median(steps))
+        even = float((np.abs(steps - median) <= _EVEN * median).mean())
+        return bool(named or even > _MOSTLY or _is_rounded(column))
+
+
+def _counts_time(column: Floats) -> bool:
+    """Whether a column grows all through, which no acceleration does."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        return bool(column.size > _FEW and column[-1] > column[0] and (np.diff(column) >= 0.0).all())
+
+
+def _is_rounded(column: Floats) -> bool:
+    """Whether equal steps were printed with too few digits."""
+    steps = np.diff(column)
+    line = column[0] + (column[-1] - column[0]) * np.arange(column.size) / (column.size - 1)
+    return bool(np.abs(column - line).max() <= 1.5 * float(steps.max() - steps.min()))
+
+
+def _table(
+    values: Floats,
+    widths: list[int],
+    names: list[str] | None,
+    name: str,
+    first: int,
+    layout: str | None,
+    named: bool,
+) -> _Table:
+    width = widths[0]
+    for k, count in enumerate(widths):
+        if count not in (0, width):
+            raise InputError("record-ragged", name, f"{count} columns", line=first + k + 1, width=width)
+    if values.size % width:
+        raise InputError("record-ragged", name, f"{values.size} numbers", line=first + 1, width=width)
+    columns = np.ascontiguousarray(values.reshape(-1, width).T)
+    if names is None:
+        # Of columns that the user says there are, the first one is a time if it can be one.
+        timed = width == 2 or (
+            width > 2 and layout == "columns" and columns.shape[1] > _FEW and _is_time(columns[0], named)
+        )
+        rest = [str(k) for k in range(1, width)] if width > 2 else [""]
+        return _Table(columns[1:], rest, columns[0]) if timed else _Table(columns, [*rest, str(width)][:width], None)
+    skipped = without_index(names)
+    if skipped and skipped == width - 1 and not is_time(names[-1]):
+        # A number for each row, and nothing else beside the values: the reader of the clock asks for a step.
+        return _Table(columns[1:], names[1:], columns[0], names[0])
+    columns, names = columns[skipped:], names[skipped:]
+    if len(names) > 1 and _is_named_time(names[0]):
+        return _Table(columns[1:], names[1:], columns[0], names[0])
+    return _Table(columns, names, None)
+
+
+def _is_named_time(name: str) -> bool:
+    bracket = re.search(r"[\[(]\s*([^\])]{1,20}?)\s*[\])]", name)
+    return is_time(name) or (bracket is not None and seconds_in(bracket[1]) is not None)
+
+
+def _check_count(stated: Stated, column: Floats, total: int, name: str) -> None:
+    """Refuse another count than the header states where it is that of all the numbers."""
+    if stated.is_count(total) and not stated.is_count(column.size):
+        raise InputError("record-layout", name, total, width=total // max(1, column.size), rows=column.size)
+
+
+def _warnings(stated: Stated, column: Floats, name: str) -> tuple[Notice, ...]:
+    labelled = {count.value for count in stated.counts if count.unit != IN_A_SENTENCE}
+    if labelled and not stated.is_count(column.size):
+        return counted(column, min(labelled, key=lambda count: abs(count - column.size)), name)
+    # Of several, the ones that are not right are said; small numbers of points in sentences are of something else.
+    in_sentences = {count.value for count in stated.counts} if not stated.is_count(column.size) else set()
+    others = sorted(labelled | {count for count in in_sentences if count > _FEW})
+    return tuple(
+        Notice("record-count", name=name, stated=other, found=column.size) for other in others if other != column.size
     )
 
 
-def _time_unit(header: list[str], name: str) -> tuple[str, float]:
-    """Return the unit in which the header states the times, and how many seconds it has; seconds without one."""
+def _about(header: list[str]) -> tuple[dict[str, str], tuple[str, ...]]:
+    about = {}
     for line in header:
-        if match := _TIME_IN.search(line):
+        if match := _ABOUT.match(line):
+            label = match[1].lower()
+            about[_CALLED.get(label, label)] = match[2].strip(" ,;")
+    processing = (about.pop("processing"),) if "processing" in about else ()
+    return about, processing
+
+
+def _factor(header: list[str], name: str) -> float | None:
+    """Return the factor other than 1 that a header has: whether the values contain it nobody can tell."""
+    for line in header:
+        for match in () if _ABOUT.match(line) else _FACTOR.finditer(line):
+            value = match[1] or match[2]
+            if value is None:
+                raise InputError("record-factor", name, repr(match[0]), factor_field="motion.factor")
+            if real(value) != 1.0:
+                return real(value)
+    return None
+
+
+def _time_unit(time_name: str, header: list[str], name: str) -> tuple[str, float]:
+    """Return the unit in which the header states the times, and how many seconds it has; seconds without one."""
+    for line in (time_name, *header):
+        if match := _TIME_IN.search(folded(line)):
             unit = match[1] or match[2]
-            size = _seconds_in(unit)
+            size = seconds_in(unit)
             if size is None and match[1] is None:
                 raise InputError("record-time-unit", name, repr(unit))
             if size is not None:
@@ -177,39 +328,42 @@ def _time_unit(header: list[str], name: str) -> tuple[str, float]:
     return "s", 1.0
 
 
-def _clock(time: Floats | None, header: list[str], name: str) -> _Clock:
-    step = next((value for line in header if (value := _step(line)) is not None), None)
+def _clock(time: Floats | None, time_name: str, header: list[str], stated: Stated, name: str) -> _Clock:
     if time is None:
-        return _Clock(None, step)
+        return _Clock(None, stated.step(name))
     processing: tuple[str, ...] = ()
-    unit, seconds = _time_unit(header, name)
+    unit, seconds = _time_unit(time_name, header, name)
     if seconds != 1.0:
         # Thousandths are divided, so that 20 ms are 0.02 s to the last bit.
         time = time / (1.0 / seconds) if seconds < 1.0 else time * seconds
         processing = (f"time read in {unit}",)
     elif time.size > _FEW and (np.diff(time) == 1.0).all():
-        return _Clock(None, step, ("the first column counts the samples",), counts=True)
-    if step is not None and time.size > 1:
-        median = float(np.median(np.diff(time)))
-        if abs(median - step) > 0.01 * step:
-            return _Clock(
-                time, None, processing, (Notice("record-step-differs", name=name, stated_s=step, found_s=median),)
-            )
-    return _Clock(time, None, processing)
+        return _Clock(None, stated.step(name), ("the first column counts the samples",), counts=True)
+    if stated.step(name) is None or time.size < 2:
+        return _Clock(time, None, processing)
+    with np.errstate(invalid="ignore", over="ignore"):
+        mean, median = float((time[-1] - time[0]) / (time.size - 1)), float(np.median(np.diff(time)))
+    for step in stated.steps:
+        if any(abs(step.value - found) <= _SAME_STEP * found for found in (mean, median)):
+            return _Clock(time, step.value, processing)
+    raise InputError("record-step-differs", name, f"{stated.steps[0].value:g} s", found=f"{median:g} s")
 
 
-def _series(columns: Floats, names: list[str], header: list[str], name: str) -> list[tuple[Floats, str, str | None]]:
+def _series(table: _Table, header: list[str], name: str) -> list[tuple[Floats, str, str | None]]:
     """The accelerations among columns, each with its direction and its unit."""
     unit = unit_of(header)
-    if len(columns) == 1:
-        header_lines = [line for line in header if not _ABOUT.match(line)]
-        if quantity := other_quantity(header_lines) or (None if unit else quantity_of(names[0])):
+    if len(table.columns) == 1:
+        own = units_in(table.names[0])
+        if len(own) == 1:
+            unit = _agreed(own, header)
+        quantity = other_quantity(header) or (None if unit else quantity_of(table.names[0]))
+        if quantity:
             raise InputError("record-not-acceleration", name, quantity)
-        return [(columns[0], "", unit)]
-    quantities = [quantity_of(column_name) for column_name in names]
+        return [(table.columns[0], "", unit)]
+    quantities = [quantity_of(column_name) for column_name in table.names]
     kept = [
-        (values, direction_in(column_name), next(iter(units_in(column_name)), unit))
-        for values, column_name, quantity in zip(columns, names, quantities, strict=True)
+        (values, direction_in(column_name), _agreed(units_in(column_name), header) if units_in(column_name) else unit)
+        for values, column_name, quantity in zip(table.columns, table.names, quantities, strict=True)
         if quantity is None
     ]
     if not kept:
@@ -219,23 +373,24 @@ def _series(columns: Floats, names: list[str], header: list[str], name: str) -> 
     return kept
 
 
-def _step(line: str) -> float | None:
-    """The time step [s] a line states; None where it states none or in words that are not known."""
-    match = _STEP.search(line)
-    if not match:
+def _agreed(own: set[str], header: list[str]) -> str | None:
+    """Return the unit in the name of a column, where no line that speaks of units names another one alone."""
+    said = units_of([line for line in header if re.search(r"unit|einheit|unid|birim", folded(line))])
+    if len(own) != 1 or (said and said.isdisjoint(own)):
         return None
-    seconds = _seconds_in(match[1] or match[3] or "s")
-    try:
-        value = float(match[2])
-    except ValueError:
-        return None
-    if seconds is None:
-        return None
-    return value / 1e3 if seconds == 1e-3 else value * seconds
+    return next(iter(own))
 
 
-def _with_points(lines: list[str], name: str, first_line: int) -> list[str]:
-    """Return lines of data with points for decimal commas, which semicolons or tabs beside them give away.
+def _check_sides(series: list[tuple[Floats, str, str | None]], explained: bool, name: str) -> None:
+    """Refuse numbers of one sign without a word of what they are: the ground shakes to and fro."""
+    for values, _, _ in series:
+        if not explained and values.size > _FEW and (values.min() >= 0.0 or values.max() <= 0.0) and values.any():
+            raise InputError("record-one-sided", name)
+
+
+def _with_points(lines: list[str], name: str, first_line: int) -> tuple[list[str], bool]:
+    """Return lines of data with points for decimal commas, which semicolons, tabs or blanks beside them give away, and
+    whether there were any.
 
     Parameters
     ----------
@@ -252,10 +407,12 @@ def _with_points(lines: list[str], name: str, first_line: int) -> list[str]:
         Where a comma may mean one thing or another.
     """
     if not any("," in line for line in lines):
-        return lines
+        return lines, False
     texts = [line.split("#")[0].replace('"', "") for line in lines]
+    if _is_one_column(texts, name, first_line):
+        return [text.replace(",", ".") for text in texts], True
     if not any(_has_decimal_comma(text) for text in texts):
-        return lines
+        return lines, False
     surely = False
     for number, (line, text) in enumerate(zip(lines, texts, strict=True), first_line):
         parting = r"\s+" if _BLANK_CELLS.fullmatch(text) else r"[;\t]"
@@ -265,7 +422,31 @@ def _with_points(lines: list[str], name: str, first_line: int) -> list[str]:
         surely = surely or any("," in cell and not _THOUSANDS.fullmatch(cell) for cell in cells)
     if not surely:
         raise InputError("record-comma", name, repr(lines[0].strip()[:30]), line=first_line)
-    return [text.replace(",", ".") for text in texts]
+    return [text.replace(",", ".") for text in texts], True
+
+
+def _is_one_column(texts: list[str], name: str, first_line: int) -> bool:
+    """Whether lines of two whole numbers with a comma between are one column of decimal commas.
+
+    Two columns of whole numbers have times, or numbers of rows, in front, which grow from row to row.
+
+    Raises
+    ------
+    InputError
+        Where the commas may part thousands.
+    """
+    cells = [text.strip().rstrip(";") for text in texts if text.strip()]
+    pairs = [_LONE.fullmatch(cell) for cell in cells]
+    if len(cells) < 3 or not all(
+        pair or re.fullmatch(r"[-+]?\d+", cell) for cell, pair in zip(cells, pairs, strict=True)
+    ):
+        return False
+    front = [int(pair[1]) for pair in pairs if pair]
+    if len(front) < 3 or all(late > early for early, late in pairwise(front)):
+        return False
+    if all(_THOUSANDS.fullmatch(cell) for cell, pair in zip(cells, pairs, strict=True) if pair):
+        raise InputError("record-comma", name, repr(cells[0][:30]), line=first_line)
+    return True
 
 
 def _has_decimal_comma(text: str) -> bool:

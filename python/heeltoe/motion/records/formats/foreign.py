@@ -15,8 +15,9 @@ _SIGNS = (
         "COSMOS V0 or V1 (uncorrected)",
         re.compile(r"\(format v\s?\d\d\.\d\d with \d+ text lines\)", re.IGNORECASE),
     ),
-    ("SMC of uncorrected data", re.compile(r"^\s*\d?\s*uncorrected accelerogram\s*$", re.IGNORECASE | re.MULTILINE)),
-    ("CSMIP V1 (uncorrected) or incomplete V2", re.compile(r"uncorrected accelerogram data", re.IGNORECASE)),
+    ("CSMIP V3 (response spectra)", re.compile(r"\A.*response and fourier amplitude spectra", re.IGNORECASE)),
+    ("CSMIP V3 (response spectra)", re.compile(r"\A.*response spectra\b.*\n.*corrected accelerogram", re.IGNORECASE)),
+    ("CSMIP V1 (uncorrected) or V2, incomplete,", re.compile(r"uncorrected accelerogram data", re.IGNORECASE)),
 )
 
 

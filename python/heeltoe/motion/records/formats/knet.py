@@ -19,6 +19,7 @@ import numpy as np
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_data
 from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real
+from heeltoe.warnings.notice import Notice
 
 FORMAT = "K-NET"
 
@@ -64,6 +65,8 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     count = real(duration[0]) * rate if duration and rate > 0.0 else None
     # Rounding of the mean, and of the counts.
     warnings = check_series(values, name, count, peak[0] if peak else "", share=0.01)
+    if "borehole" in _KIKNET.get(header.get("dir.", ""), ""):
+        warnings += (Notice("record-borehole", name=name),)
     record = RawRecord(
         values,
         time_step=1.0 / rate if rate > 0.0 else None,

@@ -1,4 +1,5 @@
-"""UNAM and the Mexican database (ASA, archivo estandar de aceleracion): up to twelve channels side by side, in gal::
+"""UNAM, CICESE and the Mexican database (ASA, archivo estandar de aceleracion): up to twelve channels side by side, in
+gal::
 
 INTERVALO DE MUESTREO, C1-C6 (s)       : /0.005/0.005/0.005
 ACEL. MAX.(Gal), C1-C6                 : /25.6114/58.7394/-42.3377
@@ -12,7 +13,7 @@ from __future__ import annotations
 import re
 
 from heeltoe.errors.error import InputError
-from heeltoe.motion.records.lines import labelled
+from heeltoe.motion.records.lines import find_data, labelled, parted
 from heeltoe.motion.records.raw import RawRecord, check_series, leading, stated, table
 
 FORMAT = "UNAM ASA"
@@ -34,11 +35,15 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     unit = header.get("unidades de los datos", "").lower()
     if above is None or above + 3 > len(lines) or not steps or not steps[0] or not unit.startswith("gal"):
         raise InputError("record-header", name, "channels, step or unit")
-    width = len(lines[above].split())
-    ways = lines[above + 1].split()
-    ways = ways if len(ways) == width else [""] * width
+    # Some files have a heading for each channel there might be.
+    first = find_data(lines, above + 1)
+    width = len(parted(lines[first]).split()) if first < len(lines) else 0
+    channels = stated(header.get("numero de canales", ""))
+    if width == 0 or (channels is not None and channels != width):
+        raise InputError("record-header", name, f"number of channels, of which there are {width},")
+    ways = _ways(lines[above + 1], header, width)
     peaks, counts = (
-        _parts(header, "acel. max.(gal)"),
+        _parts(header, "acel. max."),
         [stated(text) for text in _parts(header, "num. total de muestras")],
     )
     about = {
@@ -47,7 +52,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         "station": header.get("nombre de la estacion", ""),
     }
     records = []
-    for k, values in enumerate(table(lines[above + 3 :], name, above + 4, width)):
+    for k, values in enumerate(table(lines[first:], name, first + 1, width)):
         count = counts[k] if k < len(counts) else None
         warnings = check_series(values, name, count, leading(peaks[k]) if k < len(peaks) else "")
         step = steps[k] if k < len(steps) else steps[0]
@@ -55,6 +60,16 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
             RawRecord(values, time_step=step, unit="gal", about={**about, "component": ways[k]}, warnings=warnings)
         )
     return records
+
+
+def _ways(below: str, header: dict[str, str], width: int) -> list[str]:
+    """Return the directions of the channels, by the line below their names, or by the label."""
+    for ways in (below.split(), re.split(r";\s+", below.strip()), _parts(header, "orientacion")):
+        if len(ways) == width:
+            # Behind a semicolon stands which way is positive: V;+ is up.
+            parts = [way.strip().rstrip(";").partition(";") for way in ways]
+            return [f"{way}-" if sign.strip() == "-" else way for way, _, sign in parts]
+    return [""] * width
 
 
 def _parts(header: dict[str, str], label: str) -> list[str]:

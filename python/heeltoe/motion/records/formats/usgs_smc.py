@@ -1,12 +1,15 @@
-"""USGS SMC: one corrected accelerogram in cm/s2.
+"""USGS SMC: one accelerogram in cm/s2, corrected or as the instrument gave it.
 
 11 lines of text, 48 integers on six lines, 50 reals on ten, comments behind ``|``, then the data, eight to a line in
-columns of ten that may touch (``-1.2518E+1 1.5642E+0-8.8063E+0``). What is unknown is -32768, or 1.7e38.
+columns of ten that may touch (``-1.2518E+1 1.5642E+0-8.8063E+0``). What is unknown is -32768, or 1.7e38. Data without a
+rate are pairs of time and value.
 """
 
 from __future__ import annotations
 
 import re
+
+import numpy as np
 
 from heeltoe.base.arrays import Floats
 from heeltoe.errors.error import InputError
@@ -16,12 +19,16 @@ from heeltoe.warnings.notice import Notice
 
 FORMAT = "USGS SMC"
 
-_FIRST = re.compile(r"\s*\d?\s*(corrected accelerogram|velocity|displacement)\s*$", re.IGNORECASE)
+_FIRST = re.compile(r"\s*\d?\s*((?:un)?corrected accelerogram|velocity|displacement)\s*$", re.IGNORECASE)
 _EVENT = re.compile(r"\s*(\d{4})\s+(\d\d?)\s+(\d\d?)(?:\s+(\d{4}))?\s+(.*)")
 _STATION = re.compile(r"\s*station\s*=\s*(.*?)\s*component\s*=\s*(.*)", re.IGNORECASE)
 _PEAK = re.compile(rf".*\bpk(?:\s+acc)?\s*=\s*({NUMBER})", re.IGNORECASE)
 _TEXT, _INTEGERS, _REALS = slice(0, 11), slice(11, 17), slice(17, 27)
 _UNKNOWN = -32768
+# Fewer times than this may grow by chance, and a smaller share of them.
+_FEW, _MOSTLY = 20, 0.9
+# Numbers in a row.
+_ROW = 8
 _LINE = 200
 
 
@@ -45,19 +52,39 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         raise InputError("record-header", name, "48 integers and 50 reals")
     first = next((k for k in range(_REALS.stop, len(lines)) if not lines[k].startswith("|")), len(lines))
     values = numbers(lines[first:], name, first + 1, 10)
-    flagged = (Notice("record-flagged", name=name),) if integers[17] == 1 else ()
     count = integers[16] if integers[16] != _UNKNOWN else None
-    warnings = (*check_series(values, name, count), *flagged, *check_series(values, name, None, find_text(_PEAK, text)))
+    # A rate that is unknown is 1.7e38.
+    step = 1.0 / float(reals[1]) if 0.0 < reals[1] < 1e5 else None
+    timed = step is None and _has_times(values)
+    # Some of these files have a row more than they state, whose times go back.
+    left = int(values.size - count) if timed and count is not None and 0 < values.size - count <= _ROW else 0
+    values = values[: values.size - left]
+    pairs = values[: values.size // 2 * 2].reshape(-1, 2)
+    flagged = (Notice("record-flagged", name=name),) if integers[17] == 1 else ()
+    # Of pairs, both numbers count.
+    counts = check_series(values, name, count)
+    accelerations = np.ascontiguousarray(pairs[:, 1]) if timed else values
+    warnings = (*counts, *flagged, *check_series(accelerations, name, None, find_text(_PEAK, text)))
     record = RawRecord(
-        values,
-        # A rate that is unknown is 1.7e38.
-        time_step=1.0 / float(reals[1]) if 0.0 < reals[1] < 1e5 else None,
+        accelerations,
+        time=np.ascontiguousarray(pairs[:, 0]) if timed else None,
+        time_step=step,
         unit="cm/s^2",
         about=_about(text, integers),
-        processing=("corrected accelerogram",),
+        processing=(
+            *(("corrected accelerogram",) if kind[1].lower().startswith("corr") else ()),
+            *((f"{left} numbers behind the stated {count:g} left out",) if left else ()),
+        ),
         warnings=warnings,
+        uncorrected="its first line says so" if kind[1].lower().startswith("un") else "",
     )
     return [record]
+
+
+def _has_times(values: Floats) -> bool:
+    """Whether times stand before the values, as the instrument gave them: nothing else grows nearly all through."""
+    times = values[::2]
+    return times.size > _FEW and float((np.diff(times) >= 0.0).mean()) > _MOSTLY
 
 
 def _about(text: list[str], integers: Floats) -> dict[str, str]:
