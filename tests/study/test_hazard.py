@@ -260,7 +260,7 @@ def test_a_study_with_a_hazard_says_how_often_a_year(tmp_path):
     assert [point["strength"] / 9.80665 for point in study.hazard[0]["at"]] == pytest.approx([0.1, 0.3, 0.5, 1.0, 2.0])
     weak, strong = study.hazard
     assert weak["annual_rate"] > strong["annual_rate"] > 0.0
-    by_hand = annual(study.curves[0][1], study.manifest["hazard"])
+    by_hand = annual(study.fragility[0], study.manifest["hazard"])
     assert weak["annual_rate"] == by_hand["annual_rate"]
     assert {row["event"] for row in weak["by_event"]} == set(study.manifest["events"])
     assert sum(row["share"] for row in weak["by_event"]) == pytest.approx(1.0, rel=1e-12)

@@ -206,3 +206,23 @@ def test_one_motion_has_no_median(tmp_path):
     assert "1 of 3 by the rigid model, in one motion: the residual slip is" in page
     assert result.portfolio_table().num_rows == 3
     assert ranks_figure(result).axes[0].get_xlabel() == "residual slip in the one motion [mm]"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("section.base_width [ft]", "section.base_widht [ft]", 'no such field; did you mean "base_width"?'),
+        ("crack.friction", "crack.fricton", 'no such field; did you mean "friction"?'),
+        ("uplift.pattern", "uplift.pattern [m]", "holds words, which have no unit (m)"),
+        ("Lower", "Upper", 'row 1: "Upper" is the name of 2 dams'),
+        ("Lower", "Lo\0wer", "row 2: the name"),
+        ("Lower", "Lo\u202ewer", "row 2: the name"),
+        ("50, 140", "5_0, 140", '"5_0" has the unknown unit "_0"'),
+        ("50, 140", "٥٠, 140", '"٥٠" is not a length'),
+    ],
+)
+def test_what_is_read_but_not_meant_is_refused(tmp_path, old, new, said):
+    with pytest.raises(InputError) as refused:
+        plan_of(heeltoe.read_study(study(tmp_path, TABLE.replace(old, new, 1))))
+    assert said in str(refused.value)
+    assert not [error for error in refused.value.others if "did you mean" in str(error)]

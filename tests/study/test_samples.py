@@ -139,3 +139,18 @@ def test_a_pair_keeps_the_ratio_of_its_components(tmp_path):
     plan = plan_of(read_study(study_file(tmp_path, text)))
     assert plan.events == ("quake-a",)
     assert len({shake.reference for shake in plan.shakes}) == 1
+
+
+def test_what_a_distribution_says_is_that_of_the_law_before_it_is_cut():
+    """As docs/studies.md has it: a normal law that is cut at k standard deviations on both sides keeps 1 - 2 k phi(k) /
+    (2 Phi(k) - 1) of its variance, and one that is cut below at -k has its mean phi(k) / Phi(k) higher."""
+    cut = Distribution(distribution="normal", mean=1.0, std=0.2, lower=0.7, upper=1.3)
+    law = axis_of("crack.friction", cut, read_case(BLOCK), drawn=True).law
+    k = 1.5
+    left = 1.0 - 2.0 * k * stats.norm.pdf(k) / (2.0 * stats.norm.cdf(k) - 1.0)
+    assert law.std() == pytest.approx(0.2 * np.sqrt(left), rel=1e-6) == pytest.approx(0.149, abs=5e-4)
+    one_side = Distribution(distribution="normal", mean=1.0, std=0.2, lower=0.9)
+    law = axis_of("crack.friction", one_side, read_case(BLOCK), drawn=True).law
+    higher = 0.2 * stats.norm.pdf(0.5) / stats.norm.cdf(0.5)
+    assert law.mean() == pytest.approx(1.0 + higher) == pytest.approx(1.10, abs=5e-3)
+    assert law.std() == pytest.approx(0.139, abs=5e-4)

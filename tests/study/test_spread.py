@@ -12,7 +12,7 @@ from heeltoe.result.contract import HEADLINES
 from heeltoe.result.numbers import EvidenceNumbers, HeadlineWorth
 from heeltoe.result.write import json_text
 from heeltoe.study.small.spread import _step, check_runs
-from shared.dams import BASE, FAST, SLENDER
+from shared.dams import BASE, FAST, SLENDER, example
 from shared.dams import KOYNA_TOP as KOYNA
 from shared.responses import with_numbers
 
@@ -42,7 +42,7 @@ def test_rigid_runs_are_those_of_the_scaled_motion(changes):
 
 @pytest.mark.parametrize("more", [[], ["crack.elevation=90m", "flexible.elements_across_below=3"]])
 def test_flexible_runs_are_those_of_the_scaled_motion(more, typical_both):
-    case = read_case(BASE, [*FAST, *more])
+    case = example("typical-base", *FAST, *more)
     plain = flexible(case) if more else typical_both
     seen = []
     response = with_spread(plain, case, 3, progress=lambda done, of: seen.append((done, of)))

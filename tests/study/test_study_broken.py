@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from heeltoe import open_study, run_study
-from shared.studies import DRAWN, rows, study_file
+from shared.studies import BLOCK, DRAWN, rows, study_file
 
 pytestmark = pytest.mark.slow
 
@@ -56,6 +56,67 @@ def test_ten_kills_change_nothing(tmp_path):
     assert not [path for path in out.rglob(".heeltoe-*") if path.is_dir()]
 
 
+PLAIN = """
+import heeltoe
+print("once")
+study = heeltoe.run_study("study.toml", "out")
+print(study.complete, __file__)
+"""
+
+
+@pytest.mark.parametrize("words", [("script.py",), ("-m", "script")], ids=["a script", "a module"])
+def test_a_plain_script_runs_an_elastic_study(tmp_path, words):
+    """As docs/studies.md shows it, without a guard: workers do not run the script once more."""
+    text = DRAWN.replace("samples = 60", 'model = "decoupled"\nsamples = 4').split("[fragility]")[0]
+    text = text.replace(
+        '"crack.restitution"', '"concrete.modulus" = { from = "20 GPa", to = "25 GPa" }\n"crack.restitution"'
+    )
+    case = BLOCK.replace("[crack]", '[concrete]\nmodulus = "20 GPa"\n[crack]\nelevation = "4 m"')
+    study_file(tmp_path, text, case=case)
+    (tmp_path / "script.py").write_text(PLAIN)
+    ended = subprocess.run(
+        [sys.executable, *words], capture_output=True, text=True, cwd=tmp_path, timeout=120, check=False
+    )
+    assert ended.stdout.split() == ["once", "True", str(tmp_path / "script.py")], ended.stderr
+    assert ended.returncode == 0
+
+
+def test_a_scheduler_without_workers_is_one_sentence(tmp_path):
+    log = tmp_path / "log"
+    with log.open("w") as file:
+        scheduler = subprocess.Popen(
+            [str(Path(sys.executable).with_name("dask")), "scheduler", "--port", "0", "--no-dashboard"],
+            stdout=file,
+            stderr=file,
+            cwd=tmp_path,
+        )
+    try:
+        address = None
+        for _ in range(300):
+            if match := re.search(r"Scheduler at:\s+(tcp://\S+)", log.read_text()):
+                address = match[1]
+                break
+            time.sleep(0.1)
+        assert address
+        file = study_file(tmp_path, DRAWN)
+        began = time.monotonic()
+        ended = subprocess.run(
+            [*HEELTOE, "study", str(file), "--out", str(tmp_path / "out"), "--scheduler", address],
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert time.monotonic() - began < 20.0
+    finally:
+        scheduler.kill()
+        scheduler.wait()
+    assert ended.returncode == 2
+    (line,) = ended.stderr.splitlines()
+    assert "has had no worker for 4 s" in line
+    assert f"dask worker {address}" in line
+    assert not (tmp_path / "out").exists()
+
+
 @pytest.fixture
 def cluster(tmp_path):
     """A scheduler and two workers, each a process that was started by hand."""
@@ -89,7 +150,7 @@ def cluster(tmp_path):
 @pytest.mark.parametrize("kill", [False, True], ids=["two workers", "one of them killed"])
 def test_workers_started_by_hand_give_the_same_table(tmp_path, cluster, kill, monkeypatch):
     address, started = cluster
-    monkeypatch.setattr("heeltoe.study.run.run._MOST", 500)
+    monkeypatch.setattr("heeltoe.study.run.run.MOST_OF_PART", 500)
     file = study_file(tmp_path, DRAWN.replace("samples = 60", "samples = 12000"))
     here = rows(run_study(file, tmp_path / "here"))
     answer = []

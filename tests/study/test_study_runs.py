@@ -6,8 +6,8 @@ import errno
 import json
 import shutil
 from concurrent.futures import Future
+from pathlib import Path
 
-import pyarrow.parquet as pq
 import pytest
 from distributed.comm.core import CommClosedError
 
@@ -129,7 +129,7 @@ def test_the_same_bits_whatever_the_parts_and_whoever_runs_them(tmp_path):
 def test_a_study_goes_on_where_it_stopped(tmp_path, monkeypatch):
     file = study_file(tmp_path, DRAWN)
     whole = rows(run_study(file, tmp_path / "whole"))
-    monkeypatch.setattr("heeltoe.study.run.run._MOST", 7)
+    monkeypatch.setattr("heeltoe.study.run.run.MOST_OF_PART", 7)
     out = tmp_path / "out"
     done = []
 
@@ -191,21 +191,21 @@ def test_inputs_that_have_changed_are_noticed_and_said(tmp_path, change, said):
 def test_a_full_disk_is_one_line_and_a_study_to_go_on_with(tmp_path, monkeypatch):
     file = study_file(tmp_path, DRAWN)
     whole = rows(run_study(file, tmp_path / "whole"))
-    monkeypatch.setattr("heeltoe.study.run.run._MOST", 11)
-    write, wrote = pq.write_table, []
+    monkeypatch.setattr("heeltoe.study.run.run.MOST_OF_PART", 11)
+    write, wrote = Path.write_bytes, []
 
-    def full(table, place, **options):
-        wrote.append(place)
+    def full(path, content):
+        wrote.append(path)
         if len(wrote) == 3:
-            place.write_bytes(b"PAR1 half of it")
+            write(path, content[: len(content) // 2])
             raise OSError(errno.ENOSPC, "No space left on device")
-        write(table, place, **options)
+        return write(path, content)
 
-    monkeypatch.setattr(pq, "write_table", full)
+    monkeypatch.setattr(Path, "write_bytes", full)
     with pytest.raises(InputError, match="No space left on device"):
         run_study(file, tmp_path / "out")
     assert len(list((tmp_path / "out" / "runs").iterdir())) == 2
-    monkeypatch.setattr(pq, "write_table", write)
+    monkeypatch.setattr(Path, "write_bytes", write)
     assert rows(run_study(file, tmp_path / "out", resume=True)) == whole
 
 
@@ -301,7 +301,7 @@ def test_a_lost_scheduler_is_no_fault_of_the_input(tmp_path, monkeypatch):
 
 
 def test_the_store_knows_its_stretches(tmp_path):
-    store = Store(tmp_path, 10, 4)
+    store = Store(tmp_path, 10, 4, "", {}, {})
     assert [store.stretch(part) for part in range(store.parts)] == [(0, 4), (4, 8), (8, 10)]
 
 
@@ -324,7 +324,7 @@ def test_a_folder_that_is_not_ours_stays(tmp_path):
 
 @pytest.mark.parametrize("damage", [lambda whole: whole[: len(whole) // 2], lambda _: b""], ids=["half", "empty"])
 def test_a_damaged_part_is_computed_anew_and_said(tmp_path, damage, monkeypatch):
-    monkeypatch.setattr("heeltoe.study.run.run._MOST", 20)
+    monkeypatch.setattr("heeltoe.study.run.run.MOST_OF_PART", 20)
     file, out = study_file(tmp_path, DRAWN), tmp_path / "out"
     first = rows(run_study(file, out))
     part = sorted((out / "runs").glob("part-*.parquet"))[1]

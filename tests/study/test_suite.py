@@ -342,3 +342,37 @@ def test_a_suite_of_one_record_states_no_number_over_several(dam, records):
     several = heeltoe.run_suite(untitled, records, model="rigid", pga="0.7 g")
     assert several.title == "suite of 5 records"
     assert "The mean is" in repr(study_answer(several, "si"))
+
+
+def spectrum_file(folder, unit, level):
+    """Write a target spectrum, flat up to 0.3 s at a level in a unit, and of constant displacement beyond."""
+    rows = "\n".join(f"{period},{level * min(1.0, 0.3 / period) ** 2}" for period in (0.05, 0.1, 0.3, 0.5, 1.0, 4.0))
+    path = folder / "target.csv"
+    path.write_text(f"period [s],Sa [{unit}]\n{rows}\n", encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("how", ["match", "pga", "as recorded"])
+def test_records_of_a_suite_are_looked_at_as_those_of_single_runs(dam, records, tmp_path, how):
+    """Ten g is more than any ground has been seen to do, three more than any record: for a run and for a suite alike,
+    whether a spectrum of 9.81 m/s2 under "[g]" asks for it, a peak, or the record itself."""
+    record = records / "quake-a-000.txt"
+
+    def suite(peak):
+        if how == "match":
+            return heeltoe.run_suite(dam, record, model="rigid", match=str(spectrum_file(tmp_path, "g", 2.3 * peak)))
+        if how == "pga":
+            return heeltoe.run_suite(dam, record, model="rigid", pga=f"{peak} g")
+        motion = heeltoe.read_record(record)
+        values = (motion.acceleration * (peak / motion.pga)).tolist()
+        strong = tmp_path / f"strong-{peak:g}.txt"
+        strong.write_text("# time step: 0.02 s\n# units: [g]\n" + "\n".join(map(repr, values)) + "\n")
+        return heeltoe.run_suite(dam, strong, model="rigid")
+
+    said = suite(5.0).manifest["warnings"]
+    assert any("more than any recorded ground motion" in text for text in said)
+    with pytest.raises(InputError) as refused:
+        suite(40.0)
+    assert refused.value.code in ("motion-peak", "motion-fast")
+    fields = {"match": "suite.match", "pga": "suite.pga", "as recorded": "motions[0].file"}
+    assert refused.value.field == fields[how]

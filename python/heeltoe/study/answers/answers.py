@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
-from heeltoe.result.contract import HEADLINES, JOINT_METER_M
+from heeltoe.result.contract import HEADLINES, JOINT_METER_M, PEAKS, RESIDUAL_SLIP, SLIPS_BY_MODE
 from heeltoe.result.crest import CREST_PEAKS
+from heeltoe.result.numbers import SlipByMode
 from heeltoe.study.answers.fragility import not_met
 from heeltoe.study.plan.crack_columns import column_of, columns_of_cracks
 from heeltoe.study.plan.rank_correlation import quantiles
@@ -26,9 +27,8 @@ _BAND = (0.16, 0.50, 0.84)
 #: Strengths of a band where they are drawn, not listed: as many groups of runs, as large as each other.
 _GROUPS = 12
 _ALIKE = 1e-9
-MODES = ("sliding", "slide_rocking", "drifting")
+MODES = SlipByMode.names()
 #: Largest slips, by which a run is said to slide at all.
-PEAKS = ("peak_slip_downstream_m", "peak_slip_upstream_m")
 
 
 def summary(walk: Walk) -> list[dict[str, Any]]:
@@ -43,7 +43,7 @@ def summary(walk: Walk) -> list[dict[str, Any]]:
     slid, off, undetermined = (np.zeros(places, dtype=np.int64) for _ in range(3))
     by_mode = np.zeros((places, len(MODES)), dtype=np.int64)
     outcomes: list[Counter[str]] = [Counter() for _ in models]
-    for runs in walk("model", "outcome", "slid_off", "undetermined", *keys, *(f"slip_{mode}_m" for mode in MODES)):
+    for runs in walk("model", "outcome", "slid_off", "undetermined", *keys, *SLIPS_BY_MODE):
         model, (names, code) = runs.model, runs.words("outcome")
         slides, mode = sliding(runs), dominant(runs)
         for place in range(places):
@@ -108,7 +108,7 @@ def sliding(runs: Stretch) -> NDArray[np.bool_]:
 
 def dominant(runs: Stretch) -> Integers:
     """Return which mode of motion makes most of the slip, (n,) its place in :data:`MODES`."""
-    slips = [np.nan_to_num(np.abs(runs.numbers(f"slip_{mode}_m"))) for mode in MODES]
+    slips = [np.nan_to_num(np.abs(runs.numbers(name))) for name in SLIPS_BY_MODE]
     return np.asarray(np.argmax(slips, axis=0), dtype=np.int64)
 
 
@@ -231,7 +231,7 @@ def modes(walk: Walk, measure: str) -> tuple[Floats, Integers]:
     shape = (len(walk.models), group.count, len(MODES))
     counts = np.zeros(int(np.prod(shape)), dtype=np.int64)
     runs_of, logarithms = np.zeros(group.count), np.zeros(group.count)
-    for runs in walk("model", *SHAKEN, *PEAKS, *(f"slip_{mode}_m" for mode in MODES)):
+    for runs in walk("model", *SHAKEN, *PEAKS, *SLIPS_BY_MODE):
         strength = runs.strength(measure)
         of = group.of(strength)
         runs_of += np.bincount(of, minlength=group.count)
@@ -246,8 +246,8 @@ def farther(walk: Walk, than: Floats) -> tuple[Integers, Integers]:
     residual slip at all, (models,)."""
     models = len(walk.models)
     counts = np.zeros((models, than.size + 1), dtype=np.int64)
-    for runs in walk("model", "residual_slip_m"):
-        slip = np.abs(runs.numbers("residual_slip_m"))
+    for runs in walk("model", RESIDUAL_SLIP.key):
+        slip = np.abs(runs.numbers(RESIDUAL_SLIP.key))
         fine = np.isfinite(slip)
         place = np.searchsorted(than, slip[fine], side="left")
         cell = runs.model[fine] * (than.size + 1) + place

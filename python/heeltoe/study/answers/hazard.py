@@ -146,6 +146,7 @@ class RateAt(Block):
 class AnnualRate(Block):
     """How often a year a limit is exceeded; without a fragility curve nothing but why."""
 
+    model: Annotated[str, Number("Of which model.")] = ""
     limit: Annotated[str, Number("Name of the limit.")]
     value: Annotated[float, Number("The limit, in SI.")]
     measure: Annotated[str, Number("Strength of the motions by which the curves go.")]
@@ -215,7 +216,7 @@ def annual(
         The runs behind the curve, and the names of their events.
     """
     strength, rate = np.array(hazard["strength"]), np.array(hazard["annual_rate"])
-    bare = AnnualRate(limit=curve.limit, value=curve.value, measure=curve.measure, why=curve.why)
+    bare = AnnualRate(model=curve.model, limit=curve.limit, value=curve.value, measure=curve.measure, why=curve.why)
     if curve.median is None or curve.dispersion is None:
         return bare
     motions = motions_of(strength, rate, curve.dispersion)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -19,18 +19,20 @@ from heeltoe.base.blocks import plain_json
 from heeltoe.base.display import Shown
 from heeltoe.case.paths import quantity_of
 from heeltoe.errors.error import InputError
+from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.answers import bands, summary
 from heeltoe.study.answers.comparison import compared
 from heeltoe.study.answers.fragility import Curve, NotStanding, counted, curve, not_standing
-from heeltoe.study.answers.hazard import annual
+from heeltoe.study.answers.hazard import AnnualRate, annual
 from heeltoe.study.answers.likelihood import Tally
 from heeltoe.study.answers.portfolio import Ranks, portfolio_of, ranks_table
 from heeltoe.study.answers.sensitivity import sobol_indices, tornado
 from heeltoe.study.answers.suite import suite_of
 from heeltoe.study.plan.file import untitled
 from heeltoe.study.run.aggregate import SHAKEN, Walk
-from heeltoe.study.run.store import RUNS, Store, read_manifest
+from heeltoe.study.run.record import read_manifest
+from heeltoe.study.run.store import Store
 from heeltoe.units.parse import DIMENSIONS
 
 
@@ -53,7 +55,7 @@ class StudyResults(Shown):
     kept: bool = True
 
     def __repr__(self) -> str:
-        left = "" if self.complete else f", {len(self.store.missing())} of {self.store.parts} parts missing"
+        left = f", {self.store.left} of {self.store.parts} parts missing" if self.store.left else ""
         return f"<Study {self.title!r}: {self.store.count} runs in {self.store.directory}{left}>"
 
     @property
@@ -66,20 +68,32 @@ class StudyResults(Shown):
     @property
     def complete(self) -> bool:
         """Whether all runs are there."""
-        return not self.store.missing()
+        return not self.store.left
 
     @property
     def dataset(self) -> Any:
         """All runs that are there, as a ``pyarrow.dataset.Dataset``: nothing is read yet."""
         import pyarrow.dataset as ds
 
-        return ds.dataset(self.store.directory / RUNS, format="parquet", exclude_invalid_files=False)
+        return ds.dataset(self._files(), format="parquet", exclude_invalid_files=False)
 
     def batches(self, columns: list[str] | None = None) -> Iterator[pa.RecordBatch]:
         """Walk through the runs in their order, a part at a time."""
-        for part in range(self.store.parts):
-            if self.store.path(part).exists():
-                yield from pq.ParquetFile(self.store.path(part)).read(columns).to_batches()
+        for path in self.store.sound().values():
+            yield from pq.ParquetFile(path).read(columns).to_batches()
+
+    def _files(self) -> list[str]:
+        """Return the files of the runs that are there.
+
+        Raises
+        ------
+        InputError
+            Where there is none, or one is damaged.
+        """
+        files = [str(path) for path in self.store.sound().values()]
+        if not files:
+            raise InputError("study-no-runs", str(self.store.directory))
+        return files
 
     def to_table(self, columns: list[str] | None = None) -> pa.Table:
         """Return the runs as an Arrow table, in their order."""
@@ -101,8 +115,8 @@ class StudyResults(Shown):
         except ImportError:
             raise InputError("study-package", "duckdb", "duckdb") from None
         connection = duckdb.connect()
-        files = str(self.store.directory / RUNS / "part-*.parquet").replace("'", "''")
-        connection.execute(f"create view runs as select * from read_parquet('{files}')")
+        files = ", ".join("'{}'".format(path.replace("'", "''")) for path in self._files())
+        connection.execute(f"create view runs as select * from read_parquet([{files}])")
         return connection
 
     def to_xarray(self) -> Any:
@@ -168,17 +182,6 @@ class StudyResults(Shown):
         """For each model how its runs ended, how many slide, and how the headline numbers are distributed."""
         return summary(self.walk)
 
-    @property
-    def fragility(self) -> list[dict[str, Any]]:
-        """The curves that the study asks for.
-
-        Raises
-        ------
-        InputError
-            Where it asks for none.
-        """
-        return [{"model": model, **curve.to_json()} for model, curve in self.curves]
-
     @cached_property
     def suite(self) -> dict[str, Any] | None:
         """What a suite of records says: each record by its worse sign, the numbers over all of them, and the limits;
@@ -186,16 +189,15 @@ class StudyResults(Shown):
         return suite_of(self.walk) if self.complete else None
 
     @cached_property
-    def hazard(self) -> list[dict[str, Any]] | None:
+    def hazard(self) -> list[AnnualRate] | None:
         """How often a year each limit of the fragility curves is exceeded, model by model; None where the study has no
         hazard curve."""
         hazard, names = self.manifest["hazard"], self.manifest["events"]
         if hazard is None:
             return None
         return [
-            {"model": model}
-            | annual(curve, hazard, tally.witnesses, [names[place] for place in tally.events]).to_json()
-            for (model, curve), tally in zip(self.curves, self.counted.values(), strict=True)
+            annual(curve, hazard, tally.witnesses, [names[place] for place in tally.events])
+            for curve, tally in zip(self.fragility, self.counted.values(), strict=True)
         ]
 
     @cached_property
@@ -223,8 +225,8 @@ class StudyResults(Shown):
         return all(check["met"] for check in checks) if checks else None
 
     @cached_property
-    def curves(self) -> list[tuple[str, Curve]]:
-        """The same with what can be asked of a curve, each with its model.
+    def fragility(self) -> list[Curve]:
+        """The curves that the study asks for, model by model.
 
         Raises
         ------
@@ -233,13 +235,13 @@ class StudyResults(Shown):
         """
         settings = self.manifest["study"]["fragility"]
         return [
-            (
-                model,
+            replace(
                 curve(
                     *(limit, value, settings["measure"], tally),
                     confidence=self.walk.confidence,
                     not_standing=self.not_standing[model],
                 ),
+                model=model,
             )
             for (model, limit, value), tally in self.counted.items()
         ]
@@ -263,7 +265,7 @@ class StudyResults(Shown):
             raise InputError("study-no-fragility", "fragility")
         return counted(self.walk, settings)
 
-    def bands(self, demand: str = "residual_slip_m", measure: str = "pga", period: str | float | None = None) -> Any:
+    def bands(self, demand: str = RESIDUAL_SLIP.key, measure: str = "pga", period: str | float | None = None) -> Any:
         """Return what 16, 50 and 84 % of the runs of each model stay below, by the strength of the motion: incremental
         dynamic analysis where every motion goes through the same strengths.
 
@@ -285,9 +287,9 @@ class StudyResults(Shown):
 
     @cached_property
     def _compared(self) -> dict[str, dict[str, Any]]:
-        return compared(self.walk, "residual_slip_m")
+        return compared(self.walk, RESIDUAL_SLIP.key)
 
-    def compared(self, demand: str = "residual_slip_m") -> dict[str, dict[str, Any]]:
+    def compared(self, demand: str = RESIDUAL_SLIP.key) -> dict[str, dict[str, Any]]:
         """Compare the measures of the strength of motions by how well they foretell a slip, for each model; see
         :meth:`heeltoe.study.answers.comparison.Comparison.as_dict`.
 
@@ -296,9 +298,9 @@ class StudyResults(Shown):
         demand
             A slip of the table, which counts without sign.
         """
-        return self._compared if demand == "residual_slip_m" else compared(self.walk, demand)
+        return self._compared if demand == RESIDUAL_SLIP.key else compared(self.walk, demand)
 
-    def sensitivity(self, demand: str = "residual_slip_m") -> dict[str, dict[str, Any]]:
+    def sensitivity(self, demand: str = RESIDUAL_SLIP.key) -> dict[str, dict[str, Any]]:
         """Return Sobol's indices of a number for each model, without its sign; see
         :func:`heeltoe.study.answers.sensitivity.sobol_indices`. A dam that meets several motions counts by the mean.
 
@@ -316,7 +318,7 @@ class StudyResults(Shown):
         means = np.abs(self.walk.cube(demand)).mean(axis=(1, 2)).reshape(-1, len(names) + 2, len(study["model"]))
         return {model: sobol_indices(means[:, :, place], names) for place, model in enumerate(study["model"])}
 
-    def tornado(self, demand: str = "residual_slip_m") -> dict[str, dict[str, Any]]:
+    def tornado(self, demand: str = RESIDUAL_SLIP.key) -> dict[str, dict[str, Any]]:
         """Return what each field by itself does to a number for each model, without its sign; see
         :func:`heeltoe.study.answers.sensitivity.tornado`.
 
@@ -362,8 +364,8 @@ class StudyResults(Shown):
             "summary": self.summary,
             "suite": self.suite,
             "portfolio": plain_json(self.portfolio),
-            "fragility": None if self.manifest["study"]["fragility"] is None else self.fragility,
-            "hazard": self.hazard,
+            "fragility": None if self.manifest["study"]["fragility"] is None else plain_json(self.fragility),
+            "hazard": plain_json(self.hazard),
             "measures_compared": self.compared(),
             "sensitivity": self.sensitivity() if self.manifest["study"]["method"] == "sensitivity" else None,
             "one_at_a_time": self.tornado() if self.manifest["study"]["method"] == "one at a time" else None,
@@ -393,8 +395,10 @@ def open_study(directory: str | PathLike[str]) -> StudyResults:
     Raises
     ------
     InputError
-        Where there is none.
+        Where there is none, or something of it is not what was written.
     """
     place = Path(directory)
     record = read_manifest(place)
-    return StudyResults(Store(place, record["count"], record["size"]), record)
+    store = Store.of(place, record)
+    store.sound()
+    return StudyResults(store, record)

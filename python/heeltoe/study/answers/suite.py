@@ -152,6 +152,10 @@ def _record(motion: Mapping[str, Any], sign: str, signs: Mapping[str, _Way]) -> 
         **{key: finite(value) for key, value in way.demands.items()},
         "joints_cracked_m": [finite(value) for value in way.joints],
         "other_sign_residual_slip_m": None if other is None else finite(other.demands["residual_slip_m"]),
+        "magnitude": motion["traits"]["magnitude"],
+        "distance_m": motion["traits"]["distance_m"],
+        "vs30_m_s": motion.get("vs30_m_s"),
+        "pulse_period_s": motion.get("pulse_period_s"),
     }
 
 

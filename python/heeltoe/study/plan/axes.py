@@ -20,6 +20,9 @@ from heeltoe.study.plan.file import Distribution, Value
 from heeltoe.study.plan.problems import Problems
 from heeltoe.units.parse import DIMENSIONS, parse
 
+#: Values of a distribution that are tried in the case, before anything runs.
+_TRIED = 100
+
 
 @dataclass(frozen=True, eq=False)
 class Axis:
@@ -106,7 +109,8 @@ def axis_of(
             raise InputError("study-not-a-number", f"vary.{path}", shown(entry.distribution))
         law = law_of(entry, lambda value, field: parse(value, quantity, field), f"vary.{path}")
         numbers = np.zeros(0) if drawn else _even(entry, law, f"vary.{path}")
-        ends = (*law.support(), *numbers)
+        # Many values lie between these, which are tried; a run of one that the case refuses is counted as refused.
+        ends = (*law.support(), *numbers[:: max(1, numbers.size // _TRIED)], *numbers[-1:])
         for value in (end for end in ends if np.isfinite(end)):
             _tried(case, Axis(path, quantity, (), None), float(value), beside)
         return Axis(path, quantity, tuple(numbers.tolist()), numbers, law)

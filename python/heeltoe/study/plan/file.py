@@ -21,7 +21,7 @@ from pydantic import (
 
 from heeltoe.base.display import Shown
 from heeltoe.case.fields import Count, Fields, TimeSpan, Truth
-from heeltoe.case.quantities import AccelerationField, DimensionlessNumber, Duration, Length, Rotation, Slip
+from heeltoe.case.quantities import AccelerationField, DimensionlessNumber, Duration, Length, Rotation, Slip, Velocity
 from heeltoe.case.read import read_fields
 from heeltoe.case.sentences import collected, first_error, gathered
 from heeltoe.case.suite import PeriodField, SuiteRule
@@ -56,15 +56,15 @@ class Distribution(Fields):
     mode: Value | None = None
     """Most likely value of `triangular`."""
     mean: Value | None = None
-    """Mean of `normal`."""
+    """Mean of `normal`, before it is cut."""
     std: Value | None = None
-    """Standard deviation of `normal`."""
+    """Standard deviation of `normal`, before it is cut."""
     median: Value | None = None
-    """Median of `lognormal`."""
+    """Median of `lognormal`, before it is cut."""
     dispersion: Annotated[DimensionlessNumber, Field(gt=0.0, le=3.0)] | None = None
-    """Standard deviation of the logarithm of `lognormal`."""
+    """Standard deviation of the logarithm of `lognormal`, before it is cut."""
     lower: Value | None = None
-    """Cuts `normal` and `lognormal` below: nothing less is drawn."""
+    """Cuts `normal` and `lognormal` below: nothing less is drawn, and the rest in proportion more often."""
     upper: Value | None = None
     """Cuts `normal` and `lognormal` above."""
     count: Annotated[int, Field(strict=True, ge=2, le=10_000)] | None = None
@@ -107,13 +107,18 @@ class Event(Fields):
     name: Annotated[str, Field(strict=True)] = ""
     """What it is called; its first file where it is not given."""
     horizontal: Annotated[tuple[str, ...], BeforeValidator(_listed), Field(min_length=1, max_length=2)]
-    """One or two horizontal components: files, relative to the study file, or names of the catalogue."""
+    """One or two horizontal components: files, relative to the study file, or names of the catalogue; a channel of a
+    file of several as `FILE#2`."""
     vertical: str | None = None
     """The vertical component, which shakes the dam together with each horizontal one, scaled by the same factor."""
     magnitude: Annotated[DimensionlessNumber, Field(ge=0.0, le=10.0)] | None = None
     """Moment magnitude; nothing depends on it but the comparison of measures of strength."""
     distance: Annotated[Length, Field(gt=0.0)] | None = None
     """From the fault to the place; for the same."""
+    vs30: Annotated[Velocity, Field(gt=0.0)] | None = None
+    """Velocity of shear waves in the upper 30 m of the place; shown beside its records."""
+    pulse_period: Annotated[Duration, Field(gt=0.0)] | None = None
+    """Period of the pulse in the velocity of a record near a fault; shown beside it."""
 
 
 class Scale(Fields):
@@ -146,7 +151,9 @@ class Motions(Fields):
     """The earthquakes; without them all runs meet that of the case."""
 
     folder: str | None = Field(default=None, strict=True, min_length=1)
-    """Every record in it; components of one event are told by their names, which differ in their last part alone."""
+    """Every record in it; which of them are components of one event, and which are vertical, is told by what they say
+    of themselves (station, time, direction), and where they say nothing by their names, which differ in their last part
+    alone."""
     files: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
     """Records, grouped by their names as in a folder."""
     events: Annotated[tuple[Event, ...], Field(min_length=1)] | None = None

@@ -11,7 +11,7 @@ from typing import Any
 
 from heeltoe.base.input_files import read_csv_rows, reason_of
 from heeltoe.errors.error import InputError, shown
-from heeltoe.units.parse import parse, parse_acceleration
+from heeltoe.units.parse import parse, parse_acceleration, plain_number
 
 # Bytes; no curve comes near.
 _LARGEST = 1_000_000
@@ -177,6 +177,6 @@ def _rate_of_probability(probability: float, years: float, field: str) -> float:
 def _pair(row: Sequence[str], field: str) -> tuple[float, float]:
     try:
         strength, rate = row
-        return float(strength), float(rate)
+        return plain_number(strength), plain_number(rate)
     except ValueError:
         raise InputError("hazard-row", field, shown(", ".join(row))) from None

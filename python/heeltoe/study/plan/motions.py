@@ -4,7 +4,6 @@ strong as is wanted."""
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -21,20 +20,16 @@ from heeltoe.case.suite import SuiteMotion
 from heeltoe.errors.error import InputError, shown
 from heeltoe.errors.sanitize import harmless
 from heeltoe.models.run import runs_both_signs
+from heeltoe.motion.check import check_moved, check_pair, check_scaling
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.intensity import intensity
 from heeltoe.motion.matching import match_known_band
 from heeltoe.motion.records.catalog import is_record
-from heeltoe.motion.targets import target_of
+from heeltoe.motion.targets import Target, target_of
+from heeltoe.study.plan.components import components_of, grouped, with_channel
 from heeltoe.study.plan.file import Event, Motions
 from heeltoe.study.plan.problems import Problems
-
-# What the last part of a vertical component's name is.
-_VERTICAL = re.compile(r"up|ud\d?|v|ver|vert|vertical|vrt|z|[bceghs][dghln]z|dwn|down", re.IGNORECASE)
-# The last part of a name, which tells the components of an event apart: behind a dash, an underscore or a blank.
-_LAST = re.compile(r"(.+)[-_ .]([^-_ .]+)")
-# Endings of K-NET and KiK-net, which tell the components apart where names do not.
-_ENDING = re.compile(r"\.(EW|NS|UD)[12]?", re.IGNORECASE)
+from heeltoe.study.plan.search_results import Listed, is_list
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +50,8 @@ class Shake:
         What the measure of the scale is for factor one: the geometric mean of both components of a pair.
     end
         Of the shaking [s]; that of the horizontal motion where it is zero.
+    about
+        The event as the study has it; None of the motion of a case.
     """
 
     name: str
@@ -64,6 +61,7 @@ class Shake:
     turned: bool = False
     reference: float = 1.0
     end: float = 0.0
+    about: Event | None = None
 
     def factor(self, strength: Floats, measure: str) -> Floats:
         """Return the factors that make the motion so strong."""
@@ -95,9 +93,17 @@ def shakes_of(motions: Motions, case: Case, directory: Path) -> tuple[tuple[Shak
             shakes += _shakes(motions, case, directory, number, event)
     problems.tell()
     # Halves of letters are none that a table can hold.
-    return tuple(replace(shake, name=harmless(shake.name)) for shake in shakes), tuple(
+    return tuple(replace(shake, name=harmless(shake.name)) for shake in _called_apart(shakes)), tuple(
         harmless(event.name) for event in events
     )
+
+
+def _called_apart(shakes: Sequence[Shake]) -> Iterator[Shake]:
+    """Walk motions with a name each: files of one name that differ in their ending are called with it."""
+    names = [shake.name for shake in shakes if not shake.turned]
+    for shake in shakes:
+        ending = Path(shake.horizontal.source).suffix
+        yield replace(shake, name=f"{shake.name}{ending}") if names.count(shake.name) > 1 else shake
 
 
 def _shakes(motions: Motions, case: Case, directory: Path, number: int, event: Event) -> Iterator[Shake]:
@@ -117,17 +123,26 @@ def _shakes(motions: Motions, case: Case, directory: Path, number: int, event: E
             field = _field_of(motions, event.vertical, f"events[{number}].vertical")
             vertical = _read(motions, case, directory, event.vertical, field, upward=True)
     problems.tell()
+    if vertical is not None:
+        horizontal = [motion.with_warnings(*check_pair(motion, vertical)) for motion in horizontal]
     if motions.match is not None:
         target = target_of(beside_file(motions.match, directory), "motions.match", case.gravity)
-        horizontal = [match_known_band(motion, target)[0] for motion in horizontal]
+        horizontal = [_matched(motion, target, case.gravity) for motion in horizontal]
     references = [_reference(motions, motion, case) for motion in horizontal]
     if motions.pairs:
         references = [float(np.sqrt(np.prod(references)))] * 2
     for motion, reference in zip(horizontal, references, strict=True):
-        shake = Shake(motion.name, number, motion, vertical, reference=reference)
+        shake = Shake(motion.name, number, motion, vertical, reference=reference, about=event)
         yield shake
         if both_signs(motions, case):
             yield replace(shake, turned=True)
+
+
+def _matched(motion: GroundMotion, target: Target, gravity: float) -> GroundMotion:
+    """Return a record matched to a target, looked at as any record that was processed."""
+    matched, misfit = match_known_band(motion, target)
+    check_moved(matched, gravity, "motions.match")
+    return matched.with_warnings(*check_scaling(motion, misfit.scale))
 
 
 def beside_file(text: str, directory: Path) -> str:
@@ -154,7 +169,7 @@ def _reference(motions: Motions, motion: GroundMotion, case: Case) -> float:
 def _field_of(motions: Motions, name: str, entry: str) -> str:
     """Return where the name of a record stands in the study: `entry` in a study whose events are listed."""
     if motions.files is not None:
-        entry = f"files[{motions.files.index(name)}]"
+        entry = f"files[{next(k for k, file in enumerate(motions.files) if name.startswith(file))}]"
     elif motions.folder is not None:
         entry = "folder"
     return f"motions.{entry}"
@@ -164,42 +179,58 @@ def _read(
     motions: Motions, case: Case, directory: Path, name: str, field: str, *, upward: bool = False
 ) -> GroundMotion:
     step = None if motions.time_step is None else f"{motions.time_step!r} s"
+    file, channel = with_channel(name, directory)
     try:
-        source = Source.model_validate({"file": name, "unit": motions.unit, "time_step": step})
+        source = Source.model_validate({"file": file, "channel": channel, "unit": motions.unit, "time_step": step})
     except ValidationError as found:
         raise first_error(found, Source) from None
     return read_source(source, case.gravity, directory, field, upward=upward, options_field="motions")
 
 
 def _events(motions: Motions, directory: Path) -> Iterator[Event]:
-    """Walk the events; components of files without a word of which belong together are told by their names."""
+    """Walk the events; components of files without a word of which belong together are told by what they say."""
     if motions.events is not None:
         for event in motions.events:
             yield event if event.name else event.model_copy(update={"name": Path(event.horizontal[0]).stem})
         return
-    names = motions.files or _folder(motions.folder or "", directory)
-    groups: dict[str, list[str]] = {}
-    for name in names:
-        common, last = _parts(name)
-        if _VERTICAL.fullmatch(last):
-            common = next((_parts(other)[0] for other in names if _goes_with(name, other)), common)
-        groups.setdefault(common, []).append(name)
-    for common, files in groups.items():
-        vertical = [file for file in files if _VERTICAL.fullmatch(_parts(file)[1])]
-        horizontal = [file for file in files if file not in vertical]
-        if not horizontal:
-            raise InputError("study-horizontal", "motions", shown(vertical[0]))
-        if len(vertical) > 1 or len(horizontal) > 2:
-            raise InputError("study-components", "motions", shown(common), names=", ".join(files))
-        used = vertical[0] if vertical and motions.vertical else None
-        yield Event(name=common, horizontal=tuple(horizontal), vertical=used)
+    names = motions.files or records_of(motions.folder or "", directory)
+    parts = components_of(names, directory, unit=motions.unit, time_step=motions.time_step)
+    groups = grouped(parts)
+    called = [group.name for group in groups]
+    for place, group in enumerate(groups):
+        if not group.horizontal:
+            raise InputError("study-horizontal", "motions", shown(group.vertical[0].file))
+        files = [part.file for part in (*group.horizontal, *group.vertical)]
+        if len(group.vertical) > 1 or len(group.horizontal) > 2:
+            raise InputError("study-components", "motions", shown(group.name), names=", ".join(files))
+        name = group.name if called.count(group.name) == 1 else f"{group.name}-{called[: place + 1].count(group.name)}"
+        used = group.vertical[0].file if group.vertical and motions.vertical else None
+        yield _event(name, [part.file for part in group.horizontal], used, group.horizontal[0].listed)
 
 
-def suite_events(motions: Sequence[SuiteMotion], directory: Path, *, vertical: bool) -> tuple[list[Event], list[str]]:
+def _event(name: str, horizontal: Sequence[str], vertical: str | None, listed: Listed) -> Event:
+    """Return an event with what a list of records says of it."""
+    about = {
+        "magnitude": listed.magnitude,
+        "distance": listed.distance_m,
+        "vs30": listed.vs30_m_s,
+        "pulse_period": listed.pulse_period_s,
+    }
+    return Event(name=name, horizontal=tuple(horizontal), vertical=vertical).model_copy(update=about)
+
+
+def suite_events(
+    motions: Sequence[SuiteMotion],
+    directory: Path,
+    *,
+    vertical: bool,
+    unit: str | None = None,
+    time_step: float | None = None,
+) -> tuple[list[Event], list[str]]:
     """Return each horizontal record of a suite as an event by itself, with the entry of the case that it comes from.
 
-    A vertical component of a folder, told by its name, goes with each horizontal one of its name where `vertical` is
-    asked for, and is left out otherwise.
+    A vertical component, told by what its record says and else by its name, goes with each horizontal one of its
+    earthquake where `vertical` is asked for, and is left out otherwise.
 
     Raises
     ------
@@ -209,67 +240,56 @@ def suite_events(motions: Sequence[SuiteMotion], directory: Path, *, vertical: b
     if not motions:
         raise InputError("study-motions", "motions")
     files: dict[str, tuple[str, str | None]] = {}
-    names = list[str]()
+    names, found = list[str](), set[str]()
     for place, motion in enumerate(motions):
         is_folder = os.path.isdir(directory / os.path.expanduser(motion.file))
-        for name in _folder(motion.file, directory, f"motions[{place}].file") if is_folder else [motion.file]:
-            files[name] = f"motions[{place}]", motion.vertical
-            names.append(name)
-    upward = [
-        file
-        for file in files
-        if _VERTICAL.fullmatch(_parts(file)[1]) and any(_goes_with(file, other) for other in files)
-    ]
-    horizontal = [file for file in names if file not in upward]
-    stems = [_name_of(file) if os.path.isfile(directory / file) else file for file in horizontal]
-    twice = [stem for stem in stems if stems.count(stem) > 1]
+        own = records_of(motion.file, directory, f"motions[{place}].file") if is_folder else [motion.file]
+        names += own
+        files |= dict.fromkeys(own, (f"motions[{place}]", motion.vertical))
+        found |= set(own) if is_folder else set()
+    twice = [name for name in names if names.count(name) > 1]
     if twice:
         raise InputError("study-twice", "motions", shown(twice[0]))
-    events = [
-        Event(
-            name=stem,
-            horizontal=(file,),
-            vertical=files[file][1]
-            or (next((up for up in upward if _goes_with(up, file)), None) if vertical else None),
-        )
-        for stem, file in zip(stems, horizontal, strict=True)
-    ]
-    return events, [files[file][0] for file in horizontal]
+    rows = list[tuple[int, Event, str]]()
+    for group in grouped(components_of(names, directory, unit=unit, time_step=time_step)):
+        # Alone and by its file, a vertical component is what the user asks for; it is warned of.
+        level = group.horizontal or tuple(part for part in group.vertical if part.given not in found)
+        for part in level:
+            entry, named = files[part.given]
+            up = group.vertical[0].file if vertical and group.horizontal and group.vertical else None
+            event = _event(_name_of(part.file, directory), [part.file], named or up, part.listed)
+            rows.append((names.index(part.given), event, entry))
+    if not rows:
+        raise InputError("study-horizontal", "motions", shown(names[0]))
+    rows.sort(key=lambda row: row[0])
+    called = [event.name for _, event, _ in rows]
+    return [
+        event if called.count(event.name) == 1 else event.model_copy(update={"name": Path(event.horizontal[0]).name})
+        for _, event, _ in rows
+    ], [entry for _, _, entry in rows]
 
 
-def _goes_with(upward: str, other: str) -> bool:
-    """Whether another record is a horizontal component beside a vertical one."""
-    common, last = _parts(other)
-    beside = _parts(upward)[0]
-    # PEER writes STATION-UP beside STATION000 and STATION090.
-    joined = Path(other).stem.lower().removeprefix(beside.lower())
-    return not _VERTICAL.fullmatch(last) and (common == beside or re.fullmatch(r"\d{3}", joined) is not None)
+def _name_of(name: str, directory: Path) -> str:
+    """Return what a record is called by its file."""
+    file, channel = with_channel(name, directory)
+    own = Path(file).stem if os.path.isfile(directory / file) else file
+    return own if channel is None else f"{own}-chan{channel}"
 
 
-def _parts(name: str) -> tuple[str, str]:
-    """Return what the components of one event have in common in their names, and the part that tells them apart; a name
-    of one part is an event by itself."""
-    path = Path(name)
-    if ending := _ENDING.fullmatch(path.suffix):
-        return path.stem, ending[1]
-    match = _LAST.fullmatch(path.stem)
-    return (match[1], match[2]) if match else (path.stem, "")
+def records_of(name: str, directory: Path, field: str = "motions.folder") -> list[str]:
+    """Return the records of a folder, in the order of their names.
 
-
-def _name_of(name: str) -> str:
-    """Return what a record is called by its file: with its ending where that alone tells it from others."""
-    path = Path(name)
-    return path.name if _ENDING.fullmatch(path.suffix) else path.stem
-
-
-def _folder(name: str, directory: Path, field: str = "motions.folder") -> list[str]:
-    """Return the records of a folder, in the order of their names."""
+    Raises
+    ------
+    InputError
+        Where it is no folder, or has none.
+    """
     # Unlike that of paths, it leaves the home of nobody as it is.
     root = directory / os.path.expanduser(name)
     # A name that is too long for any file is no folder, either: Path.is_dir raises.
     if not os.path.isdir(root):
         raise InputError("study-folder", field, shown(name))
-    files = [str(path.resolve()) for path in sorted(root.iterdir()) if is_record(path)]
+    files = [str(path.resolve()) for path in sorted(root.iterdir()) if is_record(path) and not is_list(path.name)]
     if not files:
         raise InputError("study-folder-empty", field, shown(name))
     return files

@@ -18,14 +18,18 @@ from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
 from heeltoe.case.paths import value_of
 from heeltoe.case.read import read_case
-from heeltoe.case.warnings import case_warnings
+from heeltoe.case.warnings import case_warnings, rock_warnings
 from heeltoe.errors.error import InputError
+from heeltoe.mechanics.beam import step_warnings
 from heeltoe.models.run import earthquake
+from heeltoe.motion.check import check as check_motion
+from heeltoe.motion.check import check_scaling
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.intensity import MEASURES, intensity, spectral_acceleration
 from heeltoe.motion.measures import measures
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.motion.targets import Target, target_of
+from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.crest import CREST_PEAKS
 from heeltoe.result.judge import CREST_LIMITS
 from heeltoe.study.plan.axes import Axis, axis_of, beside, check_drawn, law_of
@@ -52,6 +56,10 @@ _WORDS = {"title", "units", "project"}
 _WARNED = 2000
 #: At which the spectra of a suite are drawn [s].
 SUITE_PERIODS: Floats = np.geomspace(0.05, 4.0, 90)
+# Of what is drawn without a bound.
+_NEARLY_ALL = 0.99
+# No strength of an earthquake comes near, whatever its measure.
+_STRONGEST = 1e12
 # Of the draws, how many are looked at for values that a field cannot have.
 _LOOKED_AT = 1 << 20
 
@@ -284,15 +292,49 @@ class Plan:
     def _warnings_of_motions(self) -> list[Notice]:
         """Return what motions and models warn of."""
         notices = [notice for shake in self.shakes for notice in shake.horizontal.warnings]
+        notices += self.check_motions()
         motions, own = self.study.motions, self.case.motion
         if motions is not None and own is not None and own.vertical is not None and not motions.vertical:
             notices.append(Notice("study-vertical-left-out"))
         if set(self.study.model) == {"rigid"}:
             notices.append(Notice("study-rigid"))
+        else:
+            notices += [notice for shake in self.shakes for notice in step_warnings(self.case, shake.horizontal)]
+        if "flexible" in self.study.model:
+            notices += rock_warnings(self.case)
         if self.pilot is not None and self.pilot.evidence is not None:
             single_runs = any(self.pilot_of(motion) is None for motion in range(len(self.shakes)))
             notices += _worth(self.pilot.evidence, single_runs=single_runs)
         return notices
+
+    def check_motions(self) -> Iterator[Notice]:
+        """Walk what is suspicious about the motions of the study as they shake the dams, as single runs look at them.
+
+        They are looked at at their weakest and strongest, or what is less and more than nearly all that is drawn.
+
+        Raises
+        ------
+        InputError
+            Where one is more than any ground has been seen to do.
+        """
+        motions, scale = self.study.motions, self.scale
+        if motions is None:
+            return
+        field = "motions" if motions.match is None else "motions.match"
+        ends: Any = np.ones(1)
+        if scale is not None:
+            field = "motions.scale.values"
+            ends = scale.numbers if scale.law is None else scale.law.ppf([1.0 - _NEARLY_ALL, _NEARLY_ALL])
+        for shake in self.shakes:
+            if shake.turned:
+                continue
+            factors = shake.factor(np.asarray(ends, dtype=np.float64), "factor" if scale is None else scale.path)
+            yield from check_scaling(shake.horizontal, float(factors.max()))
+            for factor in sorted({float(factors.min()), float(factors.max())}):
+                for motion in (shake.horizontal, shake.vertical):
+                    if motion is not None:
+                        made = motion if factor == 1.0 else motion.scaled(factor)
+                        yield from check_motion(made, self.case.gravity, allow_zero=True, field=field)
 
     def pilot_of(self, motion: int) -> Pilot | None:
         """Return the pilot where it has made the run of a motion: of one dam at one strength."""
@@ -309,12 +351,12 @@ class Plan:
         rows = []
         for shake in self.shakes:
             motion = shake.horizontal
-            if motion.name not in measured:
+            if shake.name not in measured:
                 by_name = {name: intensity(motion, name, None, self.case.gravity) for name in MEASURES}
                 by_name |= {f"sa({period:g})": spectral_acceleration(motion, period) for period in periods}
-                measured[motion.name] = by_name
+                measured[shake.name] = by_name
             row = {"name": shake.name, "event": self.events[shake.event], "reversed": shake.turned}
-            rows.append({**row, "measures": measured[motion.name], "traits": self._traits(shake)})
+            rows.append({**row, "measures": measured[shake.name], "traits": self._traits(shake), **_place(shake)})
         return rows
 
     def spectra(self) -> dict[str, Any] | None:
@@ -344,11 +386,10 @@ class Plan:
     def _traits(self, shake: Shake) -> dict[str, float | None]:
         """Return what is known of a motion beside its strength."""
         known = measures(shake.horizontal, self.case.gravity)
-        motions = self.study.motions
-        event = motions.events[shake.event] if motions and motions.events else None
+        event = shake.about
         return {
-            "mean_period_s": known.get("mean_period_s"),
-            "significant_duration_s": known.get("significant_duration_s"),
+            "mean_period_s": known.mean_period_s,
+            "significant_duration_s": known.significant_duration_s,
             "magnitude": event.magnitude if event else None,
             "distance_m": event.distance if event else None,
         }
@@ -438,6 +479,7 @@ def plan_of(study: Study, case: Case | None = None) -> Plan:
         if plan.sizes[2] > 1:
             raise InputError("suite-one-strength", "motions.scale.values", plan.sizes[2])
         _target(study, case)
+    list(plan.check_motions())
     if plan.crest and "decoupled" in study.model:
         raise InputError("study-no-crest", "model", "decoupled")
     if plan.count > MOST:
@@ -504,8 +546,8 @@ def _scale(scale: Scale | None, case: Case, *, drawn: bool) -> Axis | None:
         # One g is that of the case.
         acceleration = quantity == "acceleration"
         number_si = parse_acceleration(value, field).si(case.gravity) if acceleration else parse(value, quantity, field)
-        if not number_si > 0.0:
-            raise InputError("out-of-range", field, str(value), bound="above 0")
+        if not 0.0 < number_si < _STRONGEST:
+            raise InputError("out-of-range", field, str(value), bound=f"above 0 and below {_STRONGEST:g} in SI")
         return number_si
 
     if isinstance(scale.values, Distribution):
@@ -546,6 +588,15 @@ def _hash(content: Any) -> str:
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
+def _place(shake: Shake) -> dict[str, float | None]:
+    """Return what is known of where a motion was recorded, and of its pulse."""
+    event = shake.about
+    return {
+        "vs30_m_s": None if event is None else event.vs30,
+        "pulse_period_s": None if event is None else event.pulse_period,
+    }
+
+
 def _shake_content(shake: Shake) -> list[Any]:
     def digest(values: Floats) -> str:
         return hashlib.sha256(np.ascontiguousarray(values).tobytes()).hexdigest()
@@ -556,7 +607,7 @@ def _shake_content(shake: Shake) -> list[Any]:
 
 def _worth(evidence: Mapping[str, Any], *, single_runs: bool) -> Iterator[Notice]:
     """Say what the base case's evidence says of the rows, which have none of their own where they are single runs."""
-    slip = evidence["residual_slip_m"]
+    slip = evidence[RESIDUAL_SLIP.key]
     if evidence["value_is"] == "mean" and single_runs:
         yield Notice("study-scatter", value_m=slip["value"], run_m=slip["run"])
     if not evidence["converged"]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,7 @@ from heeltoe.errors.error import InputError, shown
 from heeltoe.errors.sanitize import harmless
 from heeltoe.study.plan.axes import Axis
 from heeltoe.study.plan.problems import Problems
-from heeltoe.units.parse import parse
+from heeltoe.units.parse import parse, plain_number
 
 #: More dams than these are drawn, not listed.
 MOST = 200_000
@@ -38,10 +38,13 @@ class DamTable:
         Of the dams; their numbers where the table has no column ``name``.
     axes
         The fields, each with a value for every dam.
+    units
+        Of the header, by fields that hold no quantity; none should be there.
     """
 
     names: tuple[str, ...]
     axes: tuple[Axis, ...]
+    units: Mapping[str, str]
 
     def check(self, case: Case) -> None:
         """Refuse dams that are no cases.
@@ -52,6 +55,10 @@ class DamTable:
             Naming the row and the field of the first, with the others.
         """
         problems = Problems()
+        for axis in self.axes:
+            with problems:
+                self._check_heading(axis, case)
+        problems.tell()
         for row, name in enumerate(self.names):
             changes = {key: value for axis in self.axes for key, value in axis.changes(_at(axis, row)).items()}
             with problems:
@@ -62,6 +69,16 @@ class DamTable:
                         problem.field = f"cases: row {row + 1} ({harmless(name)}): {problem.field}"
                     raise
         problems.tell()
+
+    def _check_heading(self, axis: Axis, case: Case) -> None:
+        try:
+            case.with_(axis.changes(_at(axis, 0)))
+        except InputError as error:
+            if error.code == "unknown-field":
+                error.field = f"cases: {axis.path}"
+                raise
+        if axis.path in self.units:
+            raise InputError("dams-unit", f"cases: {axis.path}", self.units[axis.path])
 
 
 def _at(axis: Axis, row: int) -> Any:
@@ -82,7 +99,8 @@ def read_table(path: Path) -> DamTable:
     head, *dams = rows
     if len(dams) > MOST:
         raise InputError("study-many", "cases", f"{len(dams):,}", most=f"{MOST:,}")
-    problems, axes, names = Problems(), list[Axis](), tuple(str(number + 1) for number in range(len(dams)))
+    problems, axes, units = Problems(), list[Axis](), dict[str, str]()
+    names = tuple(str(number + 1) for number in range(len(dams)))
     for number, dam in enumerate(dams):
         if len(dam) != len(head):
             with problems:
@@ -93,14 +111,24 @@ def read_table(path: Path) -> DamTable:
     for place, title in enumerate(head):
         cells = [dam[place] for dam in dams]
         if title.lower() in (NAME, "dam"):
-            names = tuple(harmless(cell) for cell in cells)
+            for number, cell in enumerate(cells):
+                with problems:
+                    if harmless(cell) != cell:
+                        raise InputError("dams-letter", f"cases: row {number + 1}", shown(cell))
+            names = tuple(cells)
             continue
         with problems:
-            axes.append(_axis(title, cells))
+            axis, unit = _axis(title, cells)
+            axes.append(axis)
+            if unit:
+                units[axis.path] = unit
     problems.tell()
     if not axes:
         raise InputError("dams-empty", "cases", shown(path.name))
-    return DamTable(names, tuple(axes))
+    if len(set(names)) < len(names):
+        twice = next(name for name in names if names.count(name) > 1)
+        raise InputError("dams-name", f"cases: row {names.index(twice) + 1}", shown(twice), count=names.count(twice))
+    return DamTable(names, tuple(axes), units)
 
 
 def _rows(path: Path) -> list[list[str]]:
@@ -112,25 +140,23 @@ def _rows(path: Path) -> list[list[str]]:
         raise InputError("dams-unreadable", "cases", shown(str(path)), reason=reason_of(error)) from None
 
 
-def _axis(title: str, cells: Sequence[str]) -> Axis:
-    """Return a column of the table."""
+def _axis(title: str, cells: Sequence[str]) -> tuple[Axis, str]:
+    """Return a column of the table, and the unit of one that holds no quantity, or is no field."""
     match = _HEAD.fullmatch(title)
     path, unit = (match[1].strip(), (match[2] or "").strip()) if match else (title, "")
     if re.split(r"[.\[]", path, maxsplit=1)[0] in ("motion", "aftershocks"):
         raise InputError("study-motion-varies", f"cases: {path}")
     quantity = quantity_of(path)
     if quantity is None:
-        if unit:
-            raise InputError("dams-unit", f"cases: {path}", unit)
-        return Axis(path, None, tuple(cells), None)
+        return Axis(path, None, tuple(cells), None), unit
     one, problems = parse(f"1 {unit}".strip(), quantity, f"cases: {path}"), Problems()
     numbers = np.zeros(len(cells))
     for row, cell in enumerate(cells):
         with problems:
             try:
-                numbers[row] = float(cell) * one
+                numbers[row] = plain_number(cell) * one
             except ValueError:
                 # A cell may have a unit of its own.
                 numbers[row] = parse(cell, quantity, f"cases: row {row + 1}: {path}")
     problems.tell()
-    return Axis(path, quantity, tuple(cells), numbers)
+    return Axis(path, quantity, tuple(cells), numbers), ""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ import pyarrow.parquet as pq
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.errors.error import InputError
 from heeltoe.motion.intensity import at_factor
+from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.crest import CREST_PEAKS
 from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judgement, judge
 from heeltoe.study.plan.crack_columns import column_of
@@ -40,7 +42,7 @@ class Walk:
 
     store: Store
     manifest: Mapping[str, Any]
-    _kept: dict[tuple[tuple[int, ...], str], pa.ChunkedArray] = field(
+    _kept: dict[tuple[tuple[str, ...], str], pa.ChunkedArray] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
 
@@ -49,20 +51,20 @@ class Walk:
         for parts in self._stretches():
             yield Stretch(self._read(parts, columns), self.manifest)
 
-    def _read(self, parts: list[int], columns: Sequence[str]) -> pa.Table:
-        place = tuple(parts)
+    def _read(self, parts: list[Path], columns: Sequence[str]) -> pa.Table:
+        place = tuple(path.name for path in parts)
         known = {name: self._kept[place, name] for name in columns if (place, name) in self._kept}
         missing = [name for name in columns if name not in known]
         if missing:
-            fresh = _read(self.store, parts, missing)
+            fresh = _read(parts, missing)
             known |= dict(zip(missing, fresh.columns, strict=True))
             if sum(column.nbytes for column in self._kept.values()) + fresh.nbytes <= _KEPT:
                 self._kept.update({(place, name): known[name] for name in missing})
         return pa.table({name: known[name] for name in columns})
 
-    def _stretches(self) -> Iterator[list[int]]:
-        """Walk through numbers of parts that are there, some together."""
-        parts = sorted(set(range(self.store.parts)) - set(self.store.missing()))
+    def _stretches(self) -> Iterator[list[Path]]:
+        """Walk through the parts that are there, some together."""
+        parts = list(self.store.sound().values())
         many = max(1, _TOGETHER // self.store.size)
         for start in range(0, len(parts), many):
             yield parts[start : start + many]
@@ -103,7 +105,7 @@ class Walk:
 
     def judging(self, limits: Iterable[str] = ()) -> list[str]:
         """Return the columns by which :meth:`Stretch.judged` judges runs by some limits."""
-        names = sorted({"residual_slip_m", *(key for limit in limits for key in LIMITS[limit].keys)})
+        names = sorted({RESIDUAL_SLIP.key, *(key for limit in limits for key in LIMITS[limit].keys)})
         return ["outcome", "slid_off", *names, *(column for name in names for column in self.of_cracks(name))]
 
     @property
@@ -266,6 +268,6 @@ class Stretch:
         return np.array([known.get(word, 0) for word in words], dtype=np.int64)[code]
 
 
-def _read(store: Store, parts: list[int], columns: list[str]) -> pa.Table:
-    tables = [pq.ParquetFile(store.path(part)).read(columns, use_threads=False) for part in parts]
+def _read(parts: list[Path], columns: list[str]) -> pa.Table:
+    tables = [pq.ParquetFile(path).read(columns, use_threads=False) for path in parts]
     return pa.concat_tables(tables).unify_dictionaries().combine_chunks()

@@ -39,10 +39,9 @@ from heeltoe.models.runner import (
     with_outcome,
 )
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import CRACKED, HEADLINES, headlines
+from heeltoe.result.contract import CRACKED, HEADLINES, SLIPS_BY_MODE, TIMES_BY_MODE, WIDTH, headlines
 from heeltoe.result.crest import CREST_PEAKS, crest_peaks
 from heeltoe.result.judge import Judgement, judge
-from heeltoe.result.numbers import SlipByMode, TimeByMode
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.study.plan.crack_columns import OfCrack, column_of, numbers_of_cracks
@@ -51,12 +50,11 @@ from heeltoe.study.plan.plan import Plan, Runs
 #: What the seconds of a part stand under in the metadata of its table, on their way to who counts them.
 SECONDS = "seconds"
 _RESTITUTION = BLOCK.index("restitution")
-_SLIPS, _TIMES = SlipByMode.names(), TimeByMode.names()
 #: Names of the numbers of a run, in their order in the table.
 NUMBERS = (
     *(headline.key for headline in HEADLINES),
-    *(f"slip_{name}_m" for name in _SLIPS),
-    *(f"time_{name}_s" for name in _TIMES),
+    *SLIPS_BY_MODE,
+    *TIMES_BY_MODE,
     "largest_impact_velocity_m_s",
     "end_time_s",
     "energy_residual",
@@ -106,7 +104,7 @@ class PartResults:
 def _judged(outcome: Words, cracks: Sequence[OfCrack]) -> Judgement:
     """Return the judgement of some runs by the numbers at their cracks, without limits."""
     columns = {headline.key: np.column_stack([crack.named[headline.key] for crack in cracks]) for headline in HEADLINES}
-    columns["crack_width_m"] = np.column_stack([crack.width for crack in cracks])
+    columns[WIDTH] = np.column_stack([crack.width for crack in cracks])
     return judge({"outcome": outcome, **columns}, {})
 
 
@@ -117,8 +115,7 @@ def _of_table(
     been read of them."""
     named = {
         **headline,
-        **{f"slip_{name}_m": table[f"slip_{name}"] for name in _SLIPS},
-        **{f"time_{name}_s": table[f"time_{name}"] for name in _TIMES},
+        **{name: table[name[:-2]] for name in (*SLIPS_BY_MODE, *TIMES_BY_MODE)},
         "largest_impact_velocity_m_s": table["largest_impact_velocity"],
         "end_time_s": table["end_time"],
         "energy_residual": table["energy_residual"],
@@ -141,8 +138,8 @@ def _of_responses(responses: Sequence[Response], place: int) -> OfCrack:
             widths.append(math.inf)
             continue
         row = {
-            **{f"slip_{name}_m": value for name, value in numbers.slip_by_mode_m.items()},
-            **{f"time_{name}_s": value for name, value in numbers.time_by_mode_s.items()},
+            **dict(zip(SLIPS_BY_MODE, numbers.slip_by_mode_m.values(), strict=True)),
+            **dict(zip(TIMES_BY_MODE, numbers.time_by_mode_s.values(), strict=True)),
             **crest_peaks(response.crest),
             "end_time_s": response.end_time_s,
             "energy_residual": response.energy.residual,
@@ -181,6 +178,12 @@ def run_part(plan: Plan, start: int, stop: int, threads: int = 1) -> pa.Table:
     with results.timed("tables"):
         table = _table(plan, runs, results)
     return table.replace_schema_metadata({SECONDS: json.dumps(results.seconds)})
+
+
+def columns_of(plan: Plan) -> dict[str, str]:
+    """Return the types of the columns of a study's runs, by name."""
+    results = PartResults(0, 1 + len(plan.case.further_cracks), crest=plan.crest)
+    return {column.name: str(column.type) for column in _table(plan, plan.runs(0, 0), results).schema}
 
 
 def _rigid(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads: int) -> None:

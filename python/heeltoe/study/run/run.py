@@ -28,14 +28,13 @@ from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.study_results import StudyResults, open_study
 from heeltoe.study.plan.file import Study, read_study
 from heeltoe.study.plan.plan import Pilot, Plan, plan_of
-from heeltoe.study.run.batches import SECONDS, run_part
+from heeltoe.study.run.batches import SECONDS, columns_of, run_part
+from heeltoe.study.run.record import MOST_OF_PART, STUDY
 from heeltoe.study.run.schedule import check_workers, run_here, run_on_workers
 from heeltoe.study.run.store import Store, begin, keep_questions, keep_seconds, pilot_of
 
 #: Seconds that a part should take a worker: long beside what it costs to hand one out, short beside a patient wait.
 _SECONDS = 2.0
-#: Runs of a part at most, so that memory stays small.
-_MOST = 32_768
 #: Runs that are tried to know how long all will take.
 _TRIED = 200
 #: The same of elastic dams, and the seconds after which no other one is tried; so far apart they lie evenly.
@@ -121,9 +120,9 @@ class Outlook:
     @property
     def size(self) -> int:
         """How many runs make a part: whole dams where that is possible, so that what is built for one is built once."""
-        count = int(np.clip(_SECONDS / max(self.seconds_per_run, 1e-9), 1, _MOST))
+        count = int(np.clip(_SECONDS / max(self.seconds_per_run, 1e-9), 1, MOST_OF_PART))
         for together in (self.plan.count // self.plan.samples.count, self.plan.sizes[2] * self.plan.sizes[3]):
-            if together <= max(4 * count, 8) and together <= _MOST:
+            if together <= max(4 * count, 8) and together <= MOST_OF_PART:
                 return max(1, count // together) * together
         return count
 
@@ -252,10 +251,8 @@ def _begun(plan: Plan, directory: Path, resume: bool, before: Callable[[Outlook]
     """Take up the study where it stands, or begin it."""
     import os
 
-    from heeltoe.study.run.store import STUDY
-
     if (directory / STUDY).exists():
-        store = begin(plan, directory, 1, resume=resume)
+        store = begin(plan, directory, 1, {}, resume=resume)
         keep_questions(directory, plan)
         return store, replace(plan, pilot=pilot_of(directory))
     if "flexible" in plan.study.model:
@@ -263,7 +260,7 @@ def _begun(plan: Plan, directory: Path, resume: bool, before: Callable[[Outlook]
     expected = outlook(plan, os.cpu_count() or 1)
     if before is not None:
         before(expected)
-    return begin(plan, directory, expected.size, resume=resume), plan
+    return begin(plan, directory, expected.size, columns_of(plan), resume=resume), plan
 
 
 def _run(plan: Plan, store: Store, scheduler: str | None, progress: Callable[[Progress], None] | None) -> None:

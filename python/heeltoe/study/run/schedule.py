@@ -5,8 +5,9 @@ from __future__ import annotations
 import logging
 import os
 import shutil
+import sys
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -22,6 +23,8 @@ from heeltoe.study.run.batches import run_part
 _AHEAD = 2
 #: What the folders begin with in which workers of ours put aside what they do not hold.
 _ASIDE = ".workers-"
+#: So long a scheduler may take to answer, and then to get its first worker [s].
+_PATIENCE = 4.0
 Part = tuple[int, int, int]
 
 
@@ -62,6 +65,7 @@ def run_on_workers(
             cores = min(os.cpu_count() or 1, len(parts))
             for left in directory.glob(f"{_ASIDE}*"):
                 shutil.rmtree(left, ignore_errors=True)
+            stack.enter_context(_without_script())
             aside = TemporaryDirectory(prefix=_ASIDE, dir=directory, ignore_cleanup_errors=True)
             # Workers are started anew, not forked: what the parent's threads hold would be held for ever.
             # Any port does for a server that nobody asks: the usual one may be that of another study.
@@ -109,12 +113,18 @@ def check_workers(address: str | None) -> None:
     Raises
     ------
     InputError
-        Where Dask is not installed, or there is no scheduler at the address.
+        Where Dask is not installed, or there is no scheduler at the address, or it has no workers.
     """
     if find_spec("distributed") is None:
         raise InputError("study-package", "--scheduler", "dask")
     if address is not None:
-        _reached(address).close()
+        client = _reached(address)
+        try:
+            client.wait_for_workers(1, timeout=_PATIENCE)
+        except TimeoutError:
+            raise InputError("study-no-workers", "--scheduler", address, seconds=f"{_PATIENCE:g}") from None
+        finally:
+            client.close(timeout=2)
 
 
 def _reached(address: str) -> Any:
@@ -127,9 +137,23 @@ def _reached(address: str) -> Any:
         if name.partition(".")[0] in ("asyncio", "distributed", "tornado"):
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     try:
-        return Client(address, timeout=10)
+        return Client(address, timeout=_PATIENCE)
     except (OSError, ValueError, TimeoutError) as error:
         raise InputError("study-scheduler", "--scheduler", address, reason=str(error).split("\n")[0]) from None
+
+
+@contextmanager
+def _without_script() -> Iterator[None]:
+    """Let workers start without the script that runs here: it would run the study once more in each of them, and no
+    part needs anything of it. A worker that is lost is started anew at any time."""
+    script = vars(sys.modules["__main__"])
+    before: dict[str, Any] = {name: script[name] for name in ("__file__", "__spec__") if name in script}
+    script.pop("__file__", None)
+    script["__spec__"] = None
+    try:
+        yield
+    finally:
+        script |= before
 
 
 def _one(plan: Plan, part: int, start: int, stop: int) -> tuple[int, pa.Table]:

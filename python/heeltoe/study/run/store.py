@@ -1,30 +1,35 @@
 """Where a study keeps its runs: parts of a table, each written whole as it is done, and what they belong to.
 
-``study.json`` says which study it is, by a fingerprint of all that its results depend on, and ``runs/part-N.parquet``
-holds a stretch of its runs. A part is there whole or not at all, so that what was killed, or ran out of disk, goes on
-where it stopped.
+``study.json`` says which study it is, by a fingerprint of all that its results depend on, and
+``runs/part-N-DIGEST.parquet`` holds a stretch of its runs. A part is there whole or not at all: what was killed, or ran
+out of disk, goes on where it stopped. Its digest is that of the study, of the stretch and of all that is in the file: a
+part that is damaged, in another's place or of another study is read by nobody.
 """
 
 from __future__ import annotations
 
-import json
+import hashlib
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
-from heeltoe.base.atomic_files import check_directory, settle, write_text, written
+from heeltoe.base.atomic_files import check_directory, settle, written
 from heeltoe.errors.error import InputError
-from heeltoe.result.write import build_info, json_text
+from heeltoe.result.outcome import Outcome
+from heeltoe.result.write import build_info
 from heeltoe.study.plan.plan import Pilot, Plan
+from heeltoe.study.run.record import STUDY, VERSION, read_manifest, write_record
 from heeltoe.warnings.notice import Notice
 
-STUDY, RUNS = "study.json", "runs"
-#: Of the layout of a directory; another one cannot be read.
-_VERSION = 5
+RUNS = "runs"
+_PART = re.compile(r"part-(\d{8,})-[0-9a-f]{16}\.parquet")
 
 
 @dataclass(frozen=True)
@@ -39,37 +44,118 @@ class Store:
         How many runs there are.
     size
         How many of them a part has.
+    fingerprint
+        Of the study.
+    columns
+        The types of the columns of its runs, by name.
+    words
+        What stands in columns of words, by name.
     """
 
     directory: Path
     count: int
     size: int
+    fingerprint: str
+    columns: Mapping[str, str]
+    words: Mapping[str, frozenset[str]]
+    _sound: dict[str, tuple[int, int]] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    @classmethod
+    def of(cls, directory: Path, record: Mapping[str, Any]) -> Store:
+        """Return the store of a study, by its record."""
+        words = {
+            "model": record["study"]["model"],
+            "event": record["events"],
+            "motion": [motion["name"] for motion in record["motions"]],
+            "outcome": [outcome.value for outcome in Outcome],
+        }
+        known = {name: frozenset(of_column) for name, of_column in words.items()}
+        return cls(directory, record["count"], record["size"], record["fingerprint"], record["columns"], known)
 
     @property
     def parts(self) -> int:
         """How many parts make the whole."""
         return -(-self.count // self.size)
 
-    def path(self, part: int) -> Path:
-        """Return where a part is."""
-        return self.directory / RUNS / f"part-{part:08d}.parquet"
+    @property
+    def left(self) -> int:
+        """How many parts are not there."""
+        return self.parts - len(self.present())
 
     def stretch(self, part: int) -> tuple[int, int]:
         """Return the first run of a part, and the one after its last."""
         return part * self.size, min((part + 1) * self.size, self.count)
 
+    def present(self) -> dict[int, list[Path]]:
+        """Return the files of each part that is there, in the order of the parts; what else lies there is none."""
+        found: dict[int, list[Path]] = {}
+        for path in sorted((self.directory / RUNS).glob("part-*.parquet")):
+            named = _PART.fullmatch(path.name)
+            if named and int(named[1]) < self.parts:
+                found.setdefault(int(named[1]), []).append(path)
+        return dict(sorted(found.items()))
+
     def missing(self) -> list[int]:
         """Return the parts that are not there."""
-        names = {path.name for path in (self.directory / RUNS).glob("part-*.parquet")}
-        return [part for part in range(self.parts) if self.path(part).name not in names]
+        present = self.present()
+        return [part for part in range(self.parts) if part not in present]
 
-    def is_whole(self, part: int) -> bool:
-        """Return whether a part that is there can be read, and has all of its runs."""
-        start, stop = self.stretch(part)
+    def sound(self) -> dict[int, Path]:
+        """Return the file of each part that is there, in the order of the parts.
+
+        Raises
+        ------
+        InputError
+            Where a file is not what was written there.
+        """
+        return {part: self._sound_one(part, paths) for part, paths in self.present().items()}
+
+    def _sound_one(self, part: int, paths: list[Path]) -> Path:
+        for path in paths:
+            if self.is_sound(part, path):
+                return path
+        raise InputError("study-part", str(paths[0]))
+
+    def is_sound(self, part: int, path: Path) -> bool:
+        """Return whether a file is what was written of a part, to the last bit; one that changes is read again."""
         try:
-            return bool(pq.read_table(self.path(part)).num_rows == stop - start)
-        except (OSError, pa.ArrowException):
+            state = path.stat()
+            seen = (state.st_mtime_ns, state.st_size)
+            if self._sound.get(path.name) == seen:
+                return True
+            content = path.read_bytes()
+            if path.name != self._name(part, content) or not self._is_part(part, content):
+                return False
+        except (OSError, ValueError, KeyError, pa.ArrowException):
             return False
+        self._sound[path.name] = seen
+        return True
+
+    def _is_part(self, part: int, content: bytes) -> bool:
+        """Whether a table has the runs of a part: a stranger can make a digest, too."""
+        start, stop = self.stretch(part)
+        file = pq.ParquetFile(pa.BufferReader(content))
+        schema = file.schema_arrow
+        if {column.name: str(column.type) for column in schema} != dict(self.columns):
+            return False
+        if schema.names != list(self.columns) or file.metadata.num_rows != stop - start:
+            return False
+        filled = ["run", "sample", "reversed", "factor", "impacts", "slid_off", "undetermined"]
+        table = file.read([*filled, *self.words, "residual_slip_m"], use_threads=False)
+        if any(table[name].null_count for name in (*filled, *self.words)):
+            return False
+        if not np.array_equal(table["run"].to_numpy(), np.arange(start, stop)):
+            return False
+        if any(not known.issuperset(pc.unique(table[name]).to_pylist()) for name, known in self.words.items()):
+            return False
+        with_result = pa.array([outcome.value for outcome in Outcome if outcome.has_result])
+        result = pc.is_in(table["outcome"].cast(pa.string()), with_result)
+        return not pc.any(pc.and_(result, pc.is_null(table["residual_slip_m"]))).as_py()
+
+    def _name(self, part: int, content: bytes) -> str:
+        digest = hashlib.sha256(f"{self.fingerprint} {self.stretch(part)}".encode())
+        digest.update(content)
+        return f"part-{part:08d}-{digest.hexdigest()[:16]}.parquet"
 
     def write(self, part: int, table: pa.Table) -> None:
         """Write a part.
@@ -79,11 +165,15 @@ class Store:
         InputError
             Where it cannot be written, as on a full disk; what is there stays.
         """
-        with written(self.path(part), "--out", within=self.directory) as fresh:
-            pq.write_table(table, fresh, compression="zstd")
+        whole = pa.BufferOutputStream()
+        pq.write_table(table, whole, compression="zstd")
+        content = whole.getvalue().to_pybytes()
+        path = self.directory / RUNS / self._name(part, content)
+        with written(path, "--out", within=self.directory) as fresh:
+            fresh.write_bytes(content)
 
 
-def begin(plan: Plan, directory: Path, size: int, *, resume: bool) -> Store:
+def begin(plan: Plan, directory: Path, size: int, columns: Mapping[str, str], *, resume: bool) -> Store:
     """Make the directory of a study, or take up one that has been begun.
 
     Parameters
@@ -94,6 +184,8 @@ def begin(plan: Plan, directory: Path, size: int, *, resume: bool) -> Store:
         Where; it is made if it is not there.
     size
         How many runs a part has, of a study that is new.
+    columns
+        The types of the columns of its runs, by name.
     resume
         Whether a study that has been begun there goes on.
 
@@ -109,7 +201,7 @@ def begin(plan: Plan, directory: Path, size: int, *, resume: bool) -> Store:
             raise InputError("study-other", "--out", directory, changed=_changed(record["inputs"], plan.inputs))
         if not resume:
             raise InputError("study-begun", "--out", directory)
-        store = Store(directory, record["count"], record["size"])
+        store = Store.of(directory, record)
         (directory / RUNS).mkdir(exist_ok=True)
         settle(directory / RUNS)
         _drop_damaged(store, record)
@@ -118,34 +210,37 @@ def begin(plan: Plan, directory: Path, size: int, *, resume: bool) -> Store:
     if (directory / RUNS).exists() and (not (directory / RUNS).is_dir() or any((directory / RUNS).iterdir())):
         raise InputError("not-ours", "--out", directory / RUNS)
     directory.mkdir(parents=True, exist_ok=True)
-    store = Store(directory, plan.count, size)
     # The study stands there before its runs: killed in between, it can be gone on with.
-    keep(store, plan)
+    record = _record(plan, size, columns)
+    write_record(directory, record)
     (directory / RUNS).mkdir(exist_ok=True)
-    return store
+    return Store.of(directory, record)
 
 
 def _drop_damaged(store: Store, record: dict[str, Any]) -> None:
-    """Remove parts that cannot be read, or lack runs, so that they are computed anew, and say so in the study."""
-    lost = set(store.missing())
-    damaged = [part for part in range(store.parts) if part not in lost and not store.is_whole(part)]
-    if not damaged:
-        return
-    for part in damaged:
-        store.path(part).unlink()
-    notice = str(Notice("study-part-damaged", count=len(damaged)))
-    record["warnings"] = [*record["warnings"], notice]
-    _write_record(store.directory, record)
+    """Remove files that are not the part which they are called, or are it once more, so that it is computed anew, and
+    say so in the study."""
+    damaged, parts = list[Path](), 0
+    for part, paths in store.present().items():
+        sound = [path for path in paths if store.is_sound(part, path)]
+        damaged += [path for path in paths if path not in sound[:1]]
+        parts += not sound
+    for path in damaged:
+        path.unlink()
+    if parts:
+        record["warnings"] = [*record["warnings"], str(Notice("study-part-damaged", count=parts))]
+        write_record(store.directory, record)
 
 
-def keep(store: Store, plan: Plan) -> None:
-    """Write what a study is."""
-    record = {
-        "version": _VERSION,
+def _record(plan: Plan, size: int, columns: Mapping[str, str]) -> dict[str, Any]:
+    """Return what a study is."""
+    return {
+        "version": VERSION,
         "title": plan.study.title,
         "fingerprint": plan.fingerprint,
-        "count": store.count,
-        "size": store.size,
+        "count": plan.count,
+        "size": size,
+        "columns": dict(columns),
         "inputs": plan.inputs,
         "warnings": plan.warnings(),
         "events": list(plan.events),
@@ -164,7 +259,6 @@ def keep(store: Store, plan: Plan) -> None:
         "case": plan.case.model_dump(mode="json", exclude_unset=True),
         "build": build_info(),
     }
-    _write_record(store.directory, record)
 
 
 def keep_questions(directory: Path, plan: Plan) -> None:
@@ -178,7 +272,7 @@ def keep_questions(directory: Path, plan: Plan) -> None:
         "spectra": plan.spectra(),
         "case": plan.case.model_dump(mode="json", exclude_unset=True),
     }
-    _write_record(directory, record)
+    write_record(directory, record)
 
 
 def keep_seconds(directory: Path, seconds: Mapping[str, float]) -> None:
@@ -186,37 +280,13 @@ def keep_seconds(directory: Path, seconds: Mapping[str, float]) -> None:
     record = read_manifest(directory)
     before = record.get("seconds", {})
     record["seconds"] = before | {name: round(before.get(name, 0.0) + more, 3) for name, more in seconds.items()}
-    _write_record(directory, record)
-
-
-def _write_record(directory: Path, record: Mapping[str, Any]) -> None:
-    write_text(directory / STUDY, json_text(record), "--out", within=directory)
+    write_record(directory, record)
 
 
 def pilot_of(directory: Path) -> Pilot | None:
     """Return how fine the flexible runs of a study that has been begun are; None where that is not known yet."""
     pilot = read_manifest(directory)["pilot"]
     return None if pilot is None else Pilot.from_json(pilot)
-
-
-def read_manifest(directory: Path) -> dict[str, Any]:
-    """Return what a study's directory says that it is.
-
-    Raises
-    ------
-    InputError
-        Where there is no study.
-    """
-    path = directory / STUDY
-    try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-        if record["version"] != _VERSION:
-            raise InputError("study-version", str(path), record["version"])
-        return dict(record)
-    except FileNotFoundError:
-        raise InputError("study-not-there", str(directory)) from None
-    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
-        raise InputError("study-unreadable", str(path), reason=type(error).__name__) from None
 
 
 def _changed(before: Mapping[str, Any], now: Mapping[str, Any]) -> str:

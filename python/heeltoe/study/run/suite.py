@@ -18,7 +18,7 @@ from heeltoe.case.suite import Suite
 from heeltoe.errors.error import InputError
 from heeltoe.models.run import AUTO, check_model, models_of
 from heeltoe.study.answers.study_results import StudyResults
-from heeltoe.study.plan.file import Study
+from heeltoe.study.plan.file import Event, Study
 from heeltoe.study.plan.motions import suite_events
 from heeltoe.study.run.run import Outlook, Progress, run_study
 
@@ -104,7 +104,9 @@ def run_suite(
 def _study_of(case: Case, model: str) -> tuple[Study, dict[str, str]]:
     """Return the study that a suite is, and how the case calls its fields."""
     rule, models = case.suite, models_of(case, model)[0]
-    events, paths = suite_events(case.motions, case.base_directory, vertical=rule.vertical)
+    events, paths = suite_events(
+        case.motions, case.base_directory, vertical=rule.vertical, unit=rule.unit, time_step=rule.time_step
+    )
     scale = None
     if rule.pga is not None:
         scale = {"measure": "pga", "values": [str(rule.pga)]}
@@ -116,7 +118,7 @@ def _study_of(case: Case, model: str) -> tuple[Study, dict[str, str]]:
             "case": case.title or "case",
             "model": list(models[-1:] if model == AUTO else models),
             "motions": {
-                "events": [event.model_dump() for event in events],
+                "events": [_written(event) for event in events],
                 "vertical": rule.vertical,
                 "both_signs": rule.both_signs,
                 "scale": scale,
@@ -130,7 +132,17 @@ def _study_of(case: Case, model: str) -> tuple[Study, dict[str, str]]:
     )
     names = {f"motions.events[{place}].horizontal[0]": f"{path}.file" for place, path in enumerate(paths)}
     names |= {f"motions.events[{place}].vertical": f"{path}.vertical" for place, path in enumerate(paths)}
+    names["motions.scale.values"] = "suite.sa" if rule.sa is not None else "suite.pga"
     return study, names | _FIELDS
+
+
+def _written(event: Event) -> dict[str, Any]:
+    """Return an event as a study file has it."""
+    units = {"distance": "m", "vs30": "m/s", "pulse_period": "s"}
+    return {
+        name: f"{value!r} {units[name]}" if name in units and value is not None else value
+        for name, value in event.model_dump().items()
+    }
 
 
 def _as_written(period: str | float | None) -> str:

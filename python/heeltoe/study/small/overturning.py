@@ -21,6 +21,7 @@ from heeltoe.base.arrays import Floats
 from heeltoe.base.blocks import Block as NumbersBlock
 from heeltoe.base.blocks import Number
 from heeltoe.base.display import Shown
+from heeltoe.base.frozen import ReadOnlyArrays
 from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError, expect
@@ -46,7 +47,7 @@ class SafeGap(NumbersBlock):
     to_g: Annotated[float, Number("The largest amplitude of the gap.", "g")]
 
 
-class OverturningMap(Shown, NumbersBlock):
+class OverturningMap(Shown, ReadOnlyArrays, NumbersBlock):
     """Ends of a block in pulses of many frequencies and amplitudes."""
 
     title: Annotated[str, Number("Of the case.")]

@@ -11,9 +11,10 @@ import numpy as np
 from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve
+from heeltoe.case.warnings import rock_warnings
 from heeltoe.errors.error import InputError, expect
 from heeltoe.models.flexible.surroundings.lowest_modes import Mode, lowest_modes
-from heeltoe.models.statics.joints import Joints
+from heeltoe.models.statics.joints import Joint, Joints
 from heeltoe.models.statics.model import with_demand
 from heeltoe.models.statics.spectral import Push, SpectralDemand, SpectralMode
 from heeltoe.motion.spectrum import response_spectrum
@@ -71,13 +72,12 @@ def with_response_spectrum(joints: Joints, spectrum: str = OF_MOTION, *, field: 
     """
     expect(joints, Joints, "not-checks", "joints")
     result = _spectrum_of(joints.joints[0].case, spectrum, field)
-    return replace(
-        joints,
-        joints=tuple(
-            replace(joint, statics=with_demand(joint.statics, joint.case, _demand(joint.case, result, field)))
-            for joint in joints.joints
-        ),
-    )
+
+    def judged(joint: Joint) -> Joint:
+        statics = with_demand(joint.statics, joint.case, _demand(joint.case, result, field))
+        return replace(joint, statics=replace(statics, warnings=(*statics.warnings, *rock_warnings(joint.case))))
+
+    return replace(joints, joints=tuple(map(judged, joints.joints)))
 
 
 def _spectrum_of(case: Case, spectrum: str, field: str) -> _Spectrum:

@@ -4,7 +4,6 @@ What varies, and which dams that makes, is that of any study; nothing of it is s
 
 from __future__ import annotations
 
-import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -17,13 +16,14 @@ from pydantic import ValidationError
 
 from heeltoe.base.display import Shown
 from heeltoe.base.pandas import dataframe_of_rows
+from heeltoe.case.changes import Change
 from heeltoe.case.model import Case
 from heeltoe.case.paths import quantity_of
-from heeltoe.case.read import read_case
+from heeltoe.case.read import Source, read_case
 from heeltoe.case.sentences import first_error
 from heeltoe.errors.error import InputError, shown
 from heeltoe.models.flexible.body.cost import Cost, check_cost
-from heeltoe.result.contract import CRACKED, HEADLINES
+from heeltoe.result.contract import CRACKED, HEADLINES, SLIPS_BY_MODE
 from heeltoe.result.response import Response
 from heeltoe.result.write import build_info
 from heeltoe.study.plan.axes import Axis, even
@@ -36,9 +36,6 @@ from heeltoe.units.parse import DIMENSIONS
 MOST = 32
 
 Run = Callable[[Case], Response]
-
-# Slips have their modes behind them, as columns of their own.
-_MODES = ("sliding", "slide_rocking", "drifting")
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,8 +178,8 @@ def _spread(path: str, entry: str, field: str) -> tuple[str, ...]:
 
 
 def run_small(
-    source: str | os.PathLike[str] | Mapping[str, Any],
-    changes: Sequence[str | Mapping[str, Any]],
+    source: Source,
+    changes: Sequence[Change],
     axes: Sequence[Axis],
     run: Run,
     *,
@@ -221,7 +218,7 @@ def run_small(
 
 
 def cases_of(
-    source: str | os.PathLike[str] | Mapping[str, Any], changes: Sequence[str | Mapping[str, Any]], axes: Sequence[Axis]
+    source: Source, changes: Sequence[Change], axes: Sequence[Axis]
 ) -> tuple[tuple[tuple[str, ...], ...], list[Case]]:
     """Return the values of every combination, and the case that each makes."""
     samples = Samples(axes, "grid", None, 0)
@@ -263,7 +260,7 @@ def _numbers(response: Response, cracks: int, *, bonded: bool) -> dict[str, Any]
     others = [headline.key for headline in HEADLINES if headline.kind != "slip"]
     return {
         **{name: summary.get(name) for name in slips},
-        **{f"slip_{name}_m": by_mode.get(name) for name in _MODES},
+        **dict(zip(SLIPS_BY_MODE, by_mode.values() or (None,) * len(SLIPS_BY_MODE), strict=True)),
         **{name: summary.get(name) for name in (*others, "impacts")},
         **_by_crack([crack.to_json() for crack in response.cracks] if summary and response.several else (), cracks),
         **({name: joint.get(name) for name in ("first_cracking_s", CRACKED)} if bonded else {}),

@@ -9,8 +9,7 @@ its evidence is carried over to the field by the slope of the curve there.
 from __future__ import annotations
 
 import math
-import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import Annotated, Any
@@ -22,7 +21,7 @@ from heeltoe.base.blocks import Block, Number
 from heeltoe.base.display import Shown
 from heeltoe.case.model import Case
 from heeltoe.case.paths import bounds_of, quantity_of, value_of
-from heeltoe.case.read import read_case
+from heeltoe.case.read import Source, read_case
 from heeltoe.errors.error import InputError, shown
 from heeltoe.models.run import AUTO, check_model, models_of, run
 from heeltoe.result.judge import LIMITS
@@ -113,7 +112,7 @@ class Solved(Shown, Block):
 
 
 def solve(
-    source: Case | str | os.PathLike[str] | Mapping[str, Any],
+    source: Case | Source,
     field: str,
     until: str,
     *,

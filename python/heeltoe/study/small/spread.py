@@ -28,7 +28,7 @@ from heeltoe.models.rigid.walk import limits_of, walk
 from heeltoe.models.run import earthquake
 from heeltoe.models.runner import outcomes_of
 from heeltoe.motion.ground_motion import Part
-from heeltoe.result.contract import HEADLINES, JOINT_METER_M, headlines
+from heeltoe.result.contract import HEADLINES, JOINT_METER_M, RESIDUAL_SLIP, headlines
 from heeltoe.result.numbers import Spread, Statistics
 from heeltoe.result.response import Response
 from heeltoe.warnings.notice import Notice
@@ -120,7 +120,7 @@ def with_spread(response: R, case: Case, runs: int = RUNS, *, progress: Progress
         time_step_s=step,
         **{headline.key: _statistics(columns[headline.key][good]) for headline in HEADLINES},
         residual_slips_m=[
-            float(slip) if fine else None for slip, fine in zip(columns["residual_slip_m"], good, strict=True)
+            float(slip) if fine else None for slip, fine in zip(columns[RESIDUAL_SLIP.key], good, strict=True)
         ],
     )
     return replace(response, spread=spread, warnings=(*response.warnings, *_warnings(spread)))

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from heeltoe.case.model import Case
+from heeltoe.case.read import Source
 from heeltoe.models.run import AUTO, cost_of, run
 from heeltoe.models.statics.after import joints_after, without_own_slip
 from heeltoe.models.statics.joints import Joints, statics_of_sections
@@ -172,7 +172,7 @@ def _least(values: Any) -> float | None:
 
 
 def statics_table(
-    source: str | os.PathLike[str] | Mapping[str, Any],
+    source: Source,
     changes: Sequence[str],
     axes: Sequence[Axis],
     after: After = After(),
