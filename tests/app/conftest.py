@@ -37,7 +37,7 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="session")
 def address():
-    """Serve the app, and return where."""
+    """Serve the app, and return where, with its token."""
     words = [sys.executable, "-m", "heeltoe", "app", "--no-browser", "--port", "0"]
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"}) as app:
         message = app.stdout.readline()
@@ -94,7 +94,7 @@ def tab(context, address):
 
 
 def _is_own(url: str, address: str) -> bool:
-    return url.startswith((address, "data:", "blob:"))
+    return url.startswith((address.partition("?")[0], "data:", "blob:"))
 
 
 @pytest.fixture

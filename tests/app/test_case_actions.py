@@ -6,20 +6,14 @@ import pytest
 
 pytest.importorskip("starlette")
 
-from starlette.testclient import TestClient
-
-from heeltoe.app.server import application
-from heeltoe.app.settings import Settings
+from shared.app import HEADERS, client_in
 from shared.dams import BASE
-
-HOME = "http://127.0.0.1:8642"
-HEADERS = {"host": "127.0.0.1:8642", "origin": HOME}
 
 
 @pytest.fixture(scope="module")
 def server(tmp_path_factory):
     folder = tmp_path_factory.mktemp("app")
-    with TestClient(application(Settings("127.0.0.1", 8642, folder)), base_url=HOME) as result:
+    with client_in(folder) as result:
         yield result
 
 
@@ -113,3 +107,28 @@ def test_a_case_and_its_record(server):
         saved = heard(tab, "case file")
         assert 'file = "mine.txt"' in saved["text"]
         assert saved["name"] == "typical-dam-cracked-at-its-base.toml"
+
+
+def test_sliders_of_a_page_that_does_not_know_the_case_yet_move_nothing(server):
+    """What they say is of the case before, in the units before; the page asks again with the new state."""
+    with enter(server) as tab:
+        known = heard(tab, "state")["state"]
+
+        def move(serial, state, **values):
+            sliders = {path.replace("_", ".", 1): value for path, value in values.items()}
+            tab.send_json({"do": "rigid", "serial": serial, "state": state, "values": sliders})
+            return tab.receive_json()["of"]
+
+        assert move(1, known, crack_friction=1.2) == "rigid"
+        tab.send_json({"do": "edit case", "changes": {"reservoir.depth": "95 m"}, "serial": 2})
+        state = heard(tab, "state")
+        assert (state["heard"], state["moved"]) == (1, {})  # what was moved is in the case
+        heard(tab, "case")
+        assert move(3, known, crack_friction=1.3, reservoir_depth=80) == "late"
+        tab.send_json({"do": "units", "units": "us", "serial": 4})
+        again = heard(tab, "state")
+        place = {slider["path"]: round(slider["value"], 6) for slider in again["sliders"]}
+        assert (again["heard"], place["crack.friction"], place["reservoir.depth"]) == (1, 1.2, round(95 / 0.3048, 6))
+        assert move(5, again["state"], crack_friction=1.3) == "rigid"
+        tab.send_json({"do": "units", "units": "si", "serial": 6})
+        assert heard(tab, "state")["moved"] == {"crack.friction": 1.3}

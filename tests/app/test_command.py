@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import re
 import signal
 import socket
 import subprocess
 import sys
+import time
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 import pytest
 
@@ -65,3 +70,31 @@ def test_ctrl_c_ends_it_at_once_even_where_it_was_ignored():
         app.kill()
     assert app.returncode == 0
     assert message == ("", "")
+
+
+def test_the_token_is_printed_and_is_no_word_of_the_browser(tmp_path):
+    """All users of a machine see the words with which a program is started: the browser opens a page that leads on."""
+    seen, browser = tmp_path / "seen", tmp_path / "browser"
+    browser.write_text(f'#!/bin/sh\necho "$@" > {seen}.part && mv {seen}.part {seen}\n')
+    browser.chmod(0o755)
+    words = [sys.executable, "-m", "heeltoe", "app", "--port", "0"]
+    environment = {**os.environ, "BROWSER": f"{browser} %s"}
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=environment) as app:
+        try:
+            address = re.fullmatch(
+                r"heeltoe app at (http://127\.0\.0\.1:\d+/\?token=(\S{32}))  .*\n", app.stdout.readline()
+            )
+            assert address
+            end = time.monotonic() + 60.0
+            while not seen.exists() and time.monotonic() < end:
+                time.sleep(0.05)
+            page = Path(unquote(urlsplit(seen.read_text().strip()).path))
+            assert address[2] not in seen.read_text()
+            assert f'url={address[1]}"' in page.read_text()
+            assert page.stat().st_mode & 0o077 == 0
+            assert page.parent.stat().st_mode & 0o077 == 0
+            app.send_signal(signal.SIGINT)
+            assert app.wait(20) == 0
+            assert not page.parent.exists()
+        finally:
+            app.kill()

@@ -18,23 +18,17 @@ import pytest
 
 pytest.importorskip("starlette")
 
-from starlette.testclient import TestClient
-
-from heeltoe.app.server import application
 from heeltoe.app.sessions import Session
-from heeltoe.app.settings import Settings
 from heeltoe.app.transfers import offer
 from heeltoe.result.contract import HEADLINES
 from heeltoe.units.write import angle, length
+from shared.app import HEADERS, HOME, client_in
 from shared.command import command
-
-HOME = "http://127.0.0.1:8642"
 
 
 @pytest.fixture(scope="module")
 def ask(tmp_path_factory):
-    settings = Settings("127.0.0.1", 8642, tmp_path_factory.mktemp("app"))
-    with TestClient(application(settings), base_url=HOME) as client:
+    with client_in(tmp_path_factory.mktemp("app")) as client:
         yield client
 
 
@@ -60,7 +54,7 @@ class Tab:
 
 @pytest.fixture
 def tab(ask):
-    with ask.websocket_connect("/talk", headers={"host": "127.0.0.1:8642", "origin": HOME}) as socket:
+    with ask.websocket_connect("/talk", headers=HEADERS) as socket:
         yield Tab(socket)
 
 
@@ -193,7 +187,7 @@ def test_a_file_is_served_once_as_a_file_and_to_its_tab_alone(ask, tab):
         assert tab.ask("fetch", "download", name=name)["of"] == "bad request"
     for path in ("/download/", "/download/x", "/download/../server.py", "/download/%2e%2e%2fcase.toml"):
         assert ask.get(path).status_code == 404
-    with ask.websocket_connect("/talk", headers={"host": "127.0.0.1:8642", "origin": HOME}) as socket:
+    with ask.websocket_connect("/talk", headers=HEADERS) as socket:
         other = Tab(socket)
         assert other.ask("fetch", "download", name="")["of"] == "bad request"
         assert other.ask("study answers", "study answers", number=1)["of"] == "bad request"
@@ -222,7 +216,7 @@ def test_only_files_of_the_tab_are_offered(tmp_path):
 def test_a_tab_that_comes_again_has_what_it_had(ask):
     def enter(**given):
         more = "&".join(f"{name}={value}" for name, value in given.items())
-        return ask.websocket_connect(f"/talk?{more}", headers={"host": "127.0.0.1:8642", "origin": HOME})
+        return ask.websocket_connect(f"/talk?{more}", headers=HEADERS)
 
     with enter() as first:
         name = first.receive_json()["session"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import pickle
 import re
@@ -14,13 +15,15 @@ pytest.importorskip("starlette")
 
 from starlette.testclient import TestClient
 
+from heeltoe.app import answer as running
+from heeltoe.app.desk import Desk
 from heeltoe.app.open_case import example_path
-from heeltoe.app.server import application
+from heeltoe.app.sessions import Session
 from heeltoe.app.settings import Settings
 from heeltoe.app.transfers import upload_path
+from heeltoe.app.workers import Workers
+from shared.app import HEADERS, HOME, client_in, fill
 
-PORT = 8642
-HOME = f"http://127.0.0.1:{PORT}"
 CASE = '[section]\nheight = "50 ft"\ncrest_width = "5 ft"\nbase_width = "40 ft"\n[crack]\nfriction = 0.9\n'
 # Whoever finds this in an answer has read what is not of the tab.
 SECRET = "0.7071067811"
@@ -41,7 +44,7 @@ class Tab:
         headers = {"origin": HOME, "x-session": self.session}
         return self._client.post(f"/upload?name={name}", content=content, headers=headers)
 
-    def ask(self, what: str, **fields):
+    def ask(self, what: str, /, **fields):
         """Ask, and return the answer and the texts of all that came before it."""
         self._serial += 1
         self._socket.send_json({"do": what, "serial": self._serial, **fields})
@@ -69,13 +72,8 @@ def secret(tmp_path):
     return path
 
 
-def serve(folder: Path, **limits: int) -> TestClient:
-    folder.mkdir(exist_ok=True)
-    return TestClient(application(Settings("127.0.0.1", PORT, folder, **limits)), base_url=HOME)
-
-
 def enter(client: TestClient, query: str = ""):
-    return client.websocket_connect(f"/talk{query}", headers={"host": f"127.0.0.1:{PORT}", "origin": HOME})
+    return client.websocket_connect(f"/talk{query}", headers=HEADERS)
 
 
 def stored(folder: Path) -> list[Path]:
@@ -84,7 +82,7 @@ def stored(folder: Path) -> list[Path]:
 
 
 def test_all_tabs_together_send_so_much(folder):
-    with serve(folder, largest_upload=10, largest_total=16) as client, enter(client) as one, enter(client) as other:
+    with client_in(folder, largest_upload=10, largest_total=16) as client, enter(client) as one, enter(client) as other:
         first, second = Tab(client, one), Tab(client, other)
         assert first.send(b"12345678").status_code == 200
         assert second.send(b"12345678").status_code == 200
@@ -95,8 +93,62 @@ def test_all_tabs_together_send_so_much(folder):
         assert [path.stat().st_size for path in stored(folder)] == [8, 8]
 
 
+def test_what_is_made_takes_the_same_room(folder):
+    """What a tab has made leaves no room for what another one sends or makes, and gives it back."""
+    with client_in(folder, largest_total=100_000) as client, enter(client) as one, enter(client) as other:
+        first, second = Tab(client, one), Tab(client, other)
+        made = folder / "made"
+        made.write_bytes(bytes(100_000))
+        assert "All tabs together" in second.send(b"1").json()["error"]
+        wanted = {"model": "rigid", "report": False, "csv": False, "animation": False}
+        study = {"models": ["rigid"], "method": "grid", "vary": [], "source": "case"}
+        asked = {"make": wanted, "case file": {}, "study look": {"study": study}, "study run": {"study": study}}
+        asked["study download"] = {"number": 1, "what": "study"}
+        before = stored(folder)
+        for what, fields in asked.items():
+            answer, _ = first.ask(what, **fields)
+            assert answer["of"] == "refused", what
+            assert "All tabs together keep up to 0 MB" in answer["text"]
+        assert stored(folder) == before
+        made.unlink()
+        assert second.send(b"1").status_code == 200
+        assert first.ask("case file")[0]["of"] == "download"
+
+
+def test_case_files_that_were_fetched_go(folder):
+    with client_in(folder) as client, enter(client) as socket:
+        tab = Tab(client, socket)
+        links = [tab.ask("case file")[0]["address"] for _ in range(3)]
+        assert len(stored(folder)) == 3
+        for link in links:
+            assert client.get(link).status_code == 200
+        tab.ask("case file")
+        assert len(stored(folder)) == 1
+
+
+def test_a_run_that_fills_the_room_is_ended_and_its_files_go(folder, monkeypatch):
+    monkeypatch.setattr(running, "_LOOKS_EVERY_S", 0.2)
+    folder.mkdir()
+    settings = Settings("127.0.0.1", 8642, folder, largest_total=100_000)
+    session, workers = Session("x", folder), Workers()
+    desk = Desk(session, workers, settings, None)
+
+    async def run():
+        number = running.start(desk, "filling", fill, folder / "run", unless_done=folder / "run")["number"]
+        await asyncio.wait_for(asyncio.gather(*running._RUNNING), 60)
+        return session.jobs[number].payload()
+
+    try:
+        payload = asyncio.run(run())
+    finally:
+        workers.close()
+    assert payload["state"] == "refused"
+    assert "All tabs together" in payload["status"]
+    assert stored(folder) == []
+
+
 def test_what_is_refused_counts_for_nothing(folder):
-    with serve(folder, largest_upload=10, largest_total=16, most_uploads=2) as client, enter(client) as socket:
+    with client_in(folder, largest_upload=10, largest_total=16, most_uploads=2) as client, enter(client) as socket:
         tab = Tab(client, socket)
         for _ in range(5):
             assert tab.send(b"12345678901").status_code == 413
@@ -106,7 +158,7 @@ def test_what_is_refused_counts_for_nothing(folder):
 
 
 def test_files_of_a_tab_that_was_doubled_take_no_room_of_their_own(folder):
-    with serve(folder) as client, enter(client) as socket:
+    with client_in(folder) as client, enter(client) as socket:
         tab = Tab(client, socket)
         name = tab.send(CASE.encode()).json()["name"]
         assert tab.ask("open case", file=name, called="a.toml", beside={"r.csv": name})[0]["file"] == ""
@@ -123,7 +175,7 @@ def test_files_of_a_tab_that_was_doubled_take_no_room_of_their_own(folder):
 )
 def test_names_are_our_own(folder, tmp_path, called):
     before = set(tmp_path.rglob("*"))
-    with serve(folder) as client, enter(client) as socket:
+    with client_in(folder) as client, enter(client) as socket:
         tab = Tab(client, socket)
         name = tab.send(CASE.encode(), "..%2f..%2fevil.py").json()["name"]
         answer, _ = tab.ask("open case", file=name, called=called, beside={called: name})
@@ -159,7 +211,7 @@ def test_nothing_that_is_sent_is_run(folder, tmp_path):
         f'title = "{{{{ {program} }}}}"\n{CASE}'.encode(),
         f'title = """__import__("os").system("touch {mark}")"""\n{CASE}'.encode(),
     ]
-    with serve(folder) as client, enter(client) as socket:
+    with client_in(folder) as client, enter(client) as socket:
         tab = Tab(client, socket)
         for content in hostile:
             name = tab.send(content).json()["name"]
@@ -196,7 +248,7 @@ def ways_to(secret: Path) -> list[str]:
 @pytest.mark.slow
 def test_a_case_names_no_file_that_was_not_sent(folder, secret, opened):
     fields = ("motion.file", "motion.vertical.file", "flexible.mesh_above", "flexible.mesh_below")
-    with serve(folder) as client, enter(client) as socket:
+    with client_in(folder) as client, enter(client) as socket:
         tab = Tab(client, socket)
         for way in ways_to(secret):
             for field in fields:
@@ -226,7 +278,7 @@ def test_a_case_names_no_file_that_was_not_sent(folder, secret, opened):
 
 
 def test_no_address_leads_to_a_file(folder, secret, opened):
-    with serve(folder) as client, enter(client) as socket:
+    with client_in(folder) as client, enter(client) as socket:
         name = Tab(client, socket).send(CASE.encode()).json()["name"]
         [path] = stored(folder)
         for way in (*ways_to(secret), name, f"{path.parent.name}/{name}", str(path)):
@@ -239,7 +291,7 @@ def test_no_address_leads_to_a_file(folder, secret, opened):
 
 
 def test_a_link_leads_nowhere(folder, secret):
-    with serve(folder) as client, enter(client) as socket:
+    with client_in(folder) as client, enter(client) as socket:
         tab = Tab(client, socket)
         name = tab.send(CASE.encode()).json()["name"]
         [path] = stored(folder)
@@ -251,7 +303,7 @@ def test_a_link_leads_nowhere(folder, secret):
 
 
 def test_another_tab_has_other_files(folder):
-    with serve(folder) as client, enter(client) as one, enter(client) as other:
+    with client_in(folder) as client, enter(client) as one, enter(client) as other:
         first, second = Tab(client, one), Tab(client, other)
         name = first.send(CASE.encode()).json()["name"]
         [path] = stored(folder)
@@ -262,8 +314,6 @@ def test_another_tab_has_other_files(folder):
 
 
 def test_uploads_and_examples_are_found_by_their_names_alone(tmp_path):
-    from heeltoe.app.sessions import Session
-
     session = Session("x", tmp_path)
     (tmp_path / "upload-1").write_text("")
     assert upload_path(session, "upload-1") == tmp_path / "upload-1"

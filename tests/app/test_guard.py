@@ -15,8 +15,7 @@ from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
 from heeltoe.app.server import application
-
-HOME = "http://127.0.0.1:8642"
+from shared.app import HEADERS, HOME, client_of
 
 
 @pytest.fixture
@@ -26,8 +25,7 @@ def settings(tmp_path):
 
 @pytest.fixture(scope="module")
 def ask(tmp_path_factory):
-    settings = Settings("127.0.0.1", 8642, tmp_path_factory.mktemp("app"))
-    with TestClient(application(settings), base_url=HOME, follow_redirects=False) as client:
+    with client_of(Settings("127.0.0.1", 8642, tmp_path_factory.mktemp("app")), follow_redirects=False) as client:
         yield client
 
 
@@ -59,7 +57,7 @@ def test_foreign_origins_are_refused(ask, origin):
 def test_a_conversation_says_where_it_comes_from(ask):
     with pytest.raises(WebSocketDisconnect), ask.websocket_connect("/talk"):
         pass
-    with ask.websocket_connect("/talk", headers={"host": "127.0.0.1:8642", "origin": HOME}) as tab:
+    with ask.websocket_connect("/talk", headers=HEADERS) as tab:
         assert tab.receive_json()["of"] == "hello"
         assert tab.receive_json()["case"]["title"] == "Typical dam cracked at its base"
 
@@ -85,34 +83,75 @@ def test_nothing_else_is_read(ask, path):
     assert ask.get(path).status_code == 404
 
 
-def test_a_public_address_needs_its_token(settings):
-    public = replace(settings, host="0.0.0.0", token="secret")
-    with TestClient(application(public), base_url="http://192.0.2.7:8642", follow_redirects=False) as client:
-        assert client.get("/").status_code == 403
-        assert client.get("/?token=wrong").status_code == 403
-        assert client.get("/", headers={"host": "evil.example:8642"}).status_code == 403
-        own = {"host": "192.0.2.7:8642", "origin": "http://192.0.2.7:8642"}
-        assert client.post("/upload?token=secret", headers=own, content=b"1").status_code == 403
-        for query in ("", "?token=wrong", "?token=secret"):
-            with pytest.raises(WebSocketDisconnect), client.websocket_connect(f"/talk{query}", headers=own):
-                pass
-        answer = client.get("/?token=secret")
-        assert (answer.status_code, answer.headers["location"]) == (303, "/")
-        assert "HttpOnly" in answer.headers["set-cookie"]
-        assert "SameSite=strict" in answer.headers["set-cookie"]
-        assert client.get("/").status_code == 200
-        shown = {**own, "cookie": answer.headers["set-cookie"].split(";")[0]}
-        with client.websocket_connect("/talk", headers=shown) as tab:
-            assert tab.receive_json()["of"] == "hello"
+@pytest.fixture(params=["127.0.0.1", "0.0.0.0"])
+def stranger(request, tmp_path):
+    """Somebody else on this machine, or on another one: what asks without the token, and the settings of the app."""
+    settings = Settings(request.param, 8642, tmp_path, token="secret")
+    home = HOME if request.param == "127.0.0.1" else "http://192.0.2.7:8642"
+    with TestClient(application(settings), base_url=home, follow_redirects=False) as client:
+        client.headers |= {"origin": home, "host": home.removeprefix("http://")}
+        yield client, settings
+
+
+def folders_of_tabs(settings):
+    """Return what a tab would have left; what the server makes to be ready is none of a tab."""
+    return [path for path in settings.folder.iterdir() if not path.name.startswith("warm-")]
+
+
+ASKED = ["/", "/talk", "/upload", "/plotly.js", "/page/main.js", "/player/player.js", "/download/x", "/nothing"]
+
+
+@pytest.mark.parametrize("method", ["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS"])
+def test_nothing_is_answered_without_the_token(stranger, method):
+    client, settings = stranger
+    for path in ASKED:
+        for cookie in ("", f"{settings.cookie}=wrong", f"{settings.cookie}=", "heeltoe-1=secret"):
+            for query in ("", "?token=", "?token=wrong", "?token=s\u00e9cret"):
+                reply = client.request(method, f"{path}{query}", headers={"cookie": cookie})
+                assert (reply.status_code, "token" in reply.text) == (403, method != "HEAD"), (path, cookie, query)
+        if method != "GET":
+            assert client.request(method, f"{path}?token=secret").status_code == 403
+    assert folders_of_tabs(settings) == []
+
+
+@pytest.mark.parametrize("query", ["", "?token=", "?token=wrong", "?token=secret"])
+def test_no_tab_is_taken_without_the_cookie(stranger, query):
+    client, settings = stranger
+    with client.websocket_connect(f"/talk{query}") as socket, pytest.raises(WebSocketDisconnect) as closed:
+        socket.receive_json()
+    # The page of an app that has been started again says so.
+    assert closed.value.code == 1008
+    assert "address that heeltoe app has printed" in closed.value.reason
+    assert folders_of_tabs(settings) == []
+
+
+def test_the_address_brings_the_token_and_a_cookie_keeps_it(stranger):
+    client, settings = stranger
+    reply = client.get("/?token=secret")
+    assert (reply.status_code, reply.headers["location"]) == (303, "/")
+    assert reply.headers["set-cookie"] == "heeltoe-8642=secret; HttpOnly; Path=/; SameSite=lax"
+    # Other servers of this machine have cookies in the same browser, and not all write them well.
+    client.cookies.clear()
+    client.headers["cookie"] = f'_xsrf=2|a|b; username="2|1:0|x"; strange[1]=; {settings.cookie}=secret'
+    assert client.get("/").status_code == 200
+    with client.websocket_connect("/talk") as tab:
+        assert tab.receive_json()["of"] == "hello"
+    assert client.get("/", headers={"host": "evil.example:8642"}).status_code == 403
+
+
+def test_every_app_has_a_token_of_its_own(tmp_path):
+    one, other = (Settings("127.0.0.1", 8642, tmp_path) for _ in range(2))
+    assert one.token != other.token
+    assert len(one.token) == 32
 
 
 def enter(ask):
-    return ask.websocket_connect("/talk", headers={"host": "127.0.0.1:8642", "origin": HOME})
+    return ask.websocket_connect("/talk", headers=HEADERS)
 
 
 def test_uploads_are_few_and_small(tmp_path):
     small = Settings("127.0.0.1", 8642, tmp_path, largest_upload=10, most_uploads=2)
-    with TestClient(application(small), base_url=HOME) as ask, enter(ask) as tab:
+    with client_of(small) as ask, enter(ask) as tab:
         headers = {"origin": HOME, "x-session": tab.receive_json()["session"]}
         assert ask.post("/upload", content=b"12345678901", headers=headers).status_code == 413
         name = ask.post("/upload?name=../../evil.py", content=b"1234", headers=headers).json()["name"]
@@ -143,7 +182,7 @@ def test_what_no_page_asks_is_told_and_the_tab_goes_on(ask, message):
 
 def test_open_tabs_are_so_many_and_the_next_one_is_told(settings):
     few = replace(settings, most_open=2)
-    with TestClient(application(few), base_url=HOME) as ask, enter(ask) as one:
+    with client_of(few) as ask, enter(ask) as one:
         name = one.receive_json()["session"]
         with enter(ask) as two:
             two.receive_json()
@@ -152,7 +191,7 @@ def test_open_tabs_are_so_many_and_the_next_one_is_told(settings):
             assert closed.value.code == 1013
             assert "2 tabs are open" in closed.value.reason
             query = f"/talk?session={name}&again="
-            with ask.websocket_connect(query, headers={"host": "127.0.0.1:8642", "origin": HOME}) as again:
+            with ask.websocket_connect(query, headers=HEADERS) as again:
                 assert again.receive_json()["session"] == name  # loaded anew, it is no other
 
 

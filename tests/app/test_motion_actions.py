@@ -9,12 +9,8 @@ import pytest
 
 pytest.importorskip("starlette")
 
-from starlette.testclient import TestClient
+from shared.app import HEADERS, HOME, client_in
 
-from heeltoe.app.server import application
-from heeltoe.app.settings import Settings
-
-HOME = "http://127.0.0.1:8642"
 CALLED = "my <b>quake.txt"
 FORM = {"horizontal": {"source": f"record:{CALLED}", "unit": "g"}, "vertical": {"source": ""}}
 
@@ -23,8 +19,8 @@ FORM = {"horizontal": {"source": f"record:{CALLED}", "unit": "g"}, "vertical": {
 def tab(tmp_path):
     """Open a tab that has sent a record, and return what asks it."""
     with (
-        TestClient(application(Settings("127.0.0.1", 8642, tmp_path)), base_url=HOME) as client,
-        client.websocket_connect("/talk", headers={"host": "127.0.0.1:8642", "origin": HOME}) as socket,
+        client_in(tmp_path) as client,
+        client.websocket_connect("/talk", headers=HEADERS) as socket,
     ):
         session = socket.receive_json()["session"]
 

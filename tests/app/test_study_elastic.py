@@ -12,14 +12,10 @@ import pytest
 
 pytest.importorskip("starlette")
 
-from starlette.testclient import TestClient
-
-from heeltoe.app.server import application
-from heeltoe.app.settings import Settings
+from shared.app import HEADERS, Visitor, client_in
 
 psutil = pytest.importorskip("psutil")
 
-HOME = "http://127.0.0.1:8642"
 COARSE = {"flexible.elements_across": "2", "flexible.evidence": "none", "motion.sign": "recorded"}
 FRICTION = {"path": "crack.friction", "kind": "list", "values": ", ".join(f"{0.6 + 0.02 * k:.2f}" for k in range(30))}
 STUDY = {"models": ["flexible"], "method": "grid", "source": "case", "vary": [FRICTION]}
@@ -33,8 +29,8 @@ def processes() -> set[int]:
 @pytest.mark.slow
 def test_a_study_of_elastic_dams_is_cancelled_and_gone_on_with(tmp_path, capfd):
     with (
-        TestClient(application(Settings("127.0.0.1", 8642, tmp_path)), base_url=HOME) as client,
-        client.websocket_connect("/talk", headers={"host": "127.0.0.1:8642", "origin": HOME}) as tab,
+        client_in(tmp_path) as client,
+        client.websocket_connect("/talk", headers=HEADERS) as tab,
     ):
 
         def heard(fits):
@@ -76,12 +72,10 @@ def test_a_study_of_elastic_dams_is_cancelled_and_gone_on_with(tmp_path, capfd):
 
 @pytest.mark.slow
 def test_ctrl_c_ends_a_study_and_all_its_processes():
-    client = pytest.importorskip("websockets.sync.client")
     words = [sys.executable, "-m", "heeltoe", "app", "--no-browser", "--port", "0"]
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as app:
         try:
-            home = app.stdout.readline().split()[3].rstrip("/")
-            with client.connect(f"{home.replace('http', 'ws')}/talk", origin=home) as tab:
+            with Visitor(app.stdout.readline().split()[3]).tab() as tab:
 
                 def hear(fits):
                     while not fits(message := json.loads(tab.recv(timeout=60))):

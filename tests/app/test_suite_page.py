@@ -19,7 +19,7 @@ def test_a_suite_is_chosen_run_and_answered(page, picture, heard_well):
     page.uncheck(".study-form label:has-text('elastic dam') input")
     page.check(".study-form label:has-text('rigid block') input >> nth=0")
     page.click("button:text-is('none')")
-    for name in ("elcentro-1940-180-nga", "pacoima-1971-164-nga", "northridge-1994-sylmar-090-nga"):
+    for name in ("elcentro-1940-180-nga", "pacoima-1971-164-nga", "northridge-aftershock-1994-sylmar-090-nga"):
         page.check(f".records label:has-text('{name}') input")
     assert page.is_visible("text=3 chosen")
     page.select_option("#study-suite-judge", "mean")

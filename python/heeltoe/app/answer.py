@@ -5,17 +5,22 @@ from __future__ import annotations
 
 import asyncio
 import math
+import shutil
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 from heeltoe.app.desk import BadRequestError, Desk, Entry, Request, number
 from heeltoe.app.jobs import Job, Work
 from heeltoe.app.sessions import Session
+from heeltoe.app.transfers import full
 from heeltoe.app.workers import WorkerLostError
 from heeltoe.errors.error import InputError
 
 #: What a page is told where a process was killed, or was out of memory.
 LOST = "The process that computes this was ended, perhaps because memory ran out. It has been restarted."
+# How often it is looked whether a run fills the room of all tabs [s].
+_LOOKS_EVERY_S = 2.0
 # Of all tabs.
 _RUNNING: set[asyncio.Task[None]] = set()
 
@@ -36,13 +41,23 @@ def changes_of(session: Session, values: object) -> dict[str, Any]:
     return changes
 
 
+def _is_late(session: Session, request: Request) -> bool:
+    """Whether the page had not seen the last state when it asked: its sliders were of another case than the one there
+    is, and it asks again when it has."""
+    return bool(request.get("state", session.stated) != session.stated)
+
+
 async def rigid(desk: Desk, request: Request) -> dict[str, Any]:
     """Run the rigid block with the sliders where they are, and remember where that is."""
     from heeltoe.app.live import answer
 
     session = desk.session
     values = request.get("values")
-    session.changes, session.moved = changes_of(session, values), frozenset(values or ())
+    async with session.turn:
+        if _is_late(session, request):
+            return {"of": "late"}
+        session.changes, session.moved = changes_of(session, values), frozenset(values or ())
+        session.heard = int(number(request, "serial")) if "serial" in request else session.heard
     payload = await desk.workers.quick(answer, session.case, session.changes, "rigid", session.units)
     return {"of": "rigid", **payload}
 
@@ -52,6 +67,8 @@ async def decoupled(desk: Desk, request: Request) -> dict[str, Any]:
     from heeltoe.app.live import answer
 
     session = desk.session
+    if _is_late(session, request):
+        return {"of": "late"}
     changes = changes_of(session, request.get("values"))
     try:
         payload = await desk.workers.beside(answer, session.case, changes, "decoupled", session.units)
@@ -88,10 +105,15 @@ async def flexible(desk: Desk, request: Request) -> dict[str, Any]:
     return start(desk, "flexible", work, session.case, changes, session.units)
 
 
-def start(desk: Desk, what: str, work: Work, *arguments: Any, parent: bool = False) -> dict[str, Any]:
-    """Start a long run of this tab, and return what is told of it; see :class:`heeltoe.app.jobs.Job`."""
+def start(
+    desk: Desk, what: str, work: Work, *arguments: Any, parent: bool = False, unless_done: Path | None = None
+) -> dict[str, Any]:
+    """Start a long run of this tab, and return what is told of it; see :class:`heeltoe.app.jobs.Job`. A folder is
+    removed `unless_done`: where it does not come to its end."""
     session = desk.session
     if len(_RUNNING) >= desk.settings.most_jobs:
+        if unless_done is not None:
+            shutil.rmtree(unless_done, ignore_errors=True)
         return {
             "of": "job refused",
             "what": what,
@@ -99,10 +121,28 @@ def start(desk: Desk, what: str, work: Work, *arguments: Any, parent: bool = Fal
         }
     job = Job(what, work, *arguments, parent=parent)
     session.jobs[job.number] = job
-    task = asyncio.create_task(job.follow(session.say))
+    task = asyncio.create_task(_followed(desk, job, unless_done))
     _RUNNING.add(task)
     task.add_done_callback(_RUNNING.discard)
     return job.payload()
+
+
+async def _followed(desk: Desk, job: Job, unless_done: Path | None) -> None:
+    """Follow a run to its end, and end it where its files take more room than there is."""
+    watch = asyncio.create_task(_watched(desk, job))
+    try:
+        await job.follow(desk.session.say)
+    finally:
+        watch.cancel()
+    if job.state != "done" and unless_done is not None:
+        await asyncio.to_thread(shutil.rmtree, unless_done, ignore_errors=True)
+
+
+async def _watched(desk: Desk, job: Job) -> None:
+    while job.state == "running":
+        await asyncio.sleep(_LOOKS_EVERY_S)
+        if refusal := await asyncio.to_thread(full, desk.settings):
+            job.cancel("refused", refusal)
 
 
 async def aside(desk: Desk, work: Callable[..., Any], *arguments: Any) -> Any:

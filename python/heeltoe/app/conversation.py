@@ -10,6 +10,7 @@ from typing import Any
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from heeltoe.app.desk import BadRequestError, Desk, Entry, Request
+from heeltoe.app.transfers import full
 from heeltoe.errors.error import HeeltoeError
 
 _LOG = logging.getLogger(__name__)
@@ -90,6 +91,8 @@ class Conversation:
     async def _answer_of(self, name: str, entry: Entry, request: Request) -> dict[str, Any]:
         """Return the answer of an action; one that fails says so, and the log says where."""
         try:
+            if entry.writes and (refusal := await asyncio.to_thread(full, self._desk.settings)):
+                return {"of": "refused", "text": refusal}
             return await entry.action(self._desk, request)
         except BadRequestError as error:
             return {"of": "bad request", "text": str(error)}

@@ -52,11 +52,14 @@ class Entry:
         Whether of several that wait only the newest is worth an answer, as of a slider that moves.
     replaced
         Whether it is cancelled, and the new one begins at once.
+    writes
+        Whether it makes files, for which there must be room.
     """
 
     action: Action
     newest: bool = False
     replaced: bool = False
+    writes: bool = False
 
 
 class BadRequestError(Exception):

@@ -1,20 +1,20 @@
-"""Who may ask: the right name of the server, no other origin, and on a public address the token.
+"""Who may ask: the right name of the server, no other origin, and the token of the address that was printed.
 
 It stands before everything else, plain requests and websockets alike."""
 
 from __future__ import annotations
 
 import secrets
-from http.cookies import CookieError, SimpleCookie
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers, MutableHeaders
+from starlette.requests import HTTPConnection
 from starlette.responses import PlainTextResponse, RedirectResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from heeltoe.app.settings import Settings
 
-COOKIE = "heeltoe-token"
+_NO_TOKEN = "This page needs the token of the app: open the whole address that heeltoe app has printed."
 # The plots write the style of what they draw into the page; scripts come from here alone, and none stands in the page.
 _POLICY = (
     "default-src 'self'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
@@ -50,20 +50,22 @@ class Guard:
             await send(message)
 
         refusal = self._refusal(scope, headers)
-        if not refusal and self._settings.token and not self._shows_token(headers):
-            if self._brings_token(scope):
-                answer = RedirectResponse(scope["path"], status_code=303)
-                answer.set_cookie(COOKIE, self._settings.token, httponly=True, samesite="strict")
-                await answer(scope, receive, sealed)
-                return
-            refusal = "This address needs a token; open the address that heeltoe app has printed."
-        if not refusal:
+        if not refusal and self._brings_token(scope):
+            # The address that stays in the browser is without it.
+            answer = RedirectResponse(scope["path"], status_code=303)
+            # A browser that comes from a link elsewhere has to show it at once, which "strict" would forbid.
+            answer.set_cookie(self._settings.cookie, self._settings.token, httponly=True, samesite="lax")
+            await answer(scope, receive, sealed)
+        elif not refusal and self._shows_token(scope):
             await self._app(scope, receive, sealed)
         elif scope["type"] == "websocket":
             await receive()
-            await send({"type": "websocket.close", "code": 1008, "reason": refusal[:120]})
+            if not refusal:
+                # A page hears a reason on an open websocket alone; it is one of ours, of an app that has ended.
+                await send({"type": "websocket.accept"})
+            await send({"type": "websocket.close", "code": 1008, "reason": (refusal or _NO_TOKEN)[:120]})
         else:
-            await PlainTextResponse(refusal, status_code=403)(scope, receive, sealed)
+            await PlainTextResponse(refusal or _NO_TOKEN, status_code=403)(scope, receive, sealed)
 
     def _refusal(self, scope: Scope, headers: Headers) -> str:
         """Say why a request is refused, whoever it comes from; nothing where it is not."""
@@ -81,18 +83,13 @@ class Guard:
             else "Pages of other sites may not use this server."
         )
 
-    def _shows_token(self, headers: Headers) -> bool:
-        try:
-            cookie = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
-        except CookieError:
-            return False
-        return cookie is not None and self._is_token(cookie.value)
+    def _shows_token(self, scope: Scope) -> bool:
+        return self._is_token(HTTPConnection(scope).cookies.get(self._settings.cookie, ""))
 
     def _brings_token(self, scope: Scope) -> bool:
         if scope["type"] != "http" or scope["method"] != "GET":
             return False
-        token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])
-        return self._is_token(token[0])
+        return self._is_token(HTTPConnection(scope).query_params.get("token", ""))
 
     def _is_token(self, text: str) -> bool:
         return secrets.compare_digest(text.encode(), self._settings.token.encode())

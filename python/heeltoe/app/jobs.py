@@ -14,6 +14,7 @@ from multiprocessing.connection import Connection
 from time import monotonic
 from typing import Any
 
+from heeltoe.app.stopping import end_with_parent
 from heeltoe.errors.error import InputError
 
 #: What a job calls: it says what goes on, with the share that is done where it knows, and returns what a page can draw.
@@ -66,10 +67,10 @@ class Job:
         payload = {"of": "job", "number": self.number, "what": self.what, "state": self.state, "seconds": seconds}
         return payload | {"status": self.status, "share": self.share, "result": self.result}
 
-    def cancel(self) -> None:
-        """End it, where it has not ended."""
+    def cancel(self, state: str = "cancelled", status: str = "cancelled") -> None:
+        """End it, where it has not ended, and say why."""
         if self.state == "running":
-            self.state, self.status = "cancelled", "cancelled"
+            self.state, self.status = state, status
             self._process.terminate()
 
     def end(self) -> None:
@@ -150,6 +151,7 @@ def _run(far_end: Connection, work: Work, arguments: tuple[Any, ...]) -> None:
             os.setpgid(0, 0)
         # Its processes are ended, and what they share is given back, on the way out.
         signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
+    end_with_parent()
     try:
         far_end.send(("done", work(lambda text, share=None: far_end.send(("says", (text, share))), *arguments)))
     except InputError as error:

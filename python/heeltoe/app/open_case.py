@@ -28,22 +28,29 @@ def example_path(name: str) -> Path | None:
 
 
 def state(session: Session) -> dict[str, Any]:
-    """Return what all pages of a tab stand on: its case and where its sliders are."""
+    """Return what all pages of a tab stand on: its case and where its sliders are, as far as they were heard."""
     from heeltoe.app.sliders import sliders
 
     case = session.case
     if case is None:
-        return {"of": "state", "case": None, "examples": examples(), "units": session.units}
+        session.stated += 1
+        numbers = {"state": session.stated, "heard": session.heard}
+        return {"of": "state", **numbers, "case": None, "examples": examples(), "units": session.units}
     slider_list = sliders(case.with_(session.changes) if session.changes else case, session.units)
+    models = models_for(case)
+    # Only where it can be said: the page answers by this number.
+    session.stated += 1
     return {
         "of": "state",
+        "state": session.stated,
+        "heard": session.heard,
         "case": {"title": case.title, "example": session.example},
         "examples": examples(),
         "units": session.units,
         "sliders": [asdict(slider) for slider in slider_list],
         "moved": {slider.path: slider.value for slider in slider_list if slider.path in session.moved},
         "drained": case.uplift.pattern == "drained",
-        **models_for(case),
+        **models,
     }
 
 
@@ -91,7 +98,8 @@ async def open_example(desk: Desk, request: Request) -> dict[str, Any]:
         _open(desk.session, text(request, "name"))
         return state(desk.session)
 
-    payload: dict[str, Any] = await desk.workers.quick(opened)
+    async with desk.session.turn:
+        payload: dict[str, Any] = await desk.workers.quick(opened)
     return payload
 
 
@@ -100,8 +108,9 @@ async def set_units(desk: Desk, request: Request) -> dict[str, Any]:
     name = text(request, "units")
     if name not in ("si", "us"):
         raise BadRequestError("units are si or us")
-    desk.session.units = name
-    payload: dict[str, Any] = await desk.workers.quick(state, desk.session)
+    async with desk.session.turn:
+        desk.session.units = name
+        payload: dict[str, Any] = await desk.workers.quick(state, desk.session)
     return payload
 
 

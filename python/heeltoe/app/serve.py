@@ -5,17 +5,15 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import os
-import secrets
 import signal
 import socket
 import sys
-import tempfile
 import threading
 import webbrowser
 from collections.abc import Callable
 from importlib.util import find_spec
-from pathlib import Path
 
+from heeltoe.app.folder import folder_of_app
 from heeltoe.app.settings import Settings, is_loopback
 from heeltoe.app.workers import WORKER_NAME
 from heeltoe.errors.error import InputError
@@ -37,11 +35,11 @@ def serve(host: str, port: int | None, *, public: bool, browser: bool, say: Call
     port
         There; the usual one, or any that is free, where none is given.
     public
-        Whether other machines may reach it; they need the token in the address that is said.
+        Whether other machines may reach it.
     browser
         Whether to open it in the browser of this machine.
     say
-        Told the address.
+        Told the address, with the token that whoever asks needs.
 
     Raises
     ------
@@ -56,9 +54,8 @@ def serve(host: str, port: int | None, *, public: bool, browser: bool, say: Call
     # Matrices that follow a slider are small: further threads win nothing there, and keep a core busy with waiting that
     # the browser needs. Heard when NumPy is loaded, here and in the processes beside.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    with contextlib.closing(_listen(host, port)) as listening, tempfile.TemporaryDirectory(prefix="heeltoe-") as folder:
-        token = "" if is_loopback(host) else secrets.token_urlsafe(24)
-        settings = Settings(host, listening.getsockname()[1], Path(folder), token)
+    with contextlib.closing(_listen(host, port)) as listening, folder_of_app() as folder:
+        settings = Settings(host, listening.getsockname()[1], folder)
         address = _address(settings)
         # A tab or a worker that closes its end while something is sent to it must not end the server.
         if hasattr(signal, "SIGPIPE"):
@@ -68,7 +65,7 @@ def serve(host: str, port: int | None, *, public: bool, browser: bool, say: Call
         interrupts: list[int] = []
         signal.signal(signal.SIGINT, lambda number, _: interrupts.append(number))
         say(address)
-        asyncio.run(_run(settings, listening, address if browser else "", interrupts))
+        asyncio.run(_run(settings, listening, _opening(settings, address) if browser else "", interrupts))
     _leave()
 
 
@@ -127,4 +124,16 @@ def _address(settings: Settings) -> str:
     if name in ("0.0.0.0", "::"):
         name = socket.gethostname()
     shown = f"[{name}]" if ":" in name else name
-    return f"http://{shown}:{settings.port}/" + (f"?token={settings.token}" if settings.token else "")
+    return f"http://{shown}:{settings.port}/?token={settings.token}"
+
+
+def _opening(settings: Settings, address: str) -> str:
+    """Write a page that leads to an address, and return its own: all users of a machine see what programs are started
+    with, and the token is nothing for them."""
+    path = settings.folder / "open.html"
+    with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w", encoding="utf-8") as file:
+        file.write(
+            f'<!doctype html><meta charset="utf-8"><title>heeltoe</title>'
+            f'<meta http-equiv="refresh" content="0; url={address}"><p><a href="{address}">Open heeltoe</a></p>\n'
+        )
+    return path.as_uri()

@@ -13,7 +13,7 @@ from typing import Any
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
 from starlette.requests import Request
-from starlette.responses import FileResponse, JSONResponse, Response
+from starlette.responses import FileResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
@@ -28,7 +28,7 @@ from heeltoe.app.motion import actions as motion
 from heeltoe.app.sessions import Session, Sessions, TooManyError
 from heeltoe.app.settings import Settings
 from heeltoe.app.studies import actions as studies
-from heeltoe.app.transfers import answer_offer, gone, take
+from heeltoe.app.transfers import answer_offer, gone, take, too_large
 from heeltoe.app.workers import Workers
 
 _PAGE = Path(__file__).parent / "page"
@@ -50,7 +50,7 @@ def application(settings: Settings) -> Starlette:
 
     @asynccontextmanager
     async def life(app: Starlette) -> AsyncIterator[None]:
-        warming = asyncio.create_task(workers.quick(_warm))
+        warming = asyncio.create_task(workers.quick(_warm, settings.folder))
         try:
             yield
         finally:
@@ -69,7 +69,8 @@ def application(settings: Settings) -> Starlette:
         desk = Desk(session, workers, settings, _teller(socket, session))
         session.tell = desk.tell
         try:
-            await desk.tell({"of": "hello", "session": session.name})
+            upload = {"largest": settings.largest_upload, "refusal": too_large(settings)}
+            await desk.tell({"of": "hello", "session": session.name, "upload": upload})
             await _begin(desk)
             await Conversation(socket, desk, _ACTIONS).listen()
         finally:
@@ -77,9 +78,7 @@ def application(settings: Settings) -> Starlette:
 
     async def upload(request: Request) -> Response:
         session = sessions.get(request.headers.get("x-session", ""))
-        if session is None:
-            return JSONResponse({"error": "The app has forgotten this tab; reload the page."}, status_code=403)
-        return await take(request, session, sessions, settings)
+        return await take(request, session, settings)
 
     async def download(request: Request) -> Response:
         # What only looks at the head of a file shall not use up its link.
@@ -102,7 +101,10 @@ def application(settings: Settings) -> Starlette:
 
 
 async def _begin(desk: Desk) -> None:
-    await desk.tell(await desk.workers.quick(open_case.begin, desk.session))
+    async with desk.session.turn:
+        # A page that was loaded anew counts its questions anew.
+        desk.session.heard = 0
+        await desk.tell(await desk.workers.quick(open_case.begin, desk.session))
     for job in desk.session.jobs.values():
         await desk.tell(job.payload())
 
@@ -143,13 +145,13 @@ def plotly_file() -> Path:
     return Path(spec.origin).parent / "package_data" / "plotly.min.js"
 
 
-def _warm() -> None:
+def _warm(place: Path) -> None:
     """Load all that the first answer needs while the browser draws the page."""
     from tempfile import TemporaryDirectory
 
     from heeltoe.app import live
 
-    with TemporaryDirectory() as folder:
+    with TemporaryDirectory(prefix="warm-", dir=place) as folder:
         session = Session("", Path(folder))
         open_case.begin(session)
         if session.case is not None:

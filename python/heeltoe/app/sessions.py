@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import secrets
 import shutil
 from dataclasses import dataclass, field, replace
@@ -35,6 +36,10 @@ class Session:
         What the sliders change, by the paths of the case.
     moved
         The sliders that were moved.
+    stated, heard
+        The number of the last state that its page was sent, and of the question that moved the sliders last before it.
+    turn
+        Held by whoever changes the case or its sliders: one after the other, as they were asked.
     units
         ``"si"`` or ``"us"``.
     draft
@@ -49,8 +54,8 @@ class Session:
         What else a page wants to find again, by names of its own.
     jobs
         Long runs, by their number.
-    uploads, uploaded
-        How many files it has sent, and how much [bytes].
+    uploads
+        How many files it has sent.
     offers
         Files that it may fetch once, by the secret in their address.
     kept_files
@@ -69,6 +74,9 @@ class Session:
     example: str = ""
     changes: dict[str, Any] = field(default_factory=dict)
     moved: frozenset[str] = frozenset()
+    stated: int = 0
+    heard: int = 0
+    turn: asyncio.Lock = field(default_factory=asyncio.Lock)
     units: str = "si"
     draft: Draft | None = None
     sent: dict[str, str] = field(default_factory=dict)
@@ -77,7 +85,6 @@ class Session:
     kept: dict[str, Any] = field(default_factory=dict)
     jobs: dict[int, Job] = field(default_factory=dict)
     uploads: int = 0
-    uploaded: int = 0
     offers: dict[str, Offer] = field(default_factory=dict)
     kept_files: tuple[Path, str] | None = None
     studies: dict[int, Made] = field(default_factory=dict)
@@ -98,7 +105,7 @@ class Session:
     def begin_as(self, other: Session) -> None:
         """Begin with the case of another tab, and with the files that it has sent."""
         self.example, self.units = other.example, other.units
-        self.uploads, self.uploaded = other.uploads, other.uploaded
+        self.uploads = other.uploads
         self.changes, self.moved = dict(other.changes), other.moved
         self.case = other.case.based_in(self.folder) if other.case else None
         self.draft = replace(other.draft, case=self.case, undo=[], redo=[]) if other.draft else None
@@ -177,11 +184,6 @@ class Sessions:
     def take(self, key: str) -> Offer | None:
         """Return what is behind a link, once."""
         return next((session.offers.pop(key) for session in self._sessions.values() if key in session.offers), None)
-
-    @property
-    def uploaded(self) -> int:
-        """How much all tabs have sent [bytes]."""
-        return sum(session.uploaded for session in self._sessions.values())
 
     def close(self) -> None:
         """Forget all."""

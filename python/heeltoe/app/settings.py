@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ipaddress
+import secrets
 import socket
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 #: Names by which a browser on this machine reaches it.
@@ -22,7 +23,7 @@ class Settings:
     folder
         Where uploads and results go; nothing is written anywhere else, and nothing in it outlives the app.
     token
-        What a browser must show; empty where the app is reached from this machine alone.
+        What a browser must show: other users of this machine reach the app, too.
     most_sessions
         Tabs that are remembered; the one unused for longest goes first.
     most_open
@@ -36,7 +37,9 @@ class Settings:
     longest_reading_s
         That a file may take to be read [s].
     largest_total
-        Of the files of all tabs together [bytes].
+        Of the files of all tabs together, sent or made [bytes].
+    most_unread
+        Of a file that is refused, taken so that its sender hears why [bytes].
     most_jobs
         Long runs at once, of all tabs.
     most_studies, most_runs
@@ -46,7 +49,7 @@ class Settings:
     host: str
     port: int
     folder: Path
-    token: str = ""
+    token: str = field(default_factory=lambda: secrets.token_urlsafe(24), repr=False)
     most_sessions: int = 64
     most_open: int = 32
     idle_s: float = 4 * 3600.0
@@ -55,9 +58,15 @@ class Settings:
     most_uploads: int = 40
     longest_reading_s: float = 30.0
     largest_total: int = 1_000_000_000
+    most_unread: int = 1_000_000_000
     most_jobs: int = 2
     most_studies: int = 12
     most_runs: int = 1_000_000
+
+    @property
+    def cookie(self) -> str:
+        """What the cookie of the token is called: browsers keep those of one machine together, whatever the port."""
+        return f"heeltoe-{self.port}"
 
     @property
     def is_public(self) -> bool:

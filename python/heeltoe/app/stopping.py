@@ -1,4 +1,5 @@
-"""Work that can be stopped from another process: the process stays, and with it what is dear to build.
+"""Processes that stop: at a word from another process, when the process stays, and with it what is dear to build; or
+for good, when the process that began them has ended.
 
 A thread listens for the numbers of what shall stop and interrupts the main thread, which the kernels, too, look out
 for; signals between processes do not work wherever Python runs."""
@@ -6,15 +7,32 @@ for; signals between processes do not work wherever Python runs."""
 from __future__ import annotations
 
 import _thread
+import os
 import signal
 from collections.abc import Callable
 from contextlib import suppress
-from multiprocessing.connection import Connection
+from multiprocessing import parent_process
+from multiprocessing.connection import Connection, wait
 from threading import Lock, Thread, main_thread
 from typing import Any
 
 # Time between two interrupts of the same work [s].
 _AGAIN = 1.0
+
+
+def end_with_parent() -> None:
+    """End this process, with all of its group if it leads one, as soon as the process that began it has ended, however
+    that ended: nobody would hear what it finds."""
+    parent = parent_process()
+    if parent is not None:
+        Thread(target=_end_after, args=(parent.sentinel,), daemon=True).start()
+
+
+def _end_after(sentinel: int) -> None:
+    wait([sentinel])
+    if hasattr(os, "killpg") and os.getpgid(0) == os.getpid():
+        os.killpg(0, signal.SIGKILL)
+    os._exit(1)
 
 
 class StoppedError(Exception):

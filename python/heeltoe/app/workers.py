@@ -15,7 +15,7 @@ from itertools import count
 from multiprocessing.connection import Connection
 from typing import Any
 
-from heeltoe.app.stopping import listen, stoppable
+from heeltoe.app.stopping import end_with_parent, listen, stoppable
 
 THREADS = 4
 #: What the names of its threads begin with.
@@ -150,10 +150,12 @@ def _process() -> ProcessPoolExecutor:
 
 
 def _quietly() -> None:
-    """Leave Ctrl-C to the server, and let it and the browser go first: what they do is waited for most."""
+    """Leave Ctrl-C to the server, let it and the browser go first, as what they do is waited for most, and end with
+    it."""
     import os
     import signal
 
+    end_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(os, "nice"):
         os.nice(_NICE)

@@ -162,9 +162,10 @@ async def _done(desk: Desk, do: Callable[[], None]) -> dict[str, Any]:
         changed = session.case is not before or session.moved != moved
         return _case_message(session), state(session) if changed else None
 
-    message, changed = await desk.workers.quick(done)
-    if changed is not None:
-        await desk.tell(changed)
+    async with session.turn:
+        message, changed = await desk.workers.quick(done)
+        if changed is not None:
+            await desk.tell(changed)
     payload: dict[str, Any] = message
     return payload
 

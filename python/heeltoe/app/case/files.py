@@ -117,13 +117,17 @@ def lay_out(fields: Mapping[str, Any], sent: Sent, folder: Path, *, listed: bool
 
 
 def copied(path: Path, name: str, folder: Path) -> str:
-    """Copy a file under a name that says what it is to people and nothing to a system, and return that."""
+    """Give a file a second name, which says what it is to people and nothing to a system, and return that."""
     harmless = _STRANGE.sub("-", Path(name).name).lstrip(".-")[-_LONGEST:] or "file"
     place, number = folder / harmless, 1
     while place.exists() or place.name == CASE:
         number += 1
         place = folder / f"{number}-{harmless}"
-    shutil.copyfile(path, place)
+    try:
+        # Nothing changes such a file: a second name of it takes no room.
+        place.hardlink_to(path)
+    except OSError:
+        shutil.copyfile(path, place)
     return place.name
 
 

@@ -55,9 +55,8 @@ async def make(desk: Desk, request: Request) -> dict[str, Any]:
     options = wanted_of(request, session.units, case.units)
     folder = session.folder / f"export-{next(_NUMBERS)}"
     await desk.workers.quick(lay_out, fields_in_force(session), sent_files(session), folder)
-    message = start(desk, _MADE, work, folder, options)
+    message = start(desk, _MADE, work, folder, options, unless_done=folder)
     if message["of"] != "job":
-        await desk.workers.quick(partial(shutil.rmtree, ignore_errors=True), folder)
         return message
     before, session.kept_files = session.kept_files, (folder, _state(case))
     for job in [job for job in session.jobs.values() if job.what == _MADE and job.number != message["number"]]:
@@ -93,6 +92,11 @@ def _case_file(session: Session) -> tuple[str, Path]:
     from heeltoe.app.case.draft import fields_in_force
     from heeltoe.app.case.files import CASE, lay_out, sent_files, zipped
 
+    links = [offer.path for offer in session.offers.values()]
+    for before in session.folder.glob("case-*"):
+        # One that the browser has not asked for yet stays.
+        if not any(path.is_relative_to(before) for path in links):
+            shutil.rmtree(before, ignore_errors=True)
     folder = session.folder / f"case-{next(_NUMBERS)}" / "case"
     lay_out(fields_in_force(session), sent_files(session), folder)
     if len(list(folder.iterdir())) == 1:
@@ -106,7 +110,7 @@ def _state(case: Any) -> str:
 
 ACTIONS = {
     "export": Entry(look, newest=True),
-    "make": Entry(make),
+    "make": Entry(make, writes=True),
     "fetch": Entry(fetch),
-    "case file": Entry(case),
+    "case file": Entry(case, writes=True),
 }

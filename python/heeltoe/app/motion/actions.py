@@ -150,8 +150,9 @@ async def _changed(desk: Desk, changes: Callable[[dict[str, Any]], dict[str, Any
         edit(session, changes(fields_of(session)[0]))
         return next(map(refused, draft_of(session).errors), {})
 
-    payload: dict[str, Any] = await desk.workers.quick(changed)
-    await desk.tell(await desk.workers.quick(state, session))
+    async with session.turn:
+        payload: dict[str, Any] = await desk.workers.quick(changed)
+        await desk.tell(await desk.workers.quick(state, session))
     return {"of": "motion used", **payload}
 
 

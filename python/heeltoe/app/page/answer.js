@@ -18,6 +18,10 @@ const RESTS_AFTER_MS = 700;
 export function answerPage(talk) {
   /** Of the sliders that were moved, by their paths. @type {Record<string, number>} */
   let values = {};
+  /** Numbers of the questions that have moved them, by their paths, until the server has heard of it. @type {Map<string, number>} */
+  const unheard = new Map();
+  /** Number of the state that the sliders stand on, the session that it is of, and its units. */
+  const base = { state: 0, session: "", units: "" };
   /** What each model has said last. @type {Record<string, any>} */
   let answers = {};
   /** When the event was that asked for an answer, by the number of the rigid one [ms]. @type {Map<number, number>} */
@@ -59,13 +63,14 @@ export function answerPage(talk) {
     redraw();
   }).observe(plot);
 
-  /** @param {number} time */
-  function ask(time) {
+  /** @param {number} time @param {string[]} moved The sliders that have just been moved, by their paths. */
+  function ask(time, moved) {
     position += 1;
     for (const model of LIVE) {
-      newest[model] = talk.ask(model, { values });
+      newest[model] = talk.ask(model, { values, state: base.state });
       positions.set(newest[model], position);
     }
+    for (const path of moved) unheard.set(path, newest.rigid);
     began.set(newest.rigid, time);
     if (answers.flexible) answers.flexible.stale = true;
     flexible.moved();
@@ -79,6 +84,7 @@ export function answerPage(talk) {
   /** @param {any} answer */
   function take(answer) {
     const at = positions.get(answer.serial) || 0;
+    if (answer.of === "rigid") for (const [path, serial] of unheard) if (serial <= answer.serial) unheard.delete(path);
     for (const [serial, place] of positions) if (place < at - 1) positions.delete(serial);
     const had = Boolean(answers[answer.of] && answers[answer.of].curves);
     answers[answer.of] = { ...answer, position: at };
@@ -155,9 +161,39 @@ export function answerPage(talk) {
     requestAnimationFrame(() => setTimeout(() => performance.measure("slider to plot", { start, end: performance.now() })));
   }
 
+  /**
+   * Return which sliders were moved since the server made a state, and put them where they are now.
+   * @param {any} state
+   */
+  function movedSince(state) {
+    const moved = [];
+    for (const slider of state.sliders) {
+      const { path, unit, off } = slider;
+      const isOfIt = state.to !== "open example" && (unit === "" || state.units === base.units) && off === "";
+      if (!isOfIt || (unheard.get(path) || 0) <= state.heard) continue;
+      moved.push(path);
+      if (path in values) slider.value = values[path];
+    }
+    return moved;
+  }
+
+  talk.on("hello", ({ session }) => {
+    // Another session has another case.
+    if (session !== base.session) unheard.clear();
+    base.session = session;
+  });
   talk.on("state", (state) => {
     answers = {};
+    const moved = state.case ? movedSince(state) : [];
+    const before = values;
     values = state.moved || {};
+    for (const path of moved) {
+      if (path in before) values[path] = before[path];
+      else delete values[path];
+    }
+    unheard.clear();
+    base.state = state.state;
+    base.units = state.units;
     if (state.case) {
       showSliders(controls, state.sliders, state.drained, values, ask);
       controls.append(flexible.root);
@@ -167,7 +203,7 @@ export function answerPage(talk) {
       const elastic = state.models.includes("flexible");
       statics.begin(elastic);
       crest.begin(elastic);
-      ask(performance.now());
+      ask(performance.now(), moved);
     }
   });
   for (const model of LIVE) talk.on(model, take);

@@ -10,7 +10,7 @@ const DRAINS = "uplift.drain_efficiency";
  * @param {Slider[]} sliders
  * @param {boolean} drained Whether the case has drains.
  * @param {Record<string, number>} values Of the sliders that were moved, by their paths; changed in place.
- * @param {(began: number) => void} moved Called with the time of the event.
+ * @param {(began: number, paths: string[]) => void} moved Called with the time of the event and the slider that it moved.
  */
 export function showSliders(root, sliders, drained, values, moved) {
   // Who is about to press a key goes on where they are.
@@ -34,7 +34,7 @@ export function showSliders(root, sliders, drained, values, moved) {
       to.value = from.value;
       values[slider.path] = Number(from.value);
       range.setAttribute("aria-valuetext", `${from.value} ${slider.unit}`);
-      moved(event.timeStamp);
+      moved(event.timeStamp, [slider.path]);
     };
     range.addEventListener("input", (event) => take(range, exact, event));
     exact.addEventListener("input", (event) => take(exact, range, event));
@@ -52,7 +52,7 @@ export function showSliders(root, sliders, drained, values, moved) {
  * @param {HTMLInputElement} range
  * @param {HTMLInputElement} exact
  * @param {Record<string, number>} values
- * @param {(began: number) => void} moved
+ * @param {(began: number, paths: string[]) => void} moved
  */
 function drains(range, exact, values, moved) {
   const tick = /** @type {HTMLInputElement} */ (element("input", { type: "checkbox", id: "drains" }));
@@ -62,7 +62,7 @@ function drains(range, exact, values, moved) {
     range.disabled = exact.disabled = !tick.checked;
     if (tick.checked) values[DRAINS] = Number(range.value);
     else delete values[DRAINS];
-    moved(event.timeStamp);
+    moved(event.timeStamp, [DRAINS]);
   });
   return element("label", { class: "beside" }, tick, " drains, at a tenth of the width from the heel");
 }

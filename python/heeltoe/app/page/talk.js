@@ -19,7 +19,10 @@ export class Talk {
     const [entry] = /** @type {PerformanceNavigationTiming[]} */ (performance.getEntriesByType("navigation"));
     /** Whether the session is surely of this tab: a tab that was doubled has the same name. */
     this.again = Boolean(entry && entry.type === "reload");
-    this.on("hello", ({ session }) => {
+    /** The largest file that can be sent [bytes], and what is said of a larger one. */
+    this.uploads = { largest: Infinity, refusal: "" };
+    this.on("hello", ({ session, upload }) => {
+      this.uploads = upload;
       this.wait = 250;
       this.heard("connected");
       this.session = session;
@@ -99,9 +102,16 @@ export class Talk {
    * @returns {Promise<{name: string, bytes: number}>}
    */
   async upload(file) {
-    const answer = await fetch("/upload", { method: "POST", body: file, headers: { "x-session": this.session } });
-    const content = await answer.json();
-    if (!answer.ok) throw new Error(content.error);
+    if (file.size > this.uploads.largest) throw new Error(this.uploads.refusal);
+    const lost = { error: "The file has not arrived: the app has stopped or cannot be reached." };
+    let content = lost;
+    try {
+      const answer = await fetch("/upload", { method: "POST", body: file, headers: { "x-session": this.session } });
+      content = await answer.json();
+    } catch {
+      // Neither a connection that was cut nor an answer of another server has a sentence for people.
+    }
+    if (content.error) throw new Error(content.error);
     return content;
   }
 }

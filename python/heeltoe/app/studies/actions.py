@@ -146,9 +146,9 @@ def _listed(session: Session) -> dict[str, Any]:
 
 ACTIONS = {
     "study form": Entry(form, newest=True),
-    "study look": Entry(look, newest=True),
-    "study run": Entry(run),
+    "study look": Entry(look, newest=True, writes=True),
+    "study run": Entry(run, writes=True),
     "study remove": Entry(remove),
     "study answers": Entry(answers),
-    "study download": Entry(download),
+    "study download": Entry(download, writes=True),
 }

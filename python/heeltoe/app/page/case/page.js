@@ -36,7 +36,7 @@ export function casePage(talk) {
     if (!main) return;
     problem.textContent = "";
     try {
-      const sent = await Promise.all(files.map((file) => talk.upload(file)));
+      const sent = await Promise.all(files.map((file) => talk.upload(file).catch((error) => Promise.reject(new Error(`${file.name}: ${error.message}`)))));
       const beside = Object.fromEntries(files.map((file, place) => [file.name, sent[place].name]).filter(([name]) => name !== main.name));
       edits.begin();
       edits.add("open case", { file: sent[files.indexOf(main)].name, called: main.name, beside });
