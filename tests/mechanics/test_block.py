@@ -4,8 +4,8 @@ import pytest
 
 from heeltoe import build_block, read_case
 from heeltoe.mechanics.block import static_state
-from heeltoe.validation.plain import rectangle
 from shared.dams import TYPICAL_SECTION
+from validation.plain import rectangle
 
 TYPICAL = {
     "gravity": "9.81 m/s^2",

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from heeltoe import flexible, read_case, rigid
+from heeltoe import flexible, rigid
 from heeltoe.kernel.block import VARYING
 from heeltoe.mechanics.block import build_block
 from heeltoe.mechanics.references import REFERENCES
@@ -13,6 +13,7 @@ from heeltoe.mechanics.virtual_water import slope_factor, virtual_mass
 from heeltoe.models.decoupled.chain import attached_mass
 from heeltoe.models.rigid.varying import varying
 from heeltoe.motion.ground_motion import GroundMotion
+from shared.dams import plane_case
 from shared.outlines import make
 from shared.potential_flow import leaning, push
 
@@ -130,7 +131,7 @@ def test_every_walk_turns_with_the_inertia_of_the_profile(inclination):
 def test_zangar_is_cited_where_a_face_leans():
     motion = GroundMotion("still", np.array([0.0, 0.1]), np.zeros(2))
     for corners, cited in ((LEANING, True), (((0.0, 0.0), (40.0, 0.0), (6.0, 40.0), (0.0, 40.0)), False)):
-        case = read_case(
+        case = plane_case(
             {
                 "section": {"polygon": [[f"{x} m", f"{z} m"] for x, z in corners]},
                 "concrete": {"modulus": "20 GPa"},

@@ -15,6 +15,7 @@ from heeltoe import GroundMotion, flexible, read_case, rigid, run
 from heeltoe.views.report.html import html
 from heeltoe.views.report.write import build_report
 from shared.command import command
+from shared.dams import plane_case
 from shared.report_reader import Reader
 
 G = 9.80665
@@ -24,7 +25,7 @@ MODELS = [rigid, flexible]
 
 
 def block(friction, density, anchor, **more):
-    return read_case(
+    return plane_case(
         {
             "section": {"polygon": [["0 m", "0 m"], ["4 m", "0 m"], ["4 m", "1 m"], ["0 m", "1 m"]]},
             "concrete": {"density": "2400 kg/m^3", "modulus": "2000 GPa", "poisson": 0.0},

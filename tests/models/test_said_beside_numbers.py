@@ -3,9 +3,9 @@
 import pytest
 
 import heeltoe
-from heeltoe import GroundMotion, InputError, flexible, read_case, rigid, rigid_many, verdict
+from heeltoe import GroundMotion, InputError, flexible, rigid, rigid_many, verdict
 from heeltoe.models.run import earthquake
-from shared.dams import BASE, COARSE, ENDS, FAST, example
+from shared.dams import BASE, COARSE, ENDS, FAST, example, plane_case
 
 
 def codes(response):
@@ -14,13 +14,13 @@ def codes(response):
 
 def test_a_crack_whose_kinetic_friction_does_not_hold_the_water_says_so():
     weak = ["crack.static_friction=1.0", "crack.kinetic_friction=0.6", "motion.pga=0.02g"]
-    assert "slides-on" in codes(rigid(read_case(BASE, weak)))
-    assert "slides-on" not in codes(rigid(read_case(BASE, [*weak[:1], "crack.kinetic_friction=0.95", weak[2]])))
+    assert "slides-on" in codes(rigid(plane_case(BASE, weak)))
+    assert "slides-on" not in codes(rigid(plane_case(BASE, [*weak[:1], "crack.kinetic_friction=0.95", weak[2]])))
 
 
 def test_a_law_whose_residual_friction_does_not_hold_the_water_says_so_at_rest():
     law = {"crack.law": {"name": "slip weakening", "peak_friction": 1.0, "residual_friction": 0.5, "slip": "10 mm"}}
-    response = rigid(read_case(BASE, [{"crack.friction": None}, law, "motion.pga=0.02g"]))
+    response = rigid(plane_case(BASE, [{"crack.friction": None}, law, "motion.pga=0.02g"]))
     assert response.residual_slip_m == 0.0
     assert "slides-on" in codes(response)
 
@@ -35,20 +35,20 @@ def test_bounces_that_amplify_the_last_digit_are_not_determined():
 
 def test_tension_without_a_strength_is_said_to_be_unjudged():
     changes = [*COARSE, "motion.duration=4s", "motion.pga=0.8g"]
-    response = flexible(read_case(BASE, changes))
+    response = flexible(plane_case(BASE, changes))
     assert response.tension.stress_pa > 1e6
     assert "tension-unjudged" in codes(response)
-    judged = flexible(read_case(BASE, [*changes, "concrete.tensile_strength=9 MPa"]))
+    judged = flexible(plane_case(BASE, [*changes, "concrete.tensile_strength=9 MPa"]))
     assert "tension-unjudged" not in codes(judged)
 
 
 def test_a_modulus_that_is_not_that_of_concrete_is_said_under_every_model():
-    assert "modulus-unusual" in codes(rigid(read_case(BASE, ["concrete.modulus=25 MPa", "motion.duration=3s"])))
+    assert "modulus-unusual" in codes(rigid(plane_case(BASE, ["concrete.modulus=25 MPa", "motion.duration=3s"])))
 
 
 def test_an_elastic_dam_that_slides_far_says_so():
     changes = [*COARSE, "motion.duration=6s", "motion.pga=2.5g", "crack.friction=0.75"]
-    response = flexible(read_case(BASE, changes))
+    response = flexible(plane_case(BASE, changes))
     assert response.ok
     assert abs(response.residual_slip_m) > 0.1 * 80.0
     assert "slid-far" in codes(response)
@@ -57,11 +57,11 @@ def test_an_elastic_dam_that_slides_far_says_so():
 def test_a_number_of_threads_that_is_none_is_refused_by_name():
     motion = GroundMotion.from_points([0.0, 1.0], [0.0, 1.0])
     with pytest.raises(InputError, match="threads"):
-        rigid_many([read_case(BASE)], [motion], threads=-3)
+        rigid_many([plane_case(BASE)], [motion], threads=-3)
 
 
 def test_the_uncertainty_is_never_less_than_two_meshes_that_agree_by_chance_may_hide():
-    response = flexible(read_case(BASE, [*FAST, "flexible.evidence=step"]))
+    response = flexible(plane_case(BASE, [*FAST, "flexible.evidence=step"]))
     worth = response.evidence.residual_slip_m
     assert worth.uncertainty >= max(0.03 * abs(worth.value), 5e-5)
 
@@ -83,7 +83,7 @@ DOWELS = {"distance": "40 m", "shear_stiffness": "30 MN/m/m", "capacity": "2.5 M
 @pytest.mark.parametrize("model", [rigid, flexible])
 def test_a_dowel_is_judged_by_tension_and_shear_together(model):
     changes = [*FAST, "crack.friction=0.8", "motion.pga=0.6g", {"anchors": [DOWELS]}]
-    result = model(read_case(BASE, changes))
+    result = model(plane_case(BASE, changes))
     (borne,) = result.anchors
     assert borne.peak_tension_n == 0.0
     assert borne.peak_force_n == pytest.approx(30e6 * result.peak_slip_downstream_m, rel=1e-3)
@@ -94,23 +94,23 @@ def test_a_dowel_is_judged_by_tension_and_shear_together(model):
 
 def test_an_anchor_without_a_capacity_is_said_to_be_judged_by_nothing():
     changes = [*FAST, {"anchors": [{key: DOWELS[key] for key in ("distance", "shear_stiffness")}]}]
-    response = rigid(read_case(BASE, changes))
+    response = rigid(plane_case(BASE, changes))
     assert "anchor-unlimited" in codes(response)
 
 
 def test_a_slip_that_few_tendons_bear_is_said_in_the_run():
     anchors = {"anchors": [{"distance": "5 m", "prestress": "1 MN/m", "capacity": "2 MN/m"}]}
     for strength, crossed in (("0.8g", True), ("0.1g", False)):
-        response = rigid(read_case(BASE, [anchors, f"motion.pga={strength}"]))
+        response = rigid(plane_case(BASE, [anchors, f"motion.pga={strength}"]))
         assert (response.peak_slip_downstream_m > 0.01) == crossed
         assert ("anchors-cross-slip" in codes(response)) == crossed
 
 
 def test_anchors_that_a_slip_has_crossed_are_counted_with_and_without():
     anchors = {"anchors": [{"distance": "5 m", "prestress": "3 MN/m"}]}
-    case = read_case(BASE, [anchors, "crack.friction=1.2"])
+    case = plane_case(BASE, [anchors, "crack.friction=1.2"])
     (notice,) = [warning for warning in heeltoe.statics(case, 0.113).warnings if warning.code == "anchors-after-slip"]
-    bare = heeltoe.statics(read_case(BASE, ["crack.friction=1.2"]), 0.113)
+    bare = heeltoe.statics(plane_case(BASE, ["crack.friction=1.2"]), 0.113)
     quantities = dict(notice.quantities)
     assert quantities["bare_factor"] == bare.cases[-1].sliding_factor
     assert quantities["bare_factor"] < quantities["factor"]
@@ -140,7 +140,7 @@ def test_what_a_chain_owes_to_its_restitution_is_said_with_both_slips():
 def test_a_block_that_slides_on_has_no_residual_slip():
     """By hand: friction 0.6 holds less than the static loads ask for, so that the block accelerates for ever."""
     weak = ["crack.static_friction=1.0", "crack.kinetic_friction=0.6", "motion.pga=0.5g", "motion.duration=5s"]
-    response = rigid(read_case(BASE, [*weak, "limits.residual_slip=100 m"]))
+    response = rigid(plane_case(BASE, [*weak, "limits.residual_slip=100 m"]))
     assert response.outcome == "keeps sliding"
     assert not response.ok
     (check,) = response.limits
@@ -150,11 +150,11 @@ def test_a_block_that_slides_on_has_no_residual_slip():
     assert text.endswith("No limit is met: the dam does not slow down on still ground.")
     assert "±" not in text
     # Without a free motion nothing shows it.
-    assert rigid(read_case(BASE, [*weak, ENDS])).outcome == "ok"
+    assert rigid(plane_case(BASE, [*weak, ENDS])).outcome == "ok"
 
 
 def test_warnings_come_by_gravity_and_those_of_fields_last():
-    case = read_case(BASE, [*FAST, "motion.pga=0.8g", "analysis.event_limit=100", "statics.criteria=FERC"])
+    case = plane_case(BASE, [*FAST, "motion.pga=0.8g", "analysis.event_limit=100", "statics.criteria=FERC"])
     for response in (flexible(case), rigid(case)):
         rank = ["grave", "caution", "note"]
         of_fields = [warning.code.startswith("fields-") for warning in response.warnings]

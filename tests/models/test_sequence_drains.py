@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import heeltoe
-from heeltoe import read_case
 from heeltoe.case.toml_writer import case_text
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.flexible.model import run_flexible
@@ -15,7 +14,7 @@ from heeltoe.models.run import MODELS, earthquake
 from heeltoe.study.plan.file import read_study
 from heeltoe.study.plan.plan import plan_of
 from heeltoe.study.run import batches as parts
-from shared.dams import BASE, FAST
+from shared.dams import BASE, FAST, plane_case
 from shared.studies import study_file
 
 POINTS = [["0 s", "0 g"], ["0.1 s", "0.9 g"], ["0.35 s", "-0.7 g"], ["0.5 s", "0 g"]]
@@ -40,7 +39,7 @@ def sequence(*changes, base=BASE, points=OTHER):
         "aftershocks": [{"points": points, "pause": "5 s"}, {"points": POINTS, "reverse": True}],
     }
     drains = {**DRAINS, "statics.drain_diameter": f"{DIAMETER} m"}
-    return read_case(base, [motions, "crack.friction=0.8", drains, *changes])
+    return plane_case(base, [motions, "crack.friction=0.8", drains, *changes])
 
 
 def alone(case, points, share, *changes):

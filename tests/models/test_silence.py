@@ -24,7 +24,7 @@ from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.rest import rests_from
 from heeltoe.warnings.notice import Notice
-from shared.dams import BASE, COARSE, ENDS, HEIGHT, SLENDER, example
+from shared.dams import BASE, COARSE, ENDS, HEIGHT, SLENDER, example, plane_case
 
 # The ground motion stops while the block slides.
 SLIDING = ["motion.duration=2.1s", "flexible.elements_across=2", "flexible.evidence=none"]
@@ -140,10 +140,10 @@ def test_a_dam_at_rest_costs_one_run(monkeypatch):
 
     monkeypatch.setattr(ShakenDam, "run", counted)
     quiet = [*COARSE, "motion.duration=3s", "motion.pga=0.05g", "reservoir.depth=20m"]
-    assert flexible(read_case(BASE, quiet)).silence_s == 0.0
+    assert flexible(plane_case(BASE, quiet)).silence_s == 0.0
     assert runs == [3.0]
     runs.clear()
-    response = flexible(read_case(BASE, [*COARSE, "motion.duration=3s"]))
+    response = flexible(plane_case(BASE, [*COARSE, "motion.duration=3s"]))
     # One more for the damping.
     assert runs == [3.0, 3.0 + response.silence_s]
     assert 0.0 < response.silence_s < 10.0

@@ -81,6 +81,7 @@ def _files(
     }[place]
     models = ["rigid", "flexible"] if place == "base" else ["rigid", "decoupled", "flexible"]
     case = f"""title = "{name}"
+rock = "rigid"
 
 [section]
 {shape}
@@ -94,6 +95,7 @@ friction = 1.0
 
 [reservoir]
 depth = "{0.9 * height} m"
+compressible = false
 
 [uplift]
 intensity = 0.5

@@ -12,27 +12,30 @@ from typing import Any
 from heeltoe.case.dam import UPLIFT_OPTIONS
 from heeltoe.case.joints import JOINTS
 from heeltoe.case.lists import CRACKS, path_in_fields
-from heeltoe.case.motion import NO_MOTION
+from heeltoe.case.motion import FILE_OPTIONS, NO_MOTION
 from heeltoe.case.options import NO_FLOOD
 from heeltoe.errors.error import InputError, shown
 from heeltoe.motion.records.catalog import PREFIX, find
+from heeltoe.units.parse import misgrouped
 
-#: ``"crack.friction=1.0"``, ``{"crack.friction": 1.0}``, ``{"crack": {"friction": 1.0}}``, or several of these.
-Changes = str | Mapping[str, Any] | Sequence[str | Mapping[str, Any]]
+#: ``"crack.friction=1.0"``, ``{"crack.friction": 1.0}`` or ``{"crack": {"friction": 1.0}}``; one or several of these.
+Change = str | Mapping[str, Any]
+Changes = Change | Sequence[Change]
 
 # Of a section: what its several forms are made of.
 _SIZES, _DIMENSIONS = ("height", "crest_width"), ("neck_height", "neck_width", "base_width")
 _FACES, _FILE = ("upstream", "downstream"), ("file", "layer", "unit")
 
+_OF_A_FILE = tuple(f"motion.{name}" for name in FILE_OPTIONS)
 _COEFFICIENTS = ("crack.friction", "crack.static_friction", "crack.kinetic_friction")
 
 # An override says how it shall be now: what the file says in the other form of the same thing goes.
 _REPLACES = {
     # Channel, unit and time step belong to the file that goes; taken for another one's they would spoil it silently.
-    "motion.file": ("motion.points", "motion.channel", "motion.unit", "motion.time_step"),
-    "motion.points": ("motion.file", "motion.channel", "motion.unit", "motion.time_step"),
-    "motion.vertical.file": tuple(f"motion.vertical.{name}" for name in ("points", "channel", "unit", "time_step")),
-    "motion.vertical.points": tuple(f"motion.vertical.{name}" for name in ("file", "channel", "unit", "time_step")),
+    "motion.file": ("motion.points", *_OF_A_FILE),
+    "motion.points": ("motion.file", *_OF_A_FILE),
+    "motion.vertical.file": tuple(f"motion.vertical.{name}" for name in ("points", *FILE_OPTIONS)),
+    "motion.vertical.points": tuple(f"motion.vertical.{name}" for name in ("file", *FILE_OPTIONS)),
     **{
         f"section.{name}": tuple(f"section.{other}" for other in others)
         for name, others in {
@@ -110,6 +113,9 @@ def _inner(block: dict[str, Any], name: str, path: str) -> Any:
     """Return the block of this name in another, which is made where it is not there, or one of a list of them."""
     item = _ITEM.fullmatch(name)
     if item is None:
+        if name == "rock" and isinstance(block.get(name), str):
+            # A word in place of the block.
+            block[name] = {}
         return block.setdefault(name, {})
     item_block = _item_block(block, name)
     if item_block is None:
@@ -194,6 +200,8 @@ def _split(override: str) -> tuple[list[str], Any]:
 
 def _value(text: str) -> Any:
     """Return a number, truth value, list or table where `text` reads as one in TOML, else `text` itself."""
+    if misgrouped(text) is not None:
+        return text
     try:
         read = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):

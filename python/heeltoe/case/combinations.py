@@ -144,8 +144,11 @@ def _options(*fields: str, unlike: tuple[object, ...] = (None,), among: tuple[ob
         for path in fields:
             block, _, name = path.partition(".")
             owner = getattr(case, block)
-            value = None if owner is None else getattr(owner, name)
-            if owner is not None and (value in among if among else value not in unlike):
+            # A word stands for rock that has no fields.
+            if owner is None or isinstance(owner, str):
+                continue
+            value = getattr(owner, name)
+            if value in among if among else value not in unlike:
                 yield path, value if isinstance(value, str) and not name.startswith("mesh") else None
 
     return find
@@ -299,7 +302,7 @@ FEATURES = {
             "set compressible = false",
             _options("reservoir.compressible", "tailwater.compressible", among=(True,)),
         ),
-        Feature("elastic rock", ("rock",), "remove the block rock", _options("rock.modulus")),
+        Feature("elastic rock", ("rock",), 'set rock = "rigid"', _options("rock.modulus")),
         Feature(
             "water that follows the vertical motion",
             ("reservoir.follows_vertical_motion", "tailwater.follows_vertical_motion"),
@@ -420,6 +423,16 @@ def check(case: Featured, user: str) -> None:
 def supports(case: Featured, user: str) -> bool:
     """Whether a model or table supports all features of a case."""
     return not any(True for rule in _rules_for(user) for _ in _broken(case, rule))
+
+
+def misfit(case: Featured, feature: str) -> str:
+    """Return in a few words what of a case does not go with a feature that it does not have; nothing where all does."""
+    for rule in RULES:
+        if not rule.users and rule.verdict == "refused" and feature in (rule.feature, rule.other):
+            other = rule.feature if rule.other == feature else rule.other
+            if any(True for _ in FEATURES[other].find(case)):
+                return f"{other}: {rule.reason}"
+    return ""
 
 
 def warned(case: Featured, feature: str, user: str) -> bool:

@@ -64,9 +64,9 @@ class Water(Fields):
     hydrodynamic: Literal["westergaard", "zangar"] = "westergaard"
     """Pressure of the water that moves with a rigid block, and of the pseudo-static checks: Westergaard's, less in
     proportion before each slope of the face; or Zangar's for a face of one slope."""
-    compressible: Truth = False
-    """Sound travels in the water before an elastic dam, and leaves along the reservoir and through its floor; otherwise
-    the water is a mass that moves with the face."""
+    compressible: Truth | None = None
+    """Sound travels in the water before an elastic dam, and leaves along the reservoir and through its floor, unless
+    this is false: then the water is a mass that moves with the face."""
     wave_speed: Annotated[Velocity, Field(ge=100.0, le=1e5)] = Field(default="1440 m/s", validate_default=True)
     """Of sound in compressible water."""
     floor_reflection: Annotated[DimensionlessNumber, Field(ge=0.0, le=1.0)] = 0.9
@@ -83,8 +83,7 @@ class Reservoir(Water):
 
 
 class Rock(Fields):
-    """The rock below an elastic dam: a half-plane that the dam moves, and into which waves leave. Without it the dam
-    stands on a rigid plane."""
+    """The rock below an elastic dam: a half-plane that the dam moves, and into which waves leave."""
 
     modulus: Annotated[Pressure, Field(ge=1e8, le=1e15)]
     """Young's modulus, dynamic."""

@@ -107,6 +107,8 @@ READ_BY: dict[str, frozenset[str]] = {
     "analysis.memory_limit": _ELASTIC,
 }
 
+# What these say holds for every block.
+_AS_BLOCKS = {"rock": ("rigid",), "reservoir.compressible": (False,), "tailwater.compressible": (False,)}
 # What a reader would expect to matter to the flexible model has a sentence of its own.
 _EXPECTED = {
     "analysis.rotation": "rotation-unused",
@@ -131,7 +133,11 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
     # Between the motions of a sequence a dam is judged by the static checks.
     users = {*models, "statics"} if case.aftershocks else set(models)
     # What the static checks alone read says what `heeltoe statics` shall do, and is none too many beside a run.
-    foreign = [path for path in values if not (own := readers(_plain(path))) & users and own != {"statics"}]
+    foreign = [
+        path
+        for path, value in values.items()
+        if not (own := readers(_plain(path))) & users and own != {"statics"} and value not in _AS_BLOCKS.get(path, ())
+    ]
     notices = []
     if "flexible" in models:
         # Rotations beyond small ones, and pressures beside the usual ones, are asked for because they matter, and one
@@ -262,13 +268,13 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
     yield elastic and not water, "there is no water", ("flexible.virtual_mass", "flexible.damping_on_water")
     for side, body in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
         fields = (f"{side}.wave_speed", f"{side}.floor_reflection")
-        yield flexible and body is not None and not body.compressible, f"{side}.compressible is not set", fields
-    springs = case.rock is not None and case.rock.massless
+        yield flexible and body is not None and not case.has_sound(side), f"{side}.compressible is false", fields
+    springs = case.foundation is not None and case.foundation.massless
     yield flexible and springs, "rock.massless is set", ("rock.density", "rock.radiation")
     lowest = case.single_crack_cases[-1]
-    bonded_to_rock = case.rock is not None and case.outline.area - lowest.cut.area > 1e-9 * case.outline.area
+    bonded_to_rock = case.foundation is not None and case.outline.area - lowest.cut.area > 1e-9 * case.outline.area
     yield flexible and bonded_to_rock, "all cracks are above the base", ("rock.bears_uplift",)
-    dry_crack = case.rock is not None and lowest.uplift.pattern == "none"
+    dry_crack = case.foundation is not None and lowest.uplift.pattern == "none"
     yield flexible and dry_crack, "the crack on the rock has no uplift", ("rock.bears_uplift",)
     below = case.outline.area - case.cut.area > 1e-9 * case.outline.area
     across, across_below = "flexible.elements_across", "flexible.elements_across_below"

@@ -32,6 +32,7 @@ from heeltoe.case.section import Section
 from heeltoe.case.section_file import with_section_read
 from heeltoe.case.sentences import all_errors, gathered
 from heeltoe.case.suite import Suite, SuiteMotion
+from heeltoe.case.surroundings import Surroundings, surroundings_of
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 from heeltoe.geometry.levels import cut_levels
@@ -67,8 +68,9 @@ class Case(Shown, Fields):
     """The water upstream."""
     tailwater: Water | None = None
     """The water downstream."""
-    rock: Rock | None = None
-    """The rock below an elastic dam."""
+    rock: Rock | Literal["rigid"] | None = None
+    """The rock below an elastic dam: a block, or the word "rigid"; where neither stands, rock with the modulus of the
+    concrete is assumed."""
     ice: Ice | None = None
     """The ice upstream."""
     silt: Silt | None = None
@@ -177,10 +179,24 @@ class Case(Shown, Fields):
         """Return the case whose elastic runs have no evidence."""
         return self.model_copy(update={"flexible": self.flexible.with_evidence("none")})
 
+    @cached_property
+    def surroundings(self) -> Surroundings:
+        """What an elastic dam stands on and before: that of the case, or what is assumed where it says nothing."""
+        return surroundings_of(self)
+
+    @property
+    def foundation(self) -> Rock | None:
+        """The rock below an elastic dam; None where it stands on a rigid plane."""
+        return self.surroundings.rock
+
+    def has_sound(self, side: str) -> bool:
+        """Whether sound travels in the water on a side, ``"reservoir"`` or ``"tailwater"``, before an elastic dam."""
+        return side in self.surroundings.sound
+
     @property
     def has_compressible_water(self) -> bool:
         """Whether sound travels in the water on either side."""
-        return any(water is not None and water.compressible for water in (self.reservoir, self.tailwater))
+        return bool(self.surroundings.sound)
 
     def with_water_as_mass(self) -> Case:
         """Return the case whose water is incompressible, and so a mass that moves with the dam."""
@@ -194,6 +210,15 @@ class Case(Shown, Fields):
                 if water is not None
             }
         )
+
+    def on_rock(self, modulus: float) -> Case:
+        """Return the case on the same rock with another modulus [Pa]."""
+        assert self.foundation is not None
+        return self.model_copy(update={"rock": self.foundation.model_copy(update={"modulus": modulus})})
+
+    def on_rigid_plane(self) -> Case:
+        """Return the case on a rigid plane, before water that is a mass."""
+        return self.with_water_as_mass().model_copy(update={"rock": "rigid"})
 
     def reversal(self) -> dict[str, Any]:
         """Return the changes that reverse all of its motions."""
@@ -361,6 +386,7 @@ _MADE_OF = {
     "outline": {"section"},
     "cut": {"section", "crack"},
     "above": {"section", "crack"},
+    "surroundings": set(Case.model_fields),
     "single_crack_cases": set(Case.model_fields),
     "_sorted_cracks": set(Case.model_fields),
     "asked": {"section", "crack", "further_cracks"},

@@ -9,11 +9,13 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from heeltoe.case.fields import LARGEST_ACCELERATION, Channel, Fields, Time, TimeSpan, Truth
 from heeltoe.case.processing import ProcessingStep
-from heeltoe.case.quantities import AccelerationField
+from heeltoe.case.quantities import AccelerationField, DimensionlessNumber
 from heeltoe.case.sentences import collected
 from heeltoe.errors.error import InputError, shown
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
 
+#: What belongs to a motion from a file.
+FILE_OPTIONS = ("channel", "unit", "time_step", "layout", "factor")
 NO_MOTION = "none"
 """What leaves out the vertical motion, in a case or on the command line."""
 
@@ -36,6 +38,12 @@ class Source(Fields):
     """Unit of the numbers in a file that does not state it: g, cm/s^2, m/s^2, ..."""
     time_step: TimeSpan | None = None
     """Time between the numbers of a file that does not state it."""
+    layout: Literal["rows", "columns"] | None = None
+    """How the numbers of a plain table run where its header does not say it: one series along its "rows", or each
+    series down one of its "columns"."""
+    factor: Annotated[DimensionlessNumber, Field(gt=0.0, le=1e12)] | None = None
+    """Where the header of a file has a factor (a scale of a table, SCALE of SAC): that factor, by which the numbers are
+    multiplied, 1 over it where it is a sensitivity, or 1 where they contain it."""
     processing: tuple[ProcessingStep, ...] = ()
     """Steps of processing in their order, before the motion is scaled to `pga`."""
 
@@ -57,7 +65,7 @@ class Source(Fields):
             for place, (_, value) in enumerate(self.points):
                 if abs(value.si(STANDARD_GRAVITY)) > LARGEST_ACCELERATION:
                     raise InputError("acceleration-range", f"points[{place}][1]", str(value))
-            for option in ("channel", "unit", "time_step"):
+            for option in FILE_OPTIONS:
                 if getattr(self, option) is not None:
                     raise InputError("motion-file-option", option)
         if self.unit is not None:

@@ -21,6 +21,7 @@ from heeltoe.case.joints import JOINTS, JOINTS_MEANING, Joints
 from heeltoe.case.lists import CRACKS, CRACKS_MEANING, motions_as_blocks
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError, shown
+from heeltoe.units.parse import misgrouped
 
 # A case is some kilobytes; what never ends, as /dev/zero, is none.
 _LARGEST = 10_000_000
@@ -31,7 +32,11 @@ _OF_KEYS = re.compile(
 )
 
 
-def read_case(source: str | os.PathLike[str] | Mapping[str, Any], changes: Changes = ()) -> Case:
+#: What a case is read from: a file, or its fields.
+Source = str | os.PathLike[str] | Mapping[str, Any]
+
+
+def read_case(source: Source, changes: Changes = ()) -> Case:
     """Read and check a case.
 
     Parameters
@@ -105,9 +110,20 @@ def read_fields(path: Path, missing: str = "case-file-missing") -> dict[str, Any
     kind = "JSON" if text.lstrip().startswith("{") else "TOML"
     try:
         fields: dict[str, Any] = json.loads(text, object_pairs_hook=_once) if kind == "JSON" else _toml(text)
+        if "\\" in text and _has_nul(fields):
+            raise ValueError("a text holds the character U+0000")
     except (ValueError, RecursionError) as error:
         raise InputError("case-file-syntax", name, kind=kind, reason=error) from None
     return fields
+
+
+def _has_nul(value: Any) -> bool:
+    """Whether a text, or a name, holds a NUL, at which other programs end it."""
+    if isinstance(value, dict):
+        return any(map(_has_nul, (*value, *value.values())))
+    if isinstance(value, list):
+        return any(map(_has_nul, value))
+    return isinstance(value, str) and "\0" in value
 
 
 def _toml(text: str) -> dict[str, Any]:
@@ -121,6 +137,9 @@ def _toml(text: str) -> dict[str, Any]:
             if parts > _DEEPEST:
                 line = text.count("\n", 0, token.start()) + 1
                 raise ValueError(f"a key of more than {_DEEPEST} parts (at line {line})")
+    wrong = misgrouped(text)
+    if wrong is not None:
+        raise ValueError(f"{wrong} is no number: an underscore parts thousands, as in 1_000")
     return tomllib.loads(text)
 
 

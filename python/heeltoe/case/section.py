@@ -49,7 +49,8 @@ class Section(Fields):
     file: str | None = Field(default=None, strict=True, min_length=1)
     """A drawing (DXF) or a table of corners (CSV), relative to the case file; read once, into `polygon`."""
     layer: str | None = Field(default=None, strict=True, min_length=1)
-    """Of a drawing: where the closed polyline of the section is; needed where there are several."""
+    """Of a drawing: where the closed outline of the section is; needed where there are several, or other lines. Beside
+    `polygon`: where this was drawn, which answers name."""
     unit: str | None = Field(default=None, strict=True, min_length=1)
     """Unit of the numbers in the file, in place of the one that it states."""
 
@@ -61,7 +62,8 @@ class Section(Fields):
             # What a file says is put in the place of these fields before they are read.
             yield InputError("section-file-unread", "file", shown(self.file))
             return
-        yield from (InputError("needs-other", name, other="a file") for name in ("layer", "unit") if name in names)
+        of_file = ("unit",) if self.polygon is not None else ("layer", "unit")
+        yield from (InputError("needs-other", name, other="a file") for name in of_file if name in names)
         names = [name for name in names if name not in ("layer", "unit")]
         if self.polygon is not None:
             yield from (InputError("fields-conflict", name, other="polygon") for name in names if name != "polygon")

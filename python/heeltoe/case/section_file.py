@@ -53,19 +53,20 @@ def with_section_read(fields: Mapping[str, Any], directory: Path | None) -> Mapp
             raise InputError("wrong-type", f"section.{name}", shown(value), expected="a text in quotes")
     if directory is None:
         raise InputError("section-file-unread", "section.file", shown(section["file"]))
-    corners = read_corners(directory / os.path.expanduser(section["file"]), layer, unit)
-    return {**fields, "section": {"polygon": [[f"{x!r} m", f"{z!r} m"] for x, z in corners]}}
+    corners, drawn_on = read_corners(directory / os.path.expanduser(section["file"]), layer, unit)
+    read: dict[str, Any] = {"polygon": [[f"{x!r} m", f"{z!r} m"] for x, z in corners]}
+    return {**fields, "section": {**read, "layer": drawn_on} if drawn_on else read}
 
 
-def read_corners(path: Path, layer: str | None = None, unit: str | None = None) -> Corners:
-    """Return the corners (x, z) of a section in a file [m].
+def read_corners(path: Path, layer: str | None = None, unit: str | None = None) -> tuple[Corners, str]:
+    """Return the corners (x, z) of a section in a file [m], and the layer of a drawing that they are on.
 
     Parameters
     ----------
     path
         Of the file.
     layer
-        Of a drawing: where its closed polyline is; needed where there are several.
+        Of a drawing: where its closed outline is; needed where there are several, or other lines.
     unit
         Of the numbers, in place of the one that the file states.
 
@@ -89,11 +90,11 @@ def read_corners(path: Path, layer: str | None = None, unit: str | None = None) 
             raise InputError("section-file-unreadable", "section.file", path, reason="it is not a file")
         from heeltoe.case.section_drawing import corners_of_drawing
 
-        corners, stated = corners_of_drawing(path, layer)
+        corners, stated, drawn_on = corners_of_drawing(path, layer)
     else:
         if layer is not None:
             raise InputError("needs-other", "section.layer", other="a drawing (DXF)")
-        corners, stated = _corners_of_table(content)
+        (corners, stated), drawn_on = _corners_of_table(content), ""
     if len(corners) > 1 and corners[0] == corners[-1]:
         corners = corners[:-1]
     if len(corners) > _MOST_CORNERS:
@@ -103,7 +104,7 @@ def read_corners(path: Path, layer: str | None = None, unit: str | None = None) 
     if unit is None and not stated:
         raise InputError("section-unit-missing", "section.unit")
     one = parse(f"1 {unit or stated}", "length", "section.unit" if unit else "section.file")
-    return [(x * one, z * one) for x, z in corners]
+    return [(x * one, z * one) for x, z in corners], drawn_on
 
 
 def _corners_of_table(content: bytes) -> tuple[Corners, str]:

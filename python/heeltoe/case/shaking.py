@@ -7,9 +7,9 @@ from pathlib import Path
 
 from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
-from heeltoe.case.motion import Motion, Source
+from heeltoe.case.motion import FILE_OPTIONS, Motion, Source
 from heeltoe.errors.error import InputError
-from heeltoe.motion.check import check, check_moved, check_pair, check_record
+from heeltoe.motion.check import check, check_moved, check_pair, check_record, check_scaling
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import process
 from heeltoe.motion.records import called, read_record
@@ -59,6 +59,8 @@ def resolve(
         peak = shaking.pga.si(gravity)
         factor = peak / horizontal.pga if horizontal.pga else 1.0
         horizontal = horizontal.scaled_to(peak, f"scaled by {factor:.6g} to a peak of {shaking.pga}")
+    by_processing = _scale_of_processing(shaking, gravity, base_directory, field)
+    horizontal = horizontal.with_warnings(*check_scaling(horizontal, factor * by_processing, field))
     if shaking.vertical is not None:
         vertical = read_source(shaking.vertical, gravity, base_directory, f"{field}.vertical", upward=True)
         if shaking.vertical.pga is not None and vertical.pga > 0.0:
@@ -66,7 +68,7 @@ def resolve(
                 shaking.vertical.pga.si(gravity), f"scaled to a peak of {shaking.vertical.pga}"
             )
         elif not _scales(shaking.vertical):
-            factor *= _scale_of_processing(shaking, gravity, base_directory, field)
+            factor *= by_processing
             if factor != 1.0:
                 vertical = vertical.scaled(factor, f"scaled by {factor:.6g} like the horizontal motion")
         vertical = vertical.with_warnings(*check_pair(horizontal, vertical)).led_by(horizontal.lead)
@@ -119,7 +121,7 @@ def read_source(
     motion = _source(shaking, gravity, base_directory, field, upward, options_field)
     motion = motion.with_warnings(*check_record(motion, gravity, field=field, upward=upward))
     motion = process(motion, shaking.processing, gravity, field=f"{field}.processing")
-    check_moved(motion, field)
+    check_moved(motion, gravity, field)
     return motion
 
 
@@ -148,12 +150,13 @@ def _source(
     assert shaking.file is not None
     file_field, block = (f"{field}.file", field) if options_field is None else (field, options_field)
     if shaking.file.startswith(PREFIX):
-        for option in ("channel", "unit", "time_step"):
+        for option in FILE_OPTIONS:
             if getattr(shaking, option) is not None:
                 raise InputError("synthetic-option", f"{block}.{option}")
         return synthetic(shaking.file, gravity=gravity, field=file_field)
     path = find(shaking.file, base_directory, field=file_field)
     options = {"unit": shaking.unit, "time_step": shaking.time_step, "gravity": gravity, "field": block}
+    options |= {"layout": shaking.layout, "factor": shaking.factor}
     motion = _KEPT.get(
         (_state_of(path), shaking.channel, *options.values()),
         lambda: read_record(path, shaking.channel, **options),  # type: ignore[arg-type]

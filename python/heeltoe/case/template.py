@@ -11,6 +11,7 @@ _TEMPLATE = """\
 # with # are off; they show what else there is, mostly with its default.
 
 title = {title}
+# rock = "rigid"                   # below an elastic dam, in place of [rock]: a plane that carries no wave away
 # units = "si"                      # what everything is shown in; "us": feet, inches, kips, psi
 
 # gravity = "9.80665 m/s^2"        # one g, of the weight and of motions given in g
@@ -50,9 +51,9 @@ base_width = "80 m"
 # elevation on, horizontal per vertical:
 # upstream = [["0 m", 0.1], ["40 m", 0.0]]
 # downstream = [["0 m", 0.8], ["90 m", 0.0]]
-# Or the corners in a file, a drawing (DXF) with the section as a closed polyline, or a table (CSV) of x and z:
+# Or the corners in a file, a drawing (DXF) with the section as a closed outline, or a table (CSV) of x and z:
 # file = "dam.dxf"
-# layer = "SECTION"                # of a drawing with several closed polylines
+# layer = "SECTION"                # of a drawing with other lines, too
 # unit = "m"                       # of a file that does not state it
 # Or any other section, by its corners [x, z] in order:
 # polygon = [["0 m", "0 m"], ["80 m", "0 m"], ["8 m", "90 m"], ["8 m", "100 m"], ["0 m", "100 m"]]
@@ -110,7 +111,7 @@ depth = "95 m"                     # above the lowest point of the section
 # density = "1000 kg/m^3"
 # follows_vertical_motion = false  # pressure on the faces times 1 + a_v / g; needs motion.vertical
 # hydrodynamic = "westergaard"     # pressure of water that moves; or "zangar", for a face of one slope
-# compressible = false             # sound travels in the water before an elastic dam
+# compressible = false             # before an elastic dam: no sound travels in the water, which is a mass
 # wave_speed = "1440 m/s"          # of that sound
 # floor_reflection = 0.9           # of a wave of it: 1 rigid floor, less with sediment
 # nappe = "none"                   # of water above the crest, on it; or "weight", "falling"
@@ -119,7 +120,7 @@ depth = "95 m"                     # above the lowest point of the section
 # [tailwater]
 # depth = "5 m"
 
-# [rock]                           # below an elastic dam; without it a rigid plane
+# [rock]                           # below an elastic dam; without it rock with the modulus of the concrete is assumed
 # modulus = "30 GPa"               # dynamic, of the rock
 # poisson = 0.25
 # density = "2650 kg/m^3"
@@ -163,6 +164,8 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # channel = "90 deg"               # of a file with several: by number or by direction
 # unit = "cm/s^2"                  # of a file that does not state it
 # time_step = "0.02 s"             # of a file with one column that does not state it
+# layout = "rows"                  # of a plain table: one series along its rows, or down each of its "columns"
+# factor = 1.0                     # of a file with a factor in its header: that one, or 1 where the values contain it
 # processing = [{{ step = "band-pass", low = "0.1 Hz", high = "25 Hz" }}, {{ step = "baseline" }}]   # before scaling
 # vertical = {{ file = "elcentro-1940-up-nga" }}   # of the same earthquake, positive up; pga, channel etc. as above
 # allow_zero = true                # accept a motion that is zero throughout

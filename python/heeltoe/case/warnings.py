@@ -9,6 +9,9 @@ import shapely
 
 from heeltoe.case.at_crack import anchor_line, crosses, drains
 from heeltoe.case.model import Case
+from heeltoe.case.plausible import PLAUSIBLE
+from heeltoe.case.section_drawing import TOLERANCE
+from heeltoe.errors.error import shown
 from heeltoe.geometry.crossing import on_face
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.warnings.notice import Notice
@@ -22,22 +25,11 @@ _TALL = 0.03
 
 def case_warnings(case: Case) -> tuple[Notice, ...]:
     """Return what is allowed in a case but seldom meant."""
-    notices = []
+    notices = list(drawing_notice(case))
     if case.crack.mu_static > 2.0:
         notices.append(Notice("friction-high", friction=case.crack.mu_static))
     if case.uplift.intensity > 1.0:
         notices.append(Notice("uplift-intensity", intensity=case.uplift.intensity))
-    if not 9.7 <= case.gravity <= 10.0:
-        notices.append(Notice("gravity-unusual", gravity_m_s2=case.gravity, earth_m_s2=STANDARD_GRAVITY))
-    for side, water in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
-        # From fresh water to a flood full of silt.
-        if water and not 950.0 <= water.density <= 1300.0:
-            notices.append(Notice("water-density-unusual", field=f"{side}.density", density_kg_m3=water.density))
-    modulus = case.concrete.modulus
-    if modulus is not None and not 5e9 <= modulus <= 1e11:
-        notices.append(Notice("modulus-unusual", modulus_pa=modulus))
-    if not 1800.0 <= case.concrete.density <= 3200.0:
-        notices.append(Notice("density-unusual", density_kg_m3=case.concrete.density))
     upstream = case.reservoir.depth if case.reservoir else 0.0
     if case.reservoir and 0.0 < upstream <= case.crack.elevation:
         notices.append(Notice("reservoir-below-crack"))
@@ -59,7 +51,44 @@ def case_warnings(case: Case) -> tuple[Notice, ...]:
         notices.append(Notice("tailwater-below-crack"))
     if case.tailwater and case.tailwater.depth > upstream:
         notices.append(Notice("tailwater-deeper"))
-    return (*notices, *_about_the_anchors(case), *_about_the_asperities(case))
+    return (*notices, *_about_the_anchors(case), *_about_the_asperities(case), *_implausible(case))
+
+
+def _implausible(case: Case) -> Iterator[Notice]:
+    """Walk the numbers that are outside of their range."""
+    peak = case.motion.pga if case.motion else None
+    values = {
+        "gravity": case.gravity,
+        "section.height": case.cut.crest_elevation - case.cut.base_elevation if case.reservoir else None,
+        "concrete.density": case.concrete.density,
+        "concrete.modulus": case.concrete.modulus,
+        "concrete.damping": case.concrete.damping,
+        "reservoir.density": case.reservoir.density if case.reservoir else None,
+        "tailwater.density": case.tailwater.density if case.tailwater else None,
+        "motion.pga": None if peak is None else peak.si(case.gravity) / STANDARD_GRAVITY,
+    }
+    for path, (low, high, _, code, quantity) in PLAUSIBLE.items():
+        value = values[path]
+        if value is not None and not low <= value <= high:
+            beside = {"earth_m_s2": STANDARD_GRAVITY} if path == "gravity" else {}
+            yield Notice(code, field=path, **{quantity: value}, **beside)
+
+
+def drawing_notice(case: Case) -> Iterator[Notice]:
+    """Yield which outline of a drawing is the dam, if it is drawn."""
+    if case.section.layer is None:
+        return
+    left, base, right, crest = case.outline.bounds
+    near = TOLERANCE * max(right - left, crest - base)
+    at_base = [x for x, z in case.section.vertices() if z <= base + near]
+    yield Notice(
+        "section-drawn",
+        layer=shown(case.section.layer),
+        height_m=crest - base,
+        base_m=max(at_base) - min(at_base),
+        area_m2=float(case.outline.area),
+        within_m=near,
+    )
 
 
 def _about_the_asperities(case: Case) -> Iterator[Notice]:
@@ -104,6 +133,12 @@ def _about_the_anchors(case: Case) -> Iterator[Notice]:
             if below > near and on_face(face, head, near):
                 up = head[1] - section.base_elevation
                 yield Notice("anchor-head-wet", field=field, number=number, side=side, depth_m=below, elevation_m=up)
+
+
+def rock_warnings(case: Case) -> tuple[Notice, ...]:
+    """Return which rock is assumed below an elastic dam, for results whose verdict does not say it."""
+    rock = case.foundation
+    return (Notice("rock-assumed", modulus_pa=rock.modulus),) if rock and case.surroundings.assumed else ()
 
 
 def concrete_warnings(case: Case) -> tuple[Notice, ...]:

@@ -19,6 +19,7 @@ from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import mean_period
 from heeltoe.motion.spectrum import response_spectrum
+from heeltoe.warnings.notice import Notice
 
 _PIECES = 20
 #: Share of a rectangle's area that carries shear.
@@ -26,6 +27,9 @@ _SHEAR = 5.0 / 6.0
 _MODES = 3
 #: No earthquake shakes what swings faster than this [s].
 STIFF_S = 0.02
+# So much of the amplitude of the first mode the straight lines between the values of a record may leave out, and how
+# long their step is then, over the period: sinc(0.0956)**2 = 0.97.
+_MOST_LEFT_OUT, _ENOUGH_STEPS = 0.03, 0.0956
 # Rock and water answer well up to this multiple of the frequency of the last mode of the dam that matters.
 _BEYOND_MODES = 4.0 / 3.0
 # Waves within the depth of the water, and within the base on rock, that the stiffest dams of concrete do not reach: a
@@ -96,6 +100,34 @@ def swing_of(case: Case, motion: GroundMotion, moduli: tuple[float, ...]) -> Swi
     return Swing(periods[:, 0], peak, mean, felt[:, 0], at_crack)
 
 
+def step_warnings(case: Case, motion: GroundMotion) -> tuple[Notice, ...]:
+    """Return a warning where a record has its values too far apart for the first mode of an elastic dam.
+
+    Straight lines between the values of a wave of frequency f, taken every h, leave sinc(f h) squared of its amplitude.
+    """
+    modulus = case.concrete.modulus
+    if modulus is None or motion.format in ("points", "synthetic"):
+        return ()
+    swing = swing_of(case, motion, (modulus,))
+    if swing is None:
+        return ()
+    period = float(swing.periods[0])
+    # Beyond one value for each swing nothing of it is known.
+    left = float(np.sinc(min(motion.dt / period, 1.0)) ** 2)
+    if 1.0 - left <= _MOST_LEFT_OUT:
+        return ()
+    return (
+        Notice(
+            "motion-coarse-for-dam",
+            name=motion.name,
+            step_s=motion.dt,
+            period_s=period,
+            share=1.0 - left,
+            most_s=_ENOUGH_STEPS * period,
+        ),
+    )
+
+
 def _swung(case: Case, motion: GroundMotion, moduli: tuple[float, ...]) -> _Swung:
     """Return the dam as a beam, for each modulus the periods of its modes and the pseudo-accelerations of the motion
     there, and its mean period; None instead of the last two where the dam is too stiff to ask. Kept for cases that
@@ -161,10 +193,10 @@ def band_of(case: Case) -> float:
     modulus = case.concrete.modulus
     assert modulus is not None
     band = float(_BEYOND_MODES * np.sqrt(modulus) / beam(case).periods.min())
-    for water in (case.reservoir, case.tailwater):
-        if water is not None and water.compressible and water.depth > 0.0:
+    for side, water in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
+        if water is not None and case.has_sound(side) and water.depth > 0.0:
             band = min(band, _SOUND_WAVES * water.wave_speed / water.depth)
-    if (rock := case.rock) is not None:
+    if (rock := case.foundation) is not None:
         left, _, right, _ = case.outline.bounds
         shear_speed = math.sqrt(rock.modulus / (2.0 * (1.0 + rock.poisson) * rock.density))
         band = min(band, _SHEAR_WAVES * shear_speed / (right - left))

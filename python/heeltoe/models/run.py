@@ -14,6 +14,7 @@ from heeltoe.case.shaking import resolve_all
 from heeltoe.case.warnings import case_warnings
 from heeltoe.errors.error import InputError, expect
 from heeltoe.errors.sanitize import near
+from heeltoe.mechanics.beam import step_warnings
 from heeltoe.mechanics.friction import friction_of
 from heeltoe.models.drain_closure import drained, follows_drains, with_shares
 from heeltoe.models.rigid.omitted import omitted
@@ -400,6 +401,7 @@ def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *
         *off,
         *standing_warnings(case, response.cracks[case.asked].static),
         *between,
+        *(() if response.model == "rigid" else step_warnings(case, response.motion)),
     )
     if alone and not response.elastic and case.crack.bond is None:
         left_out = omitted(case, response) if response.model == "rigid" else (Notice("rigid-top"),)

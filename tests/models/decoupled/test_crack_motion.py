@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from heeltoe import GroundMotion, InputError, build_block, read_case, response_spectrum
+from heeltoe import GroundMotion, InputError, build_block, response_spectrum
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.decoupled.chain import Chain, attached_mass, bonded_chain, chain, face_shares, plane_fit
 from heeltoe.models.decoupled.crack_motion import STRAIGHT, accelerations, crack_motion
@@ -17,7 +17,7 @@ from heeltoe.models.flexible.body.elastic import dofs
 from heeltoe.models.flexible.body.modes import intact_periods
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.motion.earthquake import Earthquake
-from shared.dams import BASE, KOYNA, example
+from shared.dams import BASE, KOYNA, example, plane_case
 
 COARSE = "flexible.elements_across=3"
 # Slender enough for Euler and Bernoulli: 2 m wide, 60 m high, cracked at 40 m.
@@ -107,7 +107,7 @@ def test_the_transfer_function_is_what_a_steady_vibration_does():
 
 
 def test_a_rigid_motion_of_the_face_is_taken_for_what_it_is():
-    case = read_case(KOYNA, ["flexible.elements_across=5"])
+    case = plane_case(KOYNA, ["flexible.elements_across=5"])
     section = case.cut
     mesh = dam_mesh(case).lower
     x, z = mesh.nodes.T
@@ -126,7 +126,7 @@ def test_a_rigid_motion_of_the_face_is_taken_for_what_it_is():
 
 @pytest.mark.parametrize("inclination", ["0 deg", "15 deg"])
 def test_a_mass_on_the_crack_is_spread_evenly(inclination):
-    case = read_case(KOYNA, ["flexible.elements_across=5", f"crack.inclination={inclination}"])
+    case = plane_case(KOYNA, ["flexible.elements_across=5", f"crack.inclination={inclination}"])
     mesh = dam_mesh(case).lower
     shares = face_shares(mesh)
     along = mesh.nodes[mesh.crack] - mesh.nodes[mesh.crack[0]]
@@ -139,7 +139,7 @@ def test_a_mass_on_the_crack_is_spread_evenly(inclination):
 
 def test_the_mass_on_the_crack_is_that_of_the_concrete_above():
     def first_period(*more):
-        return chain(read_case(KOYNA, ["flexible.elements_across=3", *more])).periods[0]
+        return chain(plane_case(KOYNA, ["flexible.elements_across=3", *more])).periods[0]
 
     on_crack, dry = "decoupled.upper_part=mass on the crack", "reservoir.depth=0m"
     light = first_period(on_crack, dry)
@@ -153,7 +153,7 @@ def test_the_mass_on_the_crack_is_that_of_the_concrete_above():
 
 
 def test_the_attached_mass_has_the_energy_of_the_block():
-    case = read_case(KOYNA)
+    case = plane_case(KOYNA)
     block = build_block(case)
     mass = attached_mass(case, block)
     motion = np.array([0.7, -0.4, 0.02])
@@ -188,15 +188,15 @@ def test_a_tower_that_carries_a_block():
         )
         return moment[0] * shear[1] - moment[1] * shear[0]
 
-    periods = chain(read_case(TOWER)).periods
+    periods = chain(plane_case(TOWER)).periods
     for place, (low, high) in enumerate(((0.5, 5.0), (5.0, 20.0))):
         assert periods[place] == pytest.approx(2.0 * math.pi / brentq(determinant, low, high), rel=0.01)
     # As long as that of the whole tower, a little less for the rigid top.
-    assert 0.9 < periods[0] / bonded_chain(read_case(TOWER)).periods[0] < 1.0
+    assert 0.9 < periods[0] / bonded_chain(plane_case(TOWER)).periods[0] < 1.0
 
 
 def test_the_whole_dam_is_that_of_the_flexible_model():
-    case = read_case(KOYNA, [COARSE])
+    case = plane_case(KOYNA, [COARSE])
     from heeltoe import build_flexible_dam
 
     assert bonded_chain(case).periods[:5] == pytest.approx(intact_periods(build_flexible_dam(case), 5), rel=1e-9)
@@ -206,7 +206,7 @@ def test_a_stiff_dam_hands_on_the_motion_of_the_ground():
     rng = np.random.default_rng(3)
     motion = GroundMotion.from_points(np.arange(100) * 0.02, rng.standard_normal(100))
     up = GroundMotion.from_points(np.arange(150) * 0.015, rng.standard_normal(150))
-    stiff = chain(read_case(KOYNA, [COARSE, "concrete.modulus=1e15 Pa"]))
+    stiff = chain(plane_case(KOYNA, [COARSE, "concrete.modulus=1e15 Pa"]))
     # All its modes are faster than anything in an accelerogram.
     assert stiff.omega.size == 0
     result, straightness = crack_motion(stiff, Earthquake(motion, up, 2.0))
@@ -217,14 +217,14 @@ def test_a_stiff_dam_hands_on_the_motion_of_the_ground():
         expected = np.interp(moments, source.time, source.acceleration)
         assert np.interp(moments, each.time, each.acceleration) == pytest.approx(expected, abs=1e-12)
     assert np.all(result.rotation.acceleration == 0.0)
-    firm = chain(read_case(KOYNA, [COARSE, "concrete.modulus=3.1e13 Pa"]))
-    soft = chain(read_case(KOYNA, [COARSE]))
+    firm = chain(plane_case(KOYNA, [COARSE, "concrete.modulus=3.1e13 Pa"]))
+    soft = chain(plane_case(KOYNA, [COARSE]))
     assert firm.periods[0] == pytest.approx(soft.periods[0] / math.sqrt(1000.0), rel=1e-6)
     assert firm.transfer(np.array([1.0])) == pytest.approx([1.0], abs=1e-3)
 
 
 def test_the_motion_turned_round_turns_the_crack_round():
-    case = read_case(KOYNA, [COARSE])
+    case = plane_case(KOYNA, [COARSE])
     rng = np.random.default_rng(4)
     motion = GroundMotion.from_points(np.arange(200) * 0.01, rng.standard_normal(200))
     plain, _ = crack_motion(chain(case), Earthquake(motion, None, 3.0))
@@ -241,10 +241,10 @@ def test_the_motion_turned_round_turns_the_crack_round():
 def test_a_crack_at_the_base_has_nothing_below():
     for build in (chain, bonded_chain):
         with pytest.raises(InputError) as refused:
-            build(read_case(BASE))
+            build(plane_case(BASE))
         assert refused.value.code == "crack-at-base"
     with pytest.raises(InputError) as refused:
-        chain(read_case({**TOWER, "concrete": {"density": "2400 kg/m^3"}}))
+        chain(plane_case({**TOWER, "concrete": {"density": "2400 kg/m^3"}}))
     assert refused.value.code == "modulus-missing"
 
 

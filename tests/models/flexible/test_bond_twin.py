@@ -8,11 +8,12 @@ import pytest
 from scipy.sparse import block_diag, coo_array
 from scipy.sparse.linalg import splu
 
-from heeltoe import flexible, read_case, statics
+from heeltoe import flexible, statics
 from heeltoe.models.flexible.body.bond import node_lengths
 from heeltoe.models.flexible.body.elastic import dofs
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.run import earthquake
+from shared.dams import plane_case
 
 G, FRICTION = 9.80665, 1.0
 #: Times [s] and pushes [g]: slow at the end, where inertia bears what is pushed too fast.
@@ -27,7 +28,7 @@ BOND = {
 
 def pushed_case():
     """Return a dam whose ground goes upstream faster and faster: it is pushed downstream."""
-    return read_case(
+    return plane_case(
         {
             "section": {
                 "height": "30 m",
@@ -241,7 +242,7 @@ def shaken_case():
     return pushed.with_(
         {
             "crack.bond": BOND | {"tensile_strength": "0.2 MPa"},
-            "reservoir": {"depth": "26 m"},
+            "reservoir": {"depth": "26 m", "compressible": False},
             "motion": {"file": "elcentro-1940-180-nga", "pga": "0.6 g", "duration": "10 s", "sign": "recorded"},
             "flexible.elements_across": 6,
             "flexible.damping": "stiffness",
@@ -274,7 +275,7 @@ def rising_case(depth, across):
         {
             "section.base_width": "22 m",
             "crack.bond": bond,
-            "reservoir": {"depth": f"{depth} m"},
+            "reservoir": {"depth": f"{depth} m", "compressible": False},
             "motion": {"points": [["0 s", "0 g"], ["0.01 s", "0.0001 g"], ["0.02 s", "0 g"]]},
             "flexible.elements_across": across,
         }

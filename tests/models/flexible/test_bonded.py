@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from heeltoe import InputError, build_flexible_dam, read_case
+from heeltoe import InputError, build_flexible_dam
 from heeltoe.models.flexible.body import bonded, reduced
-from shared.dams import example
+from shared.dams import example, plane_case
 from shared.every_field import leaves, pair
 
 BASE = ["flexible.elements_across=4"]
@@ -62,7 +62,7 @@ def test_no_field_that_is_left_out_changes_the_modes(tmp_path):
             continue
         before, after, _ = pair(path, field, helped)
         try:
-            cases = read_case(before), read_case(after)
+            cases = plane_case(before), plane_case(after)
         except InputError:
             continue
         answer, other = (bonded.case_key(case, bonded.NOT_OF_MODES) for case in cases)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from heeltoe import InputError, flexible, read_case, run
+from heeltoe import InputError, flexible, run
 from heeltoe.models.flexible.body.bond import node_lengths, zone_mesh
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.body.step import longest_step
@@ -31,6 +31,7 @@ from heeltoe.views.files.vtk import write_vtk_series
 from heeltoe.views.terminal.response import print_response
 from heeltoe.views.terminal.small import print_small
 from heeltoe.views.words.numbers import Numbers
+from shared.dams import plane_case
 
 # Strong and tough: a brittle one would ask for elements and steps of its own.
 STRONG = {
@@ -62,7 +63,6 @@ DAM: dict[str, Any] = {
     "analysis": {"silence": "0 s"},
 }
 
-
 CORNERS = ((0.0, 0.0), (26.0, 0.0), (6.0, 25.0), (5.0, 30.0), (0.0, 30.0))
 
 
@@ -73,7 +73,7 @@ def dam(**bond: Any) -> dict[str, Any]:
 
 
 def test_a_joint_cracks_and_says_so():
-    response = run(read_case(dam()), "flexible")
+    response = run(plane_case(dam()), "flexible")
     bond = response.joint
     assert response.ok
     assert bond.first_cracking_s > 0.0
@@ -103,9 +103,9 @@ def test_a_joint_that_breaks_makes_no_energy_whatever_the_step(tensile, friction
     fields = dam(tensile_strength=tensile, cohesion="1.05 MPa")
     fields["crack"]["friction"] = friction
     fields["motion"]["points"] = [[t, f"{factor * float(a.split()[0])} g"] for t, a in PULSES]
-    whole = run(read_case(fields), "flexible")
+    whole = run(plane_case(fields), "flexible")
     fields["flexible"]["time_step"] = f"{whole.summary['time_step_s'] / 4.0} s"
-    quarter = run(read_case(fields), "flexible")
+    quarter = run(plane_case(fields), "flexible")
     for response in (whole, quarter):
         energy, joint = response.energy, response.joint
         assert joint.cracked_length_m > 0.999 * response.crack_width_m
@@ -119,7 +119,7 @@ def test_a_joint_that_breaks_makes_no_energy_whatever_the_step(tensile, friction
 
 def test_two_lines_of_which_the_first_has_all_the_energy_are_one():
     one, same, two = (
-        run(read_case(dam(**more)), "flexible")
+        run(plane_case(dam(**more)), "flexible")
         for more in ({}, {"initial_energy": BOND["fracture_energy"]}, {"initial_energy": "80 N/m"})
     )
     for name, values in one.histories.items():
@@ -134,7 +134,7 @@ def test_two_lines_of_which_the_first_has_all_the_energy_are_one():
 
 def test_the_energy_of_the_first_line_is_a_part_of_all():
     with pytest.raises(InputError, match="fracture_energy") as wrong:
-        read_case(dam(initial_energy="201 N/m"))
+        plane_case(dam(initial_energy="201 N/m"))
     assert (wrong.value.code, wrong.value.field) == ("out-of-range", "crack.bond.initial_energy")
 
 
@@ -147,7 +147,7 @@ def test_the_image_of_a_dam_cracks_from_the_other_face(initial):
     image["section"]["polygon"] = [[f"{-x} m", f"{z} m"] for x, z in CORNERS[::-1]]
     image["tailwater"] = image.pop("reservoir")
     image["motion"]["points"] = [[t, f"{-float(a.split()[0])} g"] for t, a in PULSES]
-    own, other = (run(read_case(item), "flexible").joint for item in (fields, image))
+    own, other = (run(plane_case(item), "flexible").joint for item in (fields, image))
     assert own.cracked_length_m > 0.0
     assert own.cracked_upstream_m == pytest.approx(other.cracked_downstream_m, abs=1e-9)
     assert own.cracked_downstream_m == pytest.approx(other.cracked_upstream_m, abs=1e-9)
@@ -159,7 +159,7 @@ def test_a_strength_beyond_reach_is_the_bonded_dam():
     fields = dam(**STRONG)
     twice = copy.deepcopy(fields)
     twice["motion"]["points"] = [[t, f"{2.0 * float(a.split()[0])} g"] for t, a in PULSES]
-    one, two = (run(read_case(item), "flexible") for item in (fields, twice))
+    one, two = (run(plane_case(item), "flexible") for item in (fields, twice))
     assert one.joint.first_cracking_s is None
     assert verdict(one).startswith("The joint does not crack over its")
     assert max(one.opening_upstream_m, one.opening_downstream_m) < 1e-12
@@ -174,29 +174,29 @@ def test_a_strength_beyond_reach_is_the_bonded_dam():
 def test_a_bond_that_no_step_follows_is_refused():
     brittle = dam(shear_energy="0.001 N/m")
     with pytest.raises(InputError) as wrong:
-        run(read_case(brittle), "flexible")
+        run(plane_case(brittle), "flexible")
     assert wrong.value.code == "step-stiff"
     assert wrong.value.field == "crack.bond"
 
 
 def test_the_flexible_model_is_taken_by_itself():
-    assert run(read_case(dam())).model == "flexible"
+    assert run(plane_case(dam())).model == "flexible"
 
 
 def test_the_cohesion_reaches_the_end_of_the_line():
     with pytest.raises(InputError, match="cohesion") as wrong:
-        read_case(dam(cohesion="0.1 MPa"))
+        plane_case(dam(cohesion="0.1 MPa"))
     assert wrong.value.code == "bond-apex"
     # The friction is that of the first crack.
     weak = {"elevation": "15 m", "bond": BOND | {"cohesion": "0.1 MPa"}}
     with pytest.raises(InputError) as wrong:
-        read_case(dam() | {"further_cracks": [weak]})
+        plane_case(dam() | {"further_cracks": [weak]})
     assert (wrong.value.code, wrong.value.field) == ("bond-apex", "further_cracks[0].bond.cohesion")
-    assert read_case(dam() | {"further_cracks": [weak | {"friction": 0.4}]}).further_cracks
+    assert plane_case(dam() | {"further_cracks": [weak | {"friction": 0.4}]}).further_cracks
 
 
 def test_long_elements_lower_the_strength_and_a_warning_says_so():
-    response = run(read_case(dam(tensile_strength="3 MPa", cohesion="4 MPa", fracture_energy="100 N/m")), "flexible")
+    response = run(plane_case(dam(tensile_strength="3 MPa", cohesion="4 MPa", fracture_energy="100 N/m")), "flexible")
     notice = next(warning for warning in response.warnings if warning.code == "joint-coarse")
     bond = response.joint
     assert bond.process_zone_m == pytest.approx(25e9 * 100.0 / 3e6**2)
@@ -205,7 +205,7 @@ def test_long_elements_lower_the_strength_and_a_warning_says_so():
 
 
 def test_a_fine_mesh_takes_the_strength_as_it_is():
-    case = read_case(dam())
+    case = plane_case(dam())
     mesh = zone_mesh(case.crack.bond, 25e9, np.linspace(0.0, 20.0, 41))
     assert mesh.zone == pytest.approx(125.0)
     assert mesh.element == 1.0
@@ -217,8 +217,8 @@ def test_nodes_share_the_joint():
 
 
 def test_a_brittle_joint_asks_for_a_short_step():
-    case = read_case(dam(shear_energy="1 N/m"))
-    tough, brittle = (longest_step(build_flexible_dam(item), 0.5, 2e-4) for item in (read_case(dam()), case))
+    case = plane_case(dam(shear_energy="1 N/m"))
+    tough, brittle = (longest_step(build_flexible_dam(item), 0.5, 2e-4) for item in (plane_case(dam()), case))
     assert tough[0] == 2e-4
     assert brittle[0] < 2e-4
     assert brittle[1] == "crack.bond"
@@ -228,9 +228,9 @@ def test_a_brittle_joint_asks_for_a_short_step():
 def test_a_mesh_that_is_fine_at_the_joint_alone_cracks_as_one_that_is_fine_everywhere():
     fields = dam()
     fields["flexible"]["elements_across"] = 16
-    even = run(read_case(fields), "flexible")
+    even = run(plane_case(fields), "flexible")
     fields["flexible"]["elements_away"] = 4
-    graded = run(read_case(fields), "flexible")
+    graded = run(plane_case(fields), "flexible")
     assert graded.joint.element_m == pytest.approx(even.joint.element_m)
     assert 0.0 < even.joint.cracked_length_m < even.crack_width_m
     assert graded.joint.first_cracking_s == pytest.approx(even.joint.first_cracking_s, abs=1e-3)
@@ -245,7 +245,7 @@ def test_several_joints_crack_in_an_order():
         {"elevation": "6 m", "bond": STRONG},
     ]
     del fields["crack"]
-    response = run(read_case(fields), "flexible")
+    response = run(plane_case(fields), "flexible")
     upper, lower = (crack.joint for crack in response.cracks)
     assert upper.first_cracking_s is not None
     assert lower.first_cracking_s is None
@@ -256,7 +256,7 @@ def test_several_joints_crack_in_an_order():
 def test_water_enters_what_opens(pattern):
     fields = dam()
     fields["uplift"] = {"pattern": "triangular", "during_shaking": pattern}
-    response = run(read_case(fields), "flexible")
+    response = run(plane_case(fields), "flexible")
     assert response.ok
     assert response.energy.residual < 1e-9
 
@@ -272,7 +272,7 @@ def test_what_a_joint_is_before_the_earthquake_does_not_depend_on_the_mesh(acros
     fields = dam(**BASE)
     fields["crack"]["elevation"] = "0 m"
     fields["flexible"]["elements_across"] = across
-    still = build_flexible_dam(read_case(fields))
+    still = build_flexible_dam(plane_case(fields))
     along, across_ = still.crack_forces[0]
     lengths = node_lengths(still.reduced[0].position[: along.size])
     tension, shear = -across_[0] / lengths[0], abs(along[0]) / lengths[0]
@@ -281,13 +281,13 @@ def test_what_a_joint_is_before_the_earthquake_does_not_depend_on_the_mesh(acros
     # The end of the line of the shear strength: c - f_t at that tension.
     assert 0.35e6 < shear < 1.2e6 - tension + 2e3
     fields["motion"]["points"] = [["0 s", "0 g"], ["0.01 s", "0.001 g"], ["0.02 s", "0 g"]]
-    assert run(read_case(fields), "flexible").joint.first_cracking_s is None
+    assert run(plane_case(fields), "flexible").joint.first_cracking_s is None
 
 
 def test_the_picture_shows_what_the_numbers_say():
     fields = dam()
     fields["limits"] = {"cracked_length": "1 m"}
-    response = run(read_case(fields), "flexible")
+    response = run(plane_case(fields), "flexible")
     along, states = joint_states(response.crack)
     lengths = node_lengths(along)
     cracked = np.where(states >= 2, lengths, 0.0).sum(axis=1)
@@ -303,7 +303,7 @@ def test_the_picture_shows_what_the_numbers_say():
 
 
 def test_vtk_files_have_the_damage(tmp_path):
-    history = run(read_case(dam()), "flexible").crack
+    history = run(plane_case(dam()), "flexible").crack
     write_vtk_series(history, tmp_path, frames=[0, -1])
     last = meshio.read(sorted(tmp_path.glob("crack-*.vtu"))[-1])
     upper = last.point_data["damage"][: history.upper_position.shape[2]]
@@ -315,8 +315,8 @@ def test_vtk_files_have_the_damage(tmp_path):
 
 def test_the_report_asks_whether_the_joint_cracks():
     fields = dam()
-    response = run(read_case(fields), "flexible")
-    subject = Subject(read_case(fields), response, Numbers(response.to_json(), "si"), figures={})
+    response = run(plane_case(fields), "flexible")
+    subject = Subject(plane_case(fields), response, Numbers(response.to_json(), "si"), figures={})
     text = str(question(subject))
     assert "Does the joint of" in text
     assert "Cracked length of the joint" in text
@@ -324,7 +324,7 @@ def test_the_report_asks_whether_the_joint_cracks():
 
 def test_the_terminal_says_how_much_is_cracked():
     fields = dam()
-    response = run(read_case(fields), "flexible")
+    response = run(plane_case(fields), "flexible")
     console = Console(file=io.StringIO(), width=80)
     print_response(response, console)
     heading, row = (line for line in console.file.getvalue().splitlines() if "residual" in line or " dam  " in line)
@@ -343,7 +343,7 @@ def test_a_small_table_has_the_cracked_length():
 
 
 def test_what_is_left_bears_after_the_earthquake():
-    case = read_case(dam(**STRONG))
+    case = plane_case(dam(**STRONG))
     held = run(case, "flexible")
     assert ligament_of(held) == (0.0, held.crack_width_m)
     (after,) = (item for item in statics_after(case, held).cases if item.name == "post-seismic")
@@ -354,14 +354,14 @@ def test_what_is_left_bears_after_the_earthquake():
 def test_the_evidence_covers_the_cracked_length():
     fields = dam()
     fields["flexible"] = {"elements_across": 6, "evidence": "step"}
-    response = run(read_case(fields), "flexible")
+    response = run(plane_case(fields), "flexible")
     worth = response.evidence.cracked_length_m
     assert worth.value == response.joint.cracked_length_m
     width = response.crack_width_m
     assert 0.5 * width / 6.0 * (1.0 - 1e-9) <= worth.uncertainty < width
     # A strength that depends on the mesh tells nothing of the length.
     fields["crack"]["bond"] = BOND | {"tensile_strength": "3 MPa", "cohesion": "4 MPa", "fracture_energy": "100 N/m"}
-    coarse = run(read_case(fields), "flexible").evidence
+    coarse = run(plane_case(fields), "flexible").evidence
     lowered = coarse.cracked_length_m
     assert lowered.uncertainty == pytest.approx(max(lowered.value, width - lowered.value))
     # Nor of what slips and opens: at its own strength the joint may hold.
@@ -381,7 +381,7 @@ def test_what_has_softened_up_to_its_end_may_break():
     turns = [(0.0, 0.0), (0.1281, -0.1881), (0.17, -0.716), (0.3063, -0.3508), (0.5251, 0.1181), (0.5398, -0.8783)]
     fields["motion"] = {"points": [[f"{t} s", f"{a} g"] for t, a in [*turns, (0.65, 0.0)]], "sign": "recorded"}
     fields["flexible"] = {"elements_across": 12, "evidence": "step"}
-    response = run(read_case(fields), "flexible")
+    response = run(plane_case(fields), "flexible")
     left = response.crack_width_m - response.joint.cracked_length_m
     assert response.joint.softening_length_m == pytest.approx(left, abs=0.1)
     assert 1.0 < left <= response.evidence.cracked_length_m.uncertainty
@@ -390,7 +390,7 @@ def test_what_has_softened_up_to_its_end_may_break():
 def test_a_joint_that_cracks_through_is_as_long_as_it_is():
     # The dead load strains the faces, whose lengths add up to more than the crack is wide.
     response = run(
-        read_case(dam(tensile_strength="0.1 MPa", cohesion="0.3 MPa") | {"limits": {"cracked_length": "30 m"}})
+        plane_case(dam(tensile_strength="0.1 MPa", cohesion="0.3 MPa") | {"limits": {"cracked_length": "30 m"}})
     )
     assert response.joint.cracked_through_s is not None
     assert response.joint.cracked_length_m <= response.crack_width_m
@@ -403,7 +403,7 @@ def test_of_many_joints_the_verdict_and_a_picture_say_which_cracks_first():
     fields["flexible"]["elements_across"] = 3
     fields["motion"]["sign"] = "recorded"
     fields["joints"] = {"every": "10 m", "friction": 1.0, "bond": BOND | {"tensile_strength": "0.4 MPa"}}
-    response = run(read_case(fields), "flexible")
+    response = run(plane_case(fields), "flexible")
     bonds = {crack.elevation: crack.joint for crack in response.cracks}
     assert list(bonds) == [20.0, 10.0, 0.0]
     first = min((bond.first_cracking_s, level) for level, bond in bonds.items() if bond.first_cracking_s is not None)
@@ -433,7 +433,7 @@ def test_many_joints_that_hold_stand_as_the_intact_dam_does():
         "friction": 1.0,
         "bond": STRONG | {"tensile_strength": "2 MPa", "cohesion": "3 MPa"},
     }
-    many = build_flexible_dam(read_case(fields))
+    many = build_flexible_dam(plane_case(fields))
     assert len(many.lines) == 67
     assert many.start.stands
     assert set(many.start.open_contacts) == {0}
@@ -445,7 +445,7 @@ def test_joints_that_all_hold_are_one_sentence():
     del fields["crack"]
     fields["flexible"]["elements_across"] = 3
     fields["joints"] = {"every": "10 m", "friction": 1.0, "bond": STRONG}
-    assert verdict(run(read_case(fields), "flexible")).startswith("None of the 3 joints cracks.")
+    assert verdict(run(plane_case(fields), "flexible")).startswith("None of the 3 joints cracks.")
 
 
 @pytest.mark.parametrize("bonded", [0, 1])
@@ -462,7 +462,7 @@ def test_a_joint_cracks_beside_a_crack_with_a_friction_law(bonded):
         cracks[bonded] |= {"friction": 1.0, "bond": BOND}
         cracks[1 - bonded] |= friction
         fields["cracks"] = cracks
-        runs.append(run(read_case(fields), "flexible"))
+        runs.append(run(plane_case(fields), "flexible"))
     constant, equal, falls = runs
     assert constant.energy.fracture_j > 100.0
     for one, other in zip(constant.cracks, equal.cracks, strict=True):
@@ -482,7 +482,7 @@ def test_of_many_joints_those_that_crack_most_are_named():
     fields["flexible"]["elements_across"] = 2
     fields["motion"]["sign"] = "recorded"
     fields["joints"] = {"every": "3 m", "friction": 1.0, "bond": BOND | {"tensile_strength": "0.2 MPa"}}
-    case = read_case(fields)
+    case = plane_case(fields)
     response = run(case, "flexible")
     assert len(response.cracks) == 10
     cracked = [crack for crack in response.cracks if crack.joint.first_cracking_s is not None]
@@ -513,14 +513,14 @@ def test_of_many_cracks_the_growth_is_that_of_the_one_that_leads_by_itself():
     fields["flexible"]["elements_across"] = 3
     fields["cracks"] = [{"elevation": f"{level} m", "friction": 0.5} for level in (20, 12, 6, 0)]
     fields["reservoir"] = {"depth": "20 m"}
-    case = read_case(fields)
+    case = plane_case(fields)
     response = run(case, "flexible")
     alone = build_flexible_dam(case.single_crack_cases[response.asked])
     assert response.self_excitation["growth_1_s"] == growth_of(alone, [0.5])[0]
 
 
 def test_an_animation_shows_how_the_crack_grows():
-    case = read_case(dam())
+    case = plane_case(dam())
     response = run(case, "flexible")
     times = response.histories["time_s"]
     scene = build_scene(case, response, times, None)

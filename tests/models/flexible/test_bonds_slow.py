@@ -6,7 +6,8 @@ from typing import Any
 
 import pytest
 
-from heeltoe import read_case, run
+from heeltoe import run
+from shared.dams import plane_case
 
 pytestmark = pytest.mark.slow
 #: Koyna, after Westergaard's water and the strengths that papers on its cracks take.
@@ -31,7 +32,7 @@ KOYNA: dict[str, Any] = {
 
 
 def test_koyna_cracks_at_its_heel_first_then_through_its_neck_from_downstream():
-    response = run(read_case(KOYNA), "flexible")
+    response = run(plane_case(KOYNA), "flexible")
     neck, base = response.cracks
     assert base.joint.first_cracking_s < neck.joint.first_cracking_s
     assert base.joint.first_cracking_at_m < 0.1 * base.crack_width_m

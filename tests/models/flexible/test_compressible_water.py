@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from heeltoe import read_case, run
+from heeltoe import run
 from heeltoe.mechanics.beam import band_of
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.body.reservoir import water_body
 from heeltoe.models.flexible.result.water import total_pressure
 from heeltoe.views.figures.all import all_figures
+from shared.dams import plane_case
 
 PULSES = [["0 s", "0 g"], ["0.1 s", "0.6 g"], ["0.3 s", "-0.9 g"], ["0.5 s", "0.9 g"], ["0.6 s", "0 g"]]
 DAM: dict[str, Any] = {
@@ -66,7 +67,7 @@ CASES = {
     ],
 )
 def test_the_ledger_closes_and_energy_leaves_with_the_water(name):
-    response = run(read_case(CASES[name]), "flexible")
+    response = run(plane_case(CASES[name]), "flexible")
     assert response.ok
     energy = response.energy
     assert energy.residual < 1e-10
@@ -77,31 +78,31 @@ def test_the_ledger_closes_and_energy_leaves_with_the_water(name):
 
 
 def test_a_floor_that_throws_everything_back_takes_nothing():
-    response = run(read_case(dam(**water(floor_reflection=1.0))), "flexible")
+    response = run(plane_case(dam(**water(floor_reflection=1.0))), "flexible")
     assert response.energy.floor_j == 0.0
     assert response.energy.far_end_j > 0.0
 
 
 def test_without_an_earthquake_nothing_moves():
     still = {"points": [["0 s", "0 g"], ["1 s", "0 g"]], "allow_zero": True}
-    response = run(read_case(dam(motion=still)), "flexible")
+    response = run(plane_case(dam(motion=still)), "flexible")
     assert response.residual_slip_m == 0.0
     assert response.energy.input_j == 0.0
     assert not np.any(response.histories["slip_m"])
 
 
 def test_the_same_ground_the_other_way_round_is_another_answer_but_twice_round_the_same():
-    one = run(read_case(dam()), "flexible").residual_slip_m
-    other = run(read_case(dam(motion={"points": PULSES, "sign": "reversed"})), "flexible")
-    again = run(read_case(dam(motion={"points": [[t, f"{-float(a.split()[0])} g"] for t, a in PULSES]})), "flexible")
+    one = run(plane_case(dam()), "flexible").residual_slip_m
+    other = run(plane_case(dam(motion={"points": PULSES, "sign": "reversed"})), "flexible")
+    again = run(plane_case(dam(motion={"points": [[t, f"{-float(a.split()[0])} g"] for t, a in PULSES]})), "flexible")
     assert other.energy.residual < 1e-10
     assert again.residual_slip_m in (pytest.approx(one, rel=1e-9), pytest.approx(other.residual_slip_m, rel=1e-9))
 
 
 def test_the_rows_of_the_water_push_with_the_pressure_on_the_face():
     # The sum of the forces on the nodes of all parts is that of the pressure over the wet face.
-    built = build_flexible_dam(read_case(CASES["tailwater"]))
-    reservoir = water_body(read_case(CASES["tailwater"]), built.bodies, band_of(read_case(CASES["tailwater"])))
+    built = build_flexible_dam(plane_case(CASES["tailwater"]))
+    reservoir = water_body(plane_case(CASES["tailwater"]), built.bodies, band_of(plane_case(CASES["tailwater"])))
     assert reservoir is not None
     # As under a ground that goes off slowly.
     rates = reservoir.ground[:, 0] / reservoir.omega_squared
@@ -116,8 +117,8 @@ def test_the_rows_of_the_water_push_with_the_pressure_on_the_face():
 def test_stiff_water_is_the_mass_that_does_not_squeeze():
     # At twenty times the speed of sound what is left is the flow that Westergaard's parabola is 7 % above.
     case = {"floor_reflection": 1.0, "wave_speed": "28800 m/s"}
-    response = run(read_case(dam(**water(**case))), "flexible")
-    mass = run(read_case(dam(reservoir={"depth": "26 m"})), "flexible")
+    response = run(plane_case(dam(**water(**case))), "flexible")
+    mass = run(plane_case(dam(reservoir={"depth": "26 m"})), "flexible")
     assert response.energy.far_end_j < 1e-3 * response.energy.input_j
     assert response.residual_slip_m == pytest.approx(mass.residual_slip_m, rel=0.1)
 
@@ -126,7 +127,7 @@ def test_stiff_water_is_the_mass_that_does_not_squeeze():
 def test_pressure_on_the_face_of_a_stiff_dam_in_a_slow_motion():
     """8 G / pi^2 rho a h at the foot, G Catalan's constant: what incompressible water has before a vertical wall."""
     slow = [[f"{0.05 * k:.2f} s", f"{0.1 * np.sin(np.pi * k / 40.0) ** 2:.9f} g"] for k in range(41)]
-    case = read_case(
+    case = plane_case(
         dam(
             **water(floor_reflection=1.0),
             section={"height": "30 m", "crest_width": "5 m", "base_width": "30 m"},
@@ -149,7 +150,7 @@ def test_pressure_on_the_face_of_a_stiff_dam_in_a_slow_motion():
 
 def test_water_that_tears_off_is_warned_of():
     weak, strong = (
-        run(read_case(dam(motion={"points": PULSES, "pga": peak, "sign": "recorded"})), "flexible")
+        run(plane_case(dam(motion={"points": PULSES, "pga": peak, "sign": "recorded"})), "flexible")
         for peak in ("0.05 g", "3 g")
     )
     (low,), (high,) = weak.water_pressure, strong.water_pressure
@@ -164,7 +165,7 @@ def test_water_that_tears_off_is_warned_of():
     assert "cavitation" in codes[1]
     assert "water-pressure" in all_figures(None, strong)
     assert all_figures(None, strong)["water-pressure"].axes
-    dry = run(read_case(dam(reservoir={"depth": "26 m"})), "flexible")
+    dry = run(plane_case(dam(reservoir={"depth": "26 m"})), "flexible")
     assert dry.water_pressure is None
     assert "water_pressure" not in dry.to_json()
     assert "water-pressure" not in all_figures(None, dry)

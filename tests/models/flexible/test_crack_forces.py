@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from heeltoe import GroundMotion, InputError, flexible, read_case
+from heeltoe import GroundMotion, InputError, flexible
 from heeltoe.kernel.dam import CrackedDam, FollowingWater, only_crack
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.body.step import longest_step
-from shared.dams import BASE, FAST
+from shared.dams import BASE, FAST, plane_case
 
 G = 9.80665
 MASS = 2400.0 * 4.0
@@ -21,7 +21,7 @@ MASS = 2400.0 * 4.0
 
 def block(friction=0.3, anchors=(), **more):
     """A stiff block, 4 m wide and 1 m high, without water; its motion is given with each run, which ends with it."""
-    return read_case(
+    return plane_case(
         {
             "section": {"polygon": [["0 m", "0 m"], ["4 m", "0 m"], ["4 m", "1 m"], ["0 m", "1 m"]]},
             "concrete": {"density": "2400 kg/m^3", "modulus": "2000 GPa", "poisson": 0.0},
@@ -133,7 +133,7 @@ LAWS = ("zero while open", "full while open", "follows opening")
 
 def typical(elevation, *more):
     changes = [*SMALL, f"crack.elevation={elevation}m", *more]
-    return read_case(BASE, changes)
+    return plane_case(BASE, changes)
 
 
 @pytest.fixture(scope="module", params=[0.0, 30.0])
@@ -191,7 +191,7 @@ def test_a_rising_block_by_its_equation_of_motion(law):
     kernel = CrackedDam((pressed,), [dataclasses.replace(line, water=water)], 3)
     step, steps = 2e-5, 2000
     run = kernel.run(np.tile([0.0, -fall], (steps, 1)), step, 0.52, stride=10)
-    time, rise = run.frames.time, run.frames.opening_heel
+    time, rise = run.frames.time, run.frames.gap_heel
 
     def motion(_, state):
         return [state[1], fall - G + laws[law](state[0]) / MASS]

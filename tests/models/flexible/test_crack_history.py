@@ -8,9 +8,10 @@ import numpy as np
 import pyarrow.csv as csv
 import pytest
 
-from heeltoe import flexible, read_case
+from heeltoe import flexible
 from heeltoe.models.flexible.body.elastic import dofs
 from heeltoe.models.flexible.result.history import CrackHistory, crack_table
+from shared.dams import plane_case
 from shared.shaken import EXAMPLES, shaken
 
 
@@ -44,7 +45,7 @@ def test_crack_positions_are_those_of_the_parts(response):
 @pytest.mark.parametrize("modes", ["flexible.modes=10", "flexible.elements_across=4"])
 def test_crack_positions_are_those_of_the_parts_for_long(name, modes):
     # The kernel carries positions and modes separately; rounding must not drive them apart.
-    history = flexible(read_case(EXAMPLES[name], ["flexible.evidence=none", modes])).crack
+    history = flexible(plane_case(EXAMPLES[name], ["flexible.evidence=none", modes])).crack
     assert history.time[-1] > 29.9
     for part, (face, body) in enumerate(zip(history.faces, history.dam.bodies, strict=True)):
         start = (body.mesh.nodes[body.mesh.crack] - history.dam.section.heel).T

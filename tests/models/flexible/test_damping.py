@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from heeltoe import InputError, read_case
+from heeltoe import InputError
 from heeltoe.kernel.dam import CrackedDam, only_crack
 from heeltoe.models.flexible.body.elastic import dofs, side_by_side
 from heeltoe.models.flexible.body.modes import lowest
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from shared.dams import plane_case
 
 CHOICES = ["relative", "stiffness", "modal", "deformation", "thesis"]
 
@@ -27,7 +28,7 @@ def dam(elevation=0.0, friction=5.0, **options):
         "uplift": {"pattern": "none"},
         "flexible": {"elements_across": 2, **options},
     }
-    return build_flexible_dam(read_case(fields))
+    return build_flexible_dam(plane_case(fields))
 
 
 def in_modes(one):

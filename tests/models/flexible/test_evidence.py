@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from heeltoe import InputError, flexible, read_case
+from heeltoe import InputError, flexible
 from heeltoe.models.flexible import model
 from heeltoe.models.flexible.body import reduced
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
@@ -16,6 +16,7 @@ from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import with_mesh
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
+from shared.dams import plane_case
 from shared.evidence import evidence_of
 
 FIELDS = {
@@ -33,7 +34,7 @@ MOTION = GroundMotion.from_points(TIME, 5.0 * np.sin(2.0 * np.pi * 2.0 * TIME))
 
 
 def dam(**options):
-    return read_case(FIELDS | {"flexible": options})
+    return plane_case(FIELDS | {"flexible": options})
 
 
 def slip(scale=1.0, **options):
@@ -143,7 +144,7 @@ def test_where_runs_scatter_the_numbers_are_means(monkeypatch):
 def test_kinks_that_fewer_elements_cannot_follow_are_compared_with_more():
     kinks = [[f"{20.0 * share} m", f"{0.2 * (1 + place % 2)} m"] for place, share in enumerate(FIVE)]
     crack = {"elevation": "6 m", "friction": 0.7, "kinks": kinks}
-    case = read_case(FIELDS | {"crack": crack, "flexible": {"elements_across": 8}})
+    case = plane_case(FIELDS | {"crack": crack, "flexible": {"elements_across": 8}})
     evidence = flexible(case, MOTION).evidence
     assert (evidence["elements_across"], evidence["other_elements_across"]) == (8, 16)
 
@@ -186,7 +187,7 @@ def test_the_work_of_runs_is_counted_once():
 
 
 def test_what_evidence_asks_for_may_be_built_ahead(monkeypatch):
-    case = read_case(
+    case = plane_case(
         FIELDS | {"reservoir": {"depth": "24 m", "compressible": True}, "flexible": {"elements_across": 7}}
     )
     shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(MOTION, None, 0.5).shaking)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import heeltoe
-from heeltoe import dam_periods, read_case
+from heeltoe import dam_periods
 from heeltoe.models.flexible.surroundings import lowest_modes
 from heeltoe.models.flexible.surroundings.lowest_modes import first_period
-from shared.dams import EXAMPLES, HEIGHT, example
+from shared.dams import EXAMPLES, HEIGHT, example, plane_case
 
 # A joint that holds, and half a second of a push: the dam rings.
 RINGING = [
@@ -26,7 +26,7 @@ RINGING = [
 # in it. The first resonance of a damped dam lies within 1 % of that.
 @pytest.mark.slow
 def test_the_first_period_is_that_at_which_the_dam_rings():
-    case = read_case(EXAMPLES / "on-rock.toml", RINGING)
+    case = plane_case(EXAMPLES / "on-rock.toml", RINGING)
     table = heeltoe.run(case, "flexible", output_step=0.005).to_table()
     time, crest = (np.array(table[name]) for name in ("time_s", "crest_displacement_m"))
     crest = crest - crest[-100:].mean()
@@ -45,7 +45,7 @@ def test_a_suite_is_scaled_at_the_period_on_the_rock_of_the_dam(monkeypatch):
 
 
 def test_without_rock_and_sound_it_is_that_of_the_first_mode():
-    case = read_case(HEIGHT, ["flexible.elements_across=2"])
+    case = plane_case(HEIGHT, ["flexible.elements_across=2"])
     assert first_period(case, "period") == dam_periods(case, 1).intact[0]
 
 

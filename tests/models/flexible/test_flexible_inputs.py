@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from heeltoe import GroundMotion, InputError, flexible, read_case, verdict
+from heeltoe import GroundMotion, InputError, flexible, verdict
 from heeltoe.result.rest import comes_to_rest
+from shared.dams import plane_case
 
 FIELDS = {
     "section": {"height": "30 m", "crest_width": "4 m", "base_width": "24 m"},
@@ -23,7 +24,7 @@ def changed(**blocks):
     fields = {name: dict(block) for name, block in FIELDS.items()}
     for name, block in blocks.items():
         fields[name] = fields.get(name, {}) | block
-    return read_case(fields)
+    return plane_case(fields)
 
 
 def test_a_step_too_long_for_the_vibration_is_refused():
@@ -80,7 +81,7 @@ def test_a_dam_is_built_once():
 
 
 def test_every_number_is_an_attribute_of_the_response():
-    response = flexible(read_case({**FIELDS, "anchors": [{"distance": "6 m", "prestress": "1 MN/m"}]}), MOTION)
+    response = flexible(plane_case({**FIELDS, "anchors": [{"distance": "6 m", "prestress": "1 MN/m"}]}), MOTION)
     for name, value in response.summary.items():
         assert getattr(response, name) == value
 

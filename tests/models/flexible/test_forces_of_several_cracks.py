@@ -7,8 +7,9 @@ import copy
 import numpy as np
 import pytest
 
-from heeltoe import InputError, flexible, read_case, rigid, run
+from heeltoe import InputError, flexible, rigid, run
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from shared.dams import plane_case
 from shared.two_cracks import DAM, bonded, same, shaken
 
 LAWS = ["zero while open", "full while open", "follows opening"]
@@ -25,7 +26,7 @@ DOWEL = TENDON | {"shear_stiffness": "100 MN/m/m"}
 
 
 def dam(**blocks):
-    return read_case(copy.deepcopy(DAM) | blocks)
+    return plane_case(copy.deepcopy(DAM) | blocks)
 
 
 def water(law, **more):
@@ -36,7 +37,7 @@ def water(law, **more):
 def test_water_of_the_neck_alone_where_the_base_is_bonded(law):
     case = dam(uplift=water(law))
     two, alone = shaken(bonded(case, 0.0)), shaken(case.single_crack_cases[0])
-    assert alone.summary.opening_heel > 1e-3
+    assert alone.summary.opening_upstream > 1e-3
     same(two.all_frames[0], alone.frames, 8.0)
 
 

@@ -6,15 +6,16 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from heeltoe import GroundMotion, flexible, read_case
+from heeltoe import GroundMotion, flexible
 from heeltoe.models.flexible.body.reduced import build_flexible_dam, damped
 from heeltoe.models.flexible.evidence.growth import growth_of
+from shared.dams import plane_case
 
 TYPICAL = [(0.0, 0.0), (80.0, 0.0), (8.0, 90.0), (8.0, 100.0), (0.0, 100.0)]
 
 
 def typical(friction=1.2, across=4, elevation=0.0, damping="relative", ratio=0.05, **options):
-    return read_case(
+    return plane_case(
         {
             "section": {"polygon": [[f"{x} m", f"{z} m"] for x, z in TYPICAL]},
             "concrete": {"density": "2650 kg/m^3", "modulus": "20 GPa", "poisson": 0.143, "damping": ratio},
@@ -79,7 +80,7 @@ def test_rock_and_water_take_a_part_of_it():
 def two_cracks(friction=1.2, upper=1.2, damping=0.05):
     case = typical(friction, 8, ratio=damping)
     data = case.model_dump(mode="json", exclude_unset=True)
-    return read_case(data | {"further_cracks": [{"elevation": "40 m", "friction": upper}]})
+    return plane_case(data | {"further_cracks": [{"elevation": "40 m", "friction": upper}]})
 
 
 def test_a_crack_that_sticks_is_none():

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from heeltoe import GroundMotion, InputError, flexible, read_case, rigid
+from heeltoe import GroundMotion, InputError, flexible, rigid
 from heeltoe.case.model import Case
 from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.mechanics import loads
@@ -18,7 +18,7 @@ from heeltoe.models.flexible.body.elastic import dam, dofs
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
 from heeltoe.models.flexible.mesh.dam import dam_mesh
-from shared.dams import BASE, TYPICAL, polygon
+from shared.dams import BASE, TYPICAL, on_rigid_plane, plane_case, polygon
 from shared.elastic import CONCRETE, bonded, resultant
 from shared.meshes import area, bodies, flat, on_polyline
 from shared.outlines import dams
@@ -37,7 +37,9 @@ HEAVY = {
 
 def case_of(corners, elevation, degrees, **more):
     crack = {"elevation": f"{elevation!r} m", "inclination": f"{degrees!r} deg", "friction": 1.0}
-    return Case.model_validate({"section": polygon(corners), "crack": crack, "concrete": CONCRETE, **more})
+    return on_rigid_plane(
+        Case.model_validate({"section": polygon(corners), "crack": crack, "concrete": CONCRETE, **more})
+    )
 
 
 def built(corners, elevation, degrees, **more):
@@ -236,7 +238,7 @@ SMALL = ["flexible.evidence=none", "motion.duration=2s", "reservoir.depth=60m", 
 
 def typical(degrees, *more):
     changes = [*SMALL, "crack.elevation=15m", f"crack.inclination={degrees}deg", *more]
-    return read_case(BASE, changes)
+    return plane_case(BASE, changes)
 
 
 @pytest.mark.parametrize("degrees", [8.0, *(pytest.param(angle, marks=pytest.mark.slow) for angle in (0.0, -6.0))])

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from heeltoe import read_case
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.flexible.body.elastic import side_by_side, stresses
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake
 from heeltoe.motion.moments import step_means
+from shared.dams import plane_case
 
 HOLDS = {
     "tensile_strength": "100 MPa",
@@ -25,7 +25,7 @@ STEP = 2.5e-4
 
 @pytest.mark.parametrize(("elevation", "depth"), [("12 m", "25 m"), ("0 m", "25 m"), ("12 m", None)])
 def test_the_stresses_of_an_intact_dam_are_those_of_modal_analysis(elevation, depth):
-    case = read_case(
+    case = plane_case(
         {
             "section": {"polygon": [[f"{x} m", f"{z} m"] for x, z in [(0, 0), (24, 0), (8, 20), (6, 30), (0, 30)]]},
             "concrete": {"modulus": "20 GPa", "damping": 0.05},

@@ -11,6 +11,7 @@ from heeltoe.motion.records import read_record
 from heeltoe.study.plan.plan import plan_of
 from heeltoe.study.run import batches as parts
 from heeltoe.study.small.spread import with_spread
+from shared.dams import plane_case
 from shared.studies import study_file
 
 PULSES = [["0 s", "0 g"], ["0.15 s", "-0.6 g"], ["0.4 s", "0.5 g"], ["0.65 s", "-0.5 g"], ["0.8 s", "0 g"]]
@@ -57,7 +58,7 @@ scale = {{ measure = "pga", values = ["0.4 g", "0.9 g"] }}
 
 
 def dam(*changes):
-    return read_case(DAM, list(changes))
+    return plane_case(DAM, list(changes))
 
 
 def codes(response):

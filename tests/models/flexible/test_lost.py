@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from heeltoe import GroundMotion, flexible, read_case
+from heeltoe import GroundMotion, flexible
+from shared.dams import plane_case
 
 DAM = {
     "section": {"polygon": [["0 m", "0 m"], ["0.2 m", "0 m"], ["0.2 m", "0.8 m"], ["0 m", "0.8 m"]]},
@@ -18,7 +19,7 @@ DAM = {
 def test_a_toe_that_opens_off_any_scale_ends_the_run_as_a_heel_does():
     ends = []
     for push in (-30.0, 30.0):
-        response = flexible(read_case(DAM), GroundMotion.from_points([0.0, 6.0], [push, push]))
+        response = flexible(plane_case(DAM), GroundMotion.from_points([0.0, 6.0], [push, push]))
         assert response.outcome == "lost"
         assert max(response.opening_upstream_m, response.opening_downstream_m) > 100.0 * 0.2
         ends.append(response.end_time_s)

@@ -7,14 +7,13 @@ import meshio
 import numpy as np
 import pytest
 
-from heeltoe.case.read import read_case
 from heeltoe.errors.error import InputError
 from heeltoe.models.flexible.mesh.checks import (
     boundary_edges,
     check_pieces,
 )
 from heeltoe.models.flexible.mesh.dam import dam_mesh
-from shared.dams import RECTANGLE, TYPICAL
+from shared.dams import RECTANGLE, TYPICAL, plane_case
 from shared.meshes import area, bodies, meshed
 from shared.outlines import make
 
@@ -67,7 +66,7 @@ def test_files_are_relative_to_the_case(tmp_path, own):
     (tmp_path / "case.json").write_text(
         make(TYPICAL, 60.0, flexible={"mesh_above": "above.vtu"}).model_dump_json(exclude_none=True)
     )
-    case = read_case(tmp_path / "case.json")
+    case = plane_case(tmp_path / "case.json")
     assert len(dam_mesh(case).upper.nodes) == len(own.upper.nodes)
 
 

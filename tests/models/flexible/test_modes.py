@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from heeltoe import flexible, read_case
+from heeltoe import flexible
 from heeltoe.models.flexible.body.elastic import dofs
 from heeltoe.models.flexible.body.modes import (
     ENOUGH,
@@ -19,7 +19,7 @@ from heeltoe.models.flexible.body.modes import (
     reduce,
 )
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
-from shared.dams import BASE, TYPICAL
+from shared.dams import BASE, TYPICAL, plane_case
 from shared.elastic import bonded, built, deep, parts
 
 KOYNA = [(0.0, 0.0), (70.2, 0.0), (20.36, 66.5), (14.8, 103.0), (0.0, 103.0)]
@@ -257,12 +257,12 @@ def test_same_result_every_time(cracked):
 def test_few_modes_show_in_the_error_and_in_a_warning():
     """What 12 modes lose of the typical dam is seen; 25 are too few; by itself the program takes enough."""
     changes = ["motion.duration=1s", "flexible.evidence=none"]
-    errors = [build_flexible_dam(read_case(BASE, [f"flexible.modes={keep}"])).basis_error for keep in (12, 25, 50)]
+    errors = [build_flexible_dam(plane_case(BASE, [f"flexible.modes={keep}"])).basis_error for keep in (12, 25, 50)]
     assert errors[0] > 0.1
     assert errors == sorted(errors, reverse=True)
     assert errors[2] < ENOUGH < errors[1]
-    few = flexible(read_case(BASE, [*changes, "flexible.modes=12"]))
+    few = flexible(plane_case(BASE, [*changes, "flexible.modes=12"]))
     assert "modes-few" in [notice.code for notice in few.warnings]
-    enough = flexible(read_case(BASE, changes))
+    enough = flexible(plane_case(BASE, changes))
     assert "modes-few" not in [notice.code for notice in enough.warnings]
-    assert enough.mesh["modes"][0] < 0.2 * build_flexible_dam(read_case(BASE, ["flexible.modes=10000"])).modes[0].total
+    assert enough.mesh["modes"][0] < 0.2 * build_flexible_dam(plane_case(BASE, ["flexible.modes=10000"])).modes[0].total

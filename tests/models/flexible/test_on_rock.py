@@ -13,7 +13,7 @@ import pytest
 import scipy.sparse as sparse
 from scipy.sparse.linalg import spsolve
 
-from heeltoe import InputError, flexible, read_case, run, verdict
+from heeltoe import InputError, flexible, run, verdict
 from heeltoe.mechanics.beam import band_of
 from heeltoe.models.flexible.body import rock as rock_module
 from heeltoe.models.flexible.body.bonded import bonded_dam
@@ -28,8 +28,8 @@ from heeltoe.models.flexible.surroundings import water as water_module
 from heeltoe.models.flexible.surroundings.left_out import CLASSES
 from heeltoe.models.flexible.surroundings.response import base_nodes
 from heeltoe.models.flexible.surroundings.rock import full_rock
-from heeltoe.validation.evidence import draw
-from shared.dams import example
+from shared.dams import example, plane_case
+from validation.evidence import draw
 
 PULSES = [["0 s", "0 g"], ["0.1 s", "0.6 g"], ["0.3 s", "-0.9 g"], ["0.5 s", "0.9 g"], ["0.6 s", "0 g"]]
 ROCK: dict[str, Any] = {"modulus": "20 GPa"}
@@ -80,7 +80,7 @@ QUICK = {*AT_BASE, "kinks, bonded to the rock"} - {"two cracks", "bond", "watche
     "name", [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in CASES]
 )
 def test_the_ledger_closes_and_energy_leaves_in_the_rock(name):
-    response = run(read_case(CASES[name]), "flexible")
+    response = run(plane_case(CASES[name]), "flexible")
     assert response.ok
     energy = response.energy
     assert energy.residual < 1e-10
@@ -94,7 +94,7 @@ def test_water_in_a_closed_crack_takes_over_a_part_of_what_the_rock_bears():
     """Contact and water together press on the rock as the dam does without water in its crack: nothing moves."""
     wet, dry, settled = (
         build_flexible_dam(
-            read_case(dam(reservoir={"depth": "12 m"}, uplift=uplift, rock=ROCK | {"bears_uplift": bears}))
+            plane_case(dam(reservoir={"depth": "12 m"}, uplift=uplift, rock=ROCK | {"bears_uplift": bears}))
         )
         for uplift, bears in (
             ({"pattern": "triangular"}, True),
@@ -113,7 +113,7 @@ def test_water_in_a_closed_crack_takes_over_a_part_of_what_the_rock_bears():
 
 
 def test_nodes_that_are_watched_twice_slide_as_those_that_are_watched_once():
-    plain, twice = (run(read_case(CASES[name]), "flexible").residual_slip_m for name in ("plain", "watched twice"))
+    plain, twice = (run(plane_case(CASES[name]), "flexible").residual_slip_m for name in ("plain", "watched twice"))
     assert twice == pytest.approx(plain, rel=1e-3)
 
 
@@ -123,7 +123,7 @@ def test_nodes_that_are_watched_twice_slide_as_those_that_are_watched_once():
 )
 def test_without_an_earthquake_nothing_moves(name):
     still = {"points": [["0 s", "0 g"], ["1 s", "0 g"]], "allow_zero": True}
-    response = run(read_case(CASES[name] | {"motion": still}), "flexible")
+    response = run(plane_case(CASES[name] | {"motion": still}), "flexible")
     assert response.residual_slip_m == 0.0
     assert response.energy.input_j == 0.0
     assert response.energy.rock_j == 0.0
@@ -140,8 +140,8 @@ def test_stiff_rock_is_a_rigid_plane(crack):
     options = DAM["flexible"] | {"time_step": "0.2 ms"}
     rigid = dam(crack=crack, flexible=options)
     del rigid["rock"]
-    plane = run(read_case(rigid), "flexible")
-    stiff = run(read_case(dam(crack=crack, flexible=options, rock={"modulus": "50 TPa"})), "flexible")
+    plane = run(plane_case(rigid), "flexible")
+    stiff = run(plane_case(dam(crack=crack, flexible=options, rock={"modulus": "50 TPa"})), "flexible")
     assert stiff.residual_slip_m == pytest.approx(plane.residual_slip_m, rel=2e-3)
     # Of a dam bonded to the rock a part of the damping of the concrete counts with the rock.
     taken = stiff.energy.rock_j + stiff.energy.damping_j
@@ -152,14 +152,14 @@ def test_stiff_rock_is_a_rigid_plane(crack):
 
 @pytest.mark.slow
 def test_rock_that_neither_damps_nor_lets_waves_go_takes_nothing_and_is_warned_of():
-    held = run(read_case(dam(rock=ROCK | {"radiation": False, "damping": 0.0})), "flexible")
+    held = run(plane_case(dam(rock=ROCK | {"radiation": False, "damping": 0.0})), "flexible")
     assert abs(held.energy.rock_j) < 1e-10 * held.energy.input_j
     assert held.energy.residual < 1e-10
-    massless = run(read_case(dam(rock=ROCK | {"massless": True})), "flexible")
+    massless = run(plane_case(dam(rock=ROCK | {"massless": True})), "flexible")
     for response, field in ((held, "rock.radiation"), (massless, "rock.massless")):
         (notice,) = [notice for notice in response.warnings if notice.code == "rock-keeps-waves"]
         assert field in str(notice)
-    assert not any(n.code == "rock-keeps-waves" for n in run(read_case(dam()), "flexible").warnings)
+    assert not any(n.code == "rock-keeps-waves" for n in run(plane_case(dam()), "flexible").warnings)
 
 
 @pytest.mark.parametrize(
@@ -186,7 +186,7 @@ def test_the_energy_of_dam_water_and_rock_is_constant_without_losses(crack, monk
         motion={"points": points},
         flexible=DAM["flexible"] | {"theta": 0.5},
     )
-    response = run(read_case(fields), "flexible")
+    response = run(plane_case(fields), "flexible")
     _KEPT.clear()
     energy, histories = response.energy, response.histories
     assert energy.damping_j == energy.floor_j == energy.far_end_j == energy.numerical_j == 0.0
@@ -203,7 +203,7 @@ def test_rock_too_soft_for_its_shapes_is_warned_of(crack, monkeypatch):
     kept = (_KEPT, rock_module._KEPT)
     for cache in kept:
         cache.clear()
-    response = run(read_case(dam(crack=crack)), "flexible")
+    response = run(plane_case(dam(crack=crack)), "flexible")
     for cache in kept:
         cache.clear()
     (notice,) = [notice for notice in response.warnings if notice.code == "rock-coarse"]
@@ -212,10 +212,10 @@ def test_rock_too_soft_for_its_shapes_is_warned_of(crack, monkeypatch):
 
 @pytest.mark.slow
 def test_a_larger_box_answers_the_same(monkeypatch):
-    usual = run(read_case(dam()), "flexible").residual_slip_m
+    usual = run(plane_case(dam()), "flexible").residual_slip_m
     monkeypatch.setattr(rock_module, "EXTENT", 1.5 * rock_module.EXTENT)
     _KEPT.clear()
-    larger = run(read_case(dam()), "flexible").residual_slip_m
+    larger = run(plane_case(dam()), "flexible").residual_slip_m
     _KEPT.clear()
     assert larger != usual
     assert larger == pytest.approx(usual, rel=0.02)
@@ -224,7 +224,7 @@ def test_a_larger_box_answers_the_same(monkeypatch):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["plain", "sound, bonded to the rock"])
 def test_evidence_tells_what_the_extent_of_rock_and_water_is_worth(name):
-    case = read_case(CASES[name] | {"flexible": {"elements_across": 4}})
+    case = plane_case(CASES[name] | {"flexible": {"elements_across": 4}})
     response = run(case, "flexible")
     worth = response.summary["evidence"]["residual_slip_m"]
     assert 0.0 < worth["surroundings"] < 0.02 * response.residual_slip_m
@@ -232,9 +232,9 @@ def test_evidence_tells_what_the_extent_of_rock_and_water_is_worth(name):
     assert worth["uncertainty"] == max(parts, 0.03 * worth["value"], 0.5e-4)
     rigid = CASES[name] | {"flexible": {"elements_across": 4}, "reservoir": {"depth": "26 m"}}
     del rigid["rock"]
-    before = analysing(read_case(rigid), 1.0, 0.01)
+    before = analysing(plane_case(rigid), 1.0, 0.01)
     assert analysing(case, 1.0, 0.01).seconds > before.seconds + 2.0 * surroundings_of(case).seconds
-    assert run(read_case(rigid), "flexible").summary["evidence"]["residual_slip_m"]["surroundings"] is None
+    assert run(plane_case(rigid), "flexible").summary["evidence"]["residual_slip_m"]["surroundings"] is None
 
 
 @pytest.mark.slow
@@ -246,11 +246,11 @@ def test_evidence_makes_rock_and_water_once_and_once_larger(monkeypatch):
         monkeypatch.setattr(module, "reduced_modes", lambda *args, usual=usual: made.append(usual) or usual(*args))
     for cache in (_KEPT, rock_module._KEPT, water_module._KEPT):
         cache.clear()
-    run(read_case(CASES["sound"] | {"flexible": {"elements_across": 8}}), "flexible")
+    run(plane_case(CASES["sound"] | {"flexible": {"elements_across": 8}}), "flexible")
     # Rock in two halves.
     assert len(made) == 2 * (2 + 1)
     fine, coarse = (
-        build_flexible_dam(read_case(CASES["sound"] | {"flexible": {"elements_across": across}})).rock
+        build_flexible_dam(plane_case(CASES["sound"] | {"flexible": {"elements_across": across}})).rock
         for across in (8, 4)
     )
     assert len(made) == 6
@@ -264,12 +264,12 @@ def test_a_base_that_is_not_level_is_refused():
         crack={"elevation": "0 m", "inclination": f"{math.degrees(math.atan(0.1))} deg", "friction": 0.8},
     )
     with pytest.raises(InputError) as refused:
-        flexible(read_case(tilted))
+        flexible(plane_case(tilted))
     assert refused.value.code == "rock-level"
 
 
 def test_dam_and_rock_as_one_body_answer_as_all_their_elements_do():
-    case = read_case(dam(crack=HIGH))
+    case = plane_case(dam(crack=HIGH))
     bonded = bonded_dam(case)
     lowest = bonded.bodies[-1]
     whole = founded(case, bonded)
@@ -308,7 +308,7 @@ def test_a_mirrored_dam_on_rock_slides_the_other_way():
     even = {"polygon": [["0 m", "0 m"], ["20 m", "0 m"], ["14 m", "30 m"], ["6 m", "30 m"]]}
     one, other = (
         run(
-            read_case(
+            plane_case(
                 dam(
                     section=even, crack={"elevation": "6 m", "friction": 0.5}, reservoir=None, motion={"points": points}
                 )
@@ -324,8 +324,8 @@ def test_a_mirrored_dam_on_rock_slides_the_other_way():
 
 def test_a_thin_layer_bonded_to_the_rock_hardly_matters():
     """A crack just above the base is one at the base."""
-    thin = run(read_case(dam(crack={"elevation": "0.5 m", "friction": 0.8})), "flexible")
-    none = run(read_case(dam()), "flexible")
+    thin = run(plane_case(dam(crack={"elevation": "0.5 m", "friction": 0.8})), "flexible")
+    none = run(plane_case(dam()), "flexible")
     assert thin.residual_slip_m == pytest.approx(none.residual_slip_m, rel=0.05)
     assert thin.energy.rock_j == pytest.approx(none.energy.rock_j, rel=0.1)
 
@@ -336,7 +336,7 @@ def test_cracks_slide_alike_in_whatever_order_a_case_lists_them():
     del listed["crack"]
     listed["cracks"] = [above, base]
     other["crack"], other["further_cracks"] = base, [above]
-    first, second = (run(read_case(fields), "flexible") for fields in (listed, other))
+    first, second = (run(plane_case(fields), "flexible") for fields in (listed, other))
     for one, two in zip(first.cracks, second.cracks, strict=True):
         assert abs(one.residual_slip_m) > 1e-3
         assert one.residual_slip_m == pytest.approx(two.residual_slip_m, rel=1e-9)
@@ -344,7 +344,7 @@ def test_cracks_slide_alike_in_whatever_order_a_case_lists_them():
 
 
 def test_twice_the_damping_is_that_of_the_concrete():
-    case = read_case(dam(crack=HIGH))
+    case = plane_case(dam(crack=HIGH))
     dam_on_rock = build_flexible_dam(case)
     twice = damped(dam_on_rock, 2.0)
     whole = founded(case, bonded_dam(case))
@@ -359,7 +359,7 @@ def test_twice_the_damping_is_that_of_the_concrete():
 def test_the_surface_goes_on_beyond_the_toe():
     # Weak friction: the dam slides farther than its last element is long.
     strong = [[time, f"{4.0 * float(value.split()[0])} g"] for time, value in PULSES]
-    response = run(read_case(dam(motion={"points": strong}, crack={"elevation": "0 m", "friction": 0.55})), "flexible")
+    response = run(plane_case(dam(motion={"points": strong}, crack={"elevation": "0 m", "friction": 0.55})), "flexible")
     assert response.ok
     assert response.energy.residual < 1e-10
 
@@ -389,7 +389,7 @@ def test_slips_of_an_independent_program(record, friction, modulus, sound, slip_
 @pytest.mark.slow
 def test_the_example_runs():
     path = Path(__file__).parents[3] / "examples/on-rock.toml"
-    case = read_case(path, ["motion.duration=3 s", "flexible.evidence=none", "flexible.elements_across=4"])
+    case = plane_case(path, ["motion.duration=3 s", "flexible.evidence=none", "flexible.elements_across=4"])
     response = flexible(case)
     assert response.ok
     assert response.energy.rock_j > 0.0
@@ -403,7 +403,7 @@ def test_the_example_runs():
 @pytest.mark.slow
 def test_rock_without_damping_below_a_crack_is_warned_of():
     def warned(**changes):
-        response = flexible(read_case(dam(**changes)), evidence="full")
+        response = flexible(plane_case(dam(**changes)), evidence="full")
         codes = {notice.code for notice in response.warnings}
         no_limit = "rock-undamped" in codes
         assert response.evidence.no_limit == no_limit
@@ -441,7 +441,7 @@ def test_a_result_says_what_rigid_rock_and_water_without_sound_leave_out():
     usual = strong | {"motion": {"points": [[time, f"{0.5 * float(value.split()[0])} g"] for time, value in PULSES]}}
 
     def about(fields):
-        return [notice for notice in flexible(read_case(fields)).warnings if notice.code.startswith("surroundings-")]
+        return [notice for notice in flexible(plane_case(fields)).warnings if notice.code.startswith("surroundings-")]
 
     (like,) = about(usual)
     assert dict(like.quantities)["cases"] == CLASSES[-1][2]
@@ -471,22 +471,22 @@ def test_what_results_say_of_rigid_rock_is_in_the_table_of_its_page():
 def test_a_rotation_on_rock_carries_no_bound():
     """Twice and four times the elements move it by more than its old bound of 3 % and two meshes, up to nine times."""
     fields = dam(flexible={"elements_across": 4, "evidence": "full", "time_step": "2e-4 s"})
-    worth = flexible(read_case(fields)).evidence
+    worth = flexible(plane_case(fields)).evidence
     assert worth["rocking_upstream_rad"]["uncertainty"] is None
     assert worth["rocking_downstream_rad"]["uncertainty"] is None
     assert worth["residual_slip_m"]["uncertainty"] > 0.0
     on_rigid_rock = dam(flexible={"elements_across": 4, "evidence": "full", "time_step": "2e-4 s"})
     del on_rigid_rock["rock"]
-    assert flexible(read_case(on_rigid_rock)).evidence["rocking_upstream_rad"]["uncertainty"] > 0.0
+    assert flexible(plane_case(on_rigid_rock)).evidence["rocking_upstream_rad"]["uncertainty"] > 0.0
 
 
 @pytest.mark.slow
 def test_a_limit_on_a_number_without_a_bound_is_met_for_certain_by_half_of_it_alone():
     fields = dam(flexible={"elements_across": 2, "evidence": "full", "time_step": "2e-4 s"})
-    turned = flexible(read_case(fields))
+    turned = flexible(plane_case(fields))
     largest = max(turned.rocking_upstream_rad, turned.rocking_downstream_rad)
     checks = {}
     for factor in (1.5, 2.5):
-        (checks[factor],) = flexible(read_case(fields | {"limits": {"rotation": f"{factor * largest} rad"}})).limits
+        (checks[factor],) = flexible(plane_case(fields | {"limits": {"rotation": f"{factor * largest} rad"}})).limits
     assert [check.met for check in checks.values()] == [True, True]
     assert [check.certain for check in checks.values()] == [False, True]

@@ -8,9 +8,9 @@ import math
 import pytest
 from rich.console import Console
 
-from heeltoe import InputError, dam_periods, read_case
+from heeltoe import InputError, dam_periods
 from heeltoe.views.terminal.dam import print_periods
-from shared.dams import BASE, BLOCK, HEIGHT, example
+from shared.dams import BASE, BLOCK, HEIGHT, example, plane_case
 
 # Slender enough for Euler and Bernoulli: 2 m wide, 60 m high.
 TOWER = {
@@ -27,7 +27,7 @@ def beam(number: float, height: float) -> float:
 
 
 def test_beams():
-    periods = dam_periods(read_case(TOWER), 2)
+    periods = dam_periods(plane_case(TOWER), 2)
     assert periods.intact == pytest.approx([beam(1.87510, 60.0), beam(4.69409, 60.0)], rel=0.01)
     # Cut off at its base it is free at both ends.
     assert periods.above == pytest.approx([beam(4.73004, 60.0), beam(7.85320, 60.0)], rel=0.01)
@@ -36,21 +36,21 @@ def test_beams():
 
 
 def test_a_crack_in_the_middle():
-    periods = dam_periods(read_case({**TOWER, "crack": {"friction": 1.0, "elevation": "40 m"}}), 2)
+    periods = dam_periods(plane_case({**TOWER, "crack": {"friction": 1.0, "elevation": "40 m"}}), 2)
     assert periods.intact == pytest.approx([beam(1.87510, 60.0), beam(4.69409, 60.0)], rel=0.01)
     assert periods.above[0] == pytest.approx(beam(4.73004, 20.0), rel=0.03)
     assert periods.below[0] == pytest.approx(beam(1.87510, 40.0), rel=0.01)
 
 
 def test_water_makes_a_dam_slower():
-    periods = dam_periods(read_case(BASE, ["flexible.elements_across=3"]))
+    periods = dam_periods(plane_case(BASE, ["flexible.elements_across=3"]))
     assert all(wet > dry for wet, dry in zip(periods.intact, periods.intact_dry, strict=True))
     assert list(periods.intact) == sorted(periods.intact, reverse=True)
     assert len(periods.intact) == len(periods.above) == 5
 
 
 def test_json_and_damping():
-    case = read_case(HEIGHT, ["flexible.elements_across=2"])
+    case = plane_case(HEIGHT, ["flexible.elements_across=2"])
     periods = dam_periods(case, 3)
     data = json.loads(json.dumps(periods.to_json(), allow_nan=False))
     assert {len(values) for values in data["periods_s"].values()} == {3}
@@ -58,20 +58,20 @@ def test_json_and_damping():
     for period in (periods.intact[0], periods.intact[2]):
         omega = 2.0 * math.pi / period
         assert mass / (2.0 * omega) + stiffness * omega / 2.0 == pytest.approx(0.05)
-    modal = dam_periods(read_case(HEIGHT, ["flexible.elements_across=2", "flexible.damping=modal"]), 1)
+    modal = dam_periods(plane_case(HEIGHT, ["flexible.elements_across=2", "flexible.damping=modal"]), 1)
     assert modal.to_json()["rayleigh"] is None
 
 
 @pytest.mark.parametrize("count", [0, -1, 51])
 def test_counts_that_are_none(count):
     with pytest.raises(InputError) as refused:
-        dam_periods(read_case(TOWER), count)
+        dam_periods(plane_case(TOWER), count)
     assert refused.value.code == "period-count"
 
 
 def test_a_dam_without_a_modulus():
     with pytest.raises(InputError) as refused:
-        dam_periods(read_case(BLOCK))
+        dam_periods(plane_case(BLOCK))
     assert refused.value.code == "modulus-missing"
 
 

@@ -13,9 +13,10 @@ from typing import Any
 
 import pytest
 
-from heeltoe import flexible, read_case
+from heeltoe import flexible
 from heeltoe.mechanics.beam import band_of
 from heeltoe.models.flexible.body import reduced
+from shared.dams import plane_case
 
 SHAKES = [0.0, 0.6, -0.9, 0.8, -1.0, 0.9, -0.4, 0.0]
 MOMENTS = [0.0, 0.02, 0.05, 0.08, 0.11, 0.14, 0.16, 0.18]
@@ -51,7 +52,7 @@ def similar(length: float, **changes: Any) -> dict[str, Any]:
     "surroundings", [*(pytest.param(name, marks=pytest.mark.slow) for name in ("rock and sound", "rock")), "sound"]
 )
 def test_the_slip_of_a_similar_dam_is_so_many_times_as_far(surroundings):
-    small, large = (read_case(_without(similar(length), surroundings)) for length in (1.0, 16.0))
+    small, large = (plane_case(_without(similar(length), surroundings)) for length in (1.0, 16.0))
     one, other = flexible(small, output_step=0.001), flexible(large, output_step=0.004)
     assert one.residual_slip_m > 1e-3
     assert other.residual_slip_m == pytest.approx(16.0 * one.residual_slip_m, rel=1e-3)
@@ -69,10 +70,10 @@ def _without(fields: dict[str, Any], surroundings: str) -> dict[str, Any]:
 
 def test_the_band_goes_with_the_dam():
     """That of a beam goes with the root of the modulus over the length."""
-    bands = [band_of(read_case(similar(length))) for length in (1.0, 4.0, 16.0)]
+    bands = [band_of(plane_case(similar(length))) for length in (1.0, 4.0, 16.0)]
     assert bands[1:] == pytest.approx([bands[0] / 2.0, bands[0] / 4.0], rel=1e-9)
     # A dam of 10 m swings some ten times as fast as one of 100 m of the same concrete.
-    tall = read_case(similar(10.0, concrete={"density": "2400 kg/m^3", "modulus": "20 GPa"}))
+    tall = plane_case(similar(10.0, concrete={"density": "2400 kg/m^3", "modulus": "20 GPa"}))
     assert bands[0] == pytest.approx(10.0 * band_of(tall), rel=1e-9)
     assert 10.0 < band_of(tall) < 30.0
 
@@ -87,7 +88,7 @@ def test_the_rock_and_water_of_the_evidence_answer_half_as_much_again_of_the_ban
         return water_body(case, bodies, highest, **options)
 
     monkeypatch.setattr(reduced, "water_body", noted)
-    case = read_case(similar(1.0, crack={"elevation": "0 m", "friction": 0.81}))
+    case = plane_case(similar(1.0, crack={"elevation": "0 m", "friction": 0.81}))
     for larger in (1.0, 1.5):
         reduced.build_flexible_dam(case, larger)
     assert asked == pytest.approx([band_of(case), 1.5 * band_of(case)])

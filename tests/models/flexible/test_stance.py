@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from heeltoe import GroundMotion, flexible, read_case, rigid
+from heeltoe import GroundMotion, flexible, rigid
+from shared.dams import plane_case
 from shared.shaken import EXAMPLES, SMALL
 
 G = 9.80665
@@ -13,7 +14,7 @@ G = 9.80665
 
 def block(modulus, friction, *, damping=0.05, across=2):
     corners = [["0 m", "0 m"], ["5 m", "0 m"], ["5 m", "15 m"], ["0 m", "15 m"]]
-    return read_case(
+    return plane_case(
         {
             "section": {"polygon": corners},
             "concrete": {"modulus": f"{modulus} GPa", "damping": damping},
@@ -37,7 +38,7 @@ def moving(response, *modes):
 @pytest.mark.parametrize("across", [4, 8])
 def test_a_dam_that_slides_with_its_heel_open_does_not_rock(across):
     changes = ["crack.friction=1.2", f"flexible.elements_across={across}", "motion.duration=4s"]
-    response = flexible(read_case(EXAMPLES["base"], [*SMALL, *changes]))
+    response = flexible(plane_case(EXAMPLES["base"], [*SMALL, *changes]))
     opened = (response.crack.status == response.crack.status_names().index("open")).mean(axis=1)
     assert response.opening_upstream_m > 0.01
     assert opened.max() > 0.6
@@ -48,7 +49,7 @@ def test_a_dam_that_slides_with_its_heel_open_does_not_rock(across):
 
 def test_a_dam_with_its_heel_open_is_at_rest_before_the_ground_moves():
     still = GroundMotion("still", np.array([0.0, 0.5]), np.zeros(2))
-    response = flexible(read_case(EXAMPLES["base"], [*SMALL, "crack.friction=3"]), still)
+    response = flexible(plane_case(EXAMPLES["base"], [*SMALL, "crack.friction=3"]), still)
     assert (response.crack.status == response.crack.status_names().index("open")).any()
     assert response.time_by_mode_s["rest"] == pytest.approx(response.end_time_s, rel=1e-12)
 
@@ -77,7 +78,7 @@ def test_a_crack_near_the_crest_rocks_with_any_mesh():
     for across in (4, 8):
         # All modes: what differs is the mesh alone.
         changes = [f"flexible.elements_across={across}", "motion.duration=4s", "flexible.modes=10000"]
-        response = flexible(read_case(EXAMPLES["height"], [*SMALL, *changes]))
+        response = flexible(plane_case(EXAMPLES["height"], [*SMALL, *changes]))
         times.append(moving(response))
         assert response.time_by_mode_s["rocking"] > 0.5
     assert times[1] == pytest.approx(times[0], rel=0.05)
@@ -92,7 +93,7 @@ def test_what_a_dam_does_goes_with_its_size():
             [f"{4 * size} m", f"{10 * size} m"],
             ["0 m", f"{10 * size} m"],
         ]
-        case = read_case(
+        case = plane_case(
             {
                 "section": {"polygon": corners},
                 "concrete": {"modulus": f"{modulus} GPa", "damping": 0.3},

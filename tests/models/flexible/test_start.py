@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from heeltoe import GroundMotion, flexible, read_case
+from heeltoe import GroundMotion, flexible
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.flexible.body.elastic import dofs
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from shared.dams import plane_case
 
 QUIET = GroundMotion.from_points(np.array([0.0, 0.5]), np.array([0.0, 0.0]), name="quiet")
 
@@ -22,7 +23,7 @@ def typical(friction, elevation=0.0, *changes, anchors=(), **options):
         "uplift": {"pattern": "triangular"},
         "flexible": {"elements_across": 4, "time_step": "0.2 ms", "evidence": "none", **options},
     }
-    return read_case(fields | ({"anchors": anchors} if anchors else {}), list(changes))
+    return plane_case(fields | ({"anchors": anchors} if anchors else {}), list(changes))
 
 
 @pytest.mark.parametrize("factor", [1.006, 1.02, 1.07, 1.34])
@@ -105,7 +106,7 @@ def test_a_dam_without_water_is_at_rest(across, friction):
         "crack": {"friction": friction},
         "flexible": {"elements_across": across},
     }
-    dam = build_flexible_dam(read_case(fields))
+    dam = build_flexible_dam(plane_case(fields))
     assert dam.start.stands
     assert dam.start.slips[0] == pytest.approx(0.0, abs=1e-9)
 

@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from heeltoe import GroundMotion, flexible, read_case, rigid
+from heeltoe import GroundMotion, flexible, rigid
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
-from shared.dams import TYPICAL, polygon
+from shared.dams import TYPICAL, plane_case, polygon
 
 G = 9.80665
 DAM = [(0.0, 0.0), (24.0, 0.0), (8.0, 20.0), (6.0, 30.0), (0.0, 30.0)]
 
 
 def stiff(modulus=2000.0, friction=0.5, depth=24.0, damping=0.05, across=3, corners=DAM, **options):
-    return read_case(
+    return plane_case(
         {
             "section": polygon(corners),
             "concrete": {"modulus": f"{modulus} GPa", "damping": damping},

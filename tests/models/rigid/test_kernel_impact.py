@@ -44,7 +44,7 @@ def strike(block: np.ndarray, velocity, gaps=(0.0, 0.0)) -> Blow:
     return Blow(
         before=pick("approach_slip_velocity", "approach_velocity_heel", "approach_velocity_toe"),
         after=pick("slip_velocity", "gap_velocity_heel", "gap_velocity_toe"),
-        impulse=pick("impulse_friction", "impulse_heel", "impulse_toe"),
+        impulse=pick("friction_impulse", "heel_impulse", "toe_impulse"),
         energy_lost=float(result.events.energy_lost[first]),
         limited=bool(result.summary.energy_limited_impacts),
     )

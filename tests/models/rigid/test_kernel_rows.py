@@ -53,7 +53,7 @@ def test_a_blow_that_brings_a_block_to_lie_has_its_impulse(slip):
     start = [[0.0, 0.0, 0.0], [slip, -speed, -speed]]
     response = run(rectangle(2.0, 1.0, 0.3, restitution=0.5), [0.0, 1e-9], [0.0, 0.0], start=start)
     blow = response.kinds.index("both strike")
-    impulse = {name: getattr(response.events, f"impulse_{name}")[blow] for name in ("friction", "heel", "toe")}
+    impulse = {name: getattr(response.events, f"{name}_impulse")[blow] for name in ("friction", "heel", "toe")}
     assert impulse["heel"] + impulse["toe"] == pytest.approx(MASS * speed, rel=1e-9)
     assert impulse["friction"] == pytest.approx(-0.3 * MASS * speed if slip else 0.0, rel=1e-9)
     assert response.events.slip_velocity[blow] == pytest.approx(slip - 0.3 * speed if slip else 0.0, abs=1e-15)
@@ -70,7 +70,7 @@ def test_every_blow_pushes():
         response = run(block, np.append(0.05 * np.arange(21), 8.0), ground)
         events = response.events
         strikes = np.isin(response.kinds, STRIKES)
-        pushes = np.array([events.impulse_heel[strikes], events.impulse_toe[strikes]])
+        pushes = np.array([events.heel_impulse[strikes], events.toe_impulse[strikes]])
         assert (pushes.min(axis=0) >= -1e-9 * pushes.max(axis=0)).all()
         assert (pushes.max(axis=0) > 0.0).all()
         assert (events.energy_lost[strikes] >= -1e-12 * response.summary.energy_input).all()

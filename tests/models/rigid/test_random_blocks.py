@@ -2,7 +2,7 @@
 
 import pytest
 
-from heeltoe.validation.random_blocks import draw
+from shared.random_blocks import draw
 
 # Blocks that cycled while the next mode was chosen by looking ahead for a tenth of a millisecond whatever the block, or
 # while rounding was judged by what the water leaves of the weight or by what is left of accelerations that balance; by
@@ -67,6 +67,11 @@ def test_a_block_that_all_but_floats_comes_to_its_end_exactly(seed):
     assert run.outcome == "ok"
     assert run.summary.events < 100
     assert run.summary.energy_residual < 1e-11
+
+
+@pytest.mark.slow
+def test_the_energy_of_a_thousand_is_accounted_for():
+    assert max(draw(seed).run().summary.energy_residual for seed in range(1_000)) < 1e-5
 
 
 @pytest.mark.product

@@ -79,7 +79,7 @@ def test_a_flank_steeper_than_friction_brings_the_block_back_to_its_valley():
     run = walked(case, time, PULSE[1], at=at)
     assert run.histories.slip == pytest.approx(top - 0.5 * fall * (at - stop) ** 2, abs=1e-10)
     # In the valley it strikes the other flank, and without restitution the blow takes what is normal to it.
-    struck = next(k for k, blow in enumerate(run.events.impulse_heel) if blow > 0.0)
+    struck = next(k for k, blow in enumerate(run.events.heel_impulse) if blow > 0.0)
     assert run.events.time[struck] == pytest.approx(home, rel=1e-10)
     speed = fall * (home - stop)
     turned = speed / math.cos(i)

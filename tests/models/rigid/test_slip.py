@@ -9,7 +9,7 @@ from heeltoe import build_block, read_case
 from heeltoe.kernel.block import run_block
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.rigid.varying import varying
-from heeltoe.validation.random_blocks import draw
+from shared.random_blocks import draw
 
 WIDTH, HEIGHT = 1.0, 2.0
 #: Thrown up with its toe higher by this angle, it turns through the upright and lands on its toe.

@@ -8,7 +8,7 @@ from heeltoe.study.small.run_table import parse_axes
 from heeltoe.study.small.statics import After, judge, statics_table
 from heeltoe.views.report.html import html
 from heeltoe.views.report.write import build_report
-from shared.dams import BLOCK, ROOT
+from shared.dams import BLOCK, ROOT, plane_case
 from shared.report_reader import Reader
 
 ANCHOR = {"head_x": "3 m", "head_elevation": "100 m", "foot_x": "4 m", "foot_elevation": "-10 m", "prestress": "1 MN/m"}
@@ -24,7 +24,7 @@ CHANGES = [
 @pytest.fixture(scope="module")
 def dam():
     changes = [*CHANGES, {"anchors": [ANCHOR]}, {"statics.sections": [{"elevation": "0 m"}, {"elevation": "90 m"}]}]
-    case = read_case(ROOT / "examples" / "two-cracks.toml", changes)
+    case = plane_case(ROOT / "examples" / "two-cracks.toml", changes)
     return case, run(case)
 
 

@@ -14,7 +14,7 @@ from heeltoe.case.shaking import resolve
 from heeltoe.models.flexible.surroundings.lowest_modes import SectionForces, lowest_modes
 from heeltoe.study.small.response_spectrum import _spectrum_of
 from shared.command import command
-from shared.dams import BLOCK, HEIGHT, example
+from shared.dams import BLOCK, HEIGHT, example, plane_case
 
 # Slender enough for Euler and Bernoulli: 2 m wide, 60 m high.
 TOWER = {
@@ -44,7 +44,7 @@ def cantilever(root: float) -> tuple[float, float]:
 @pytest.mark.parametrize("modulus", [20e9, 2e12])
 def test_a_cantilever_by_hand(modulus):
     """Both modes of Euler and Bernoulli; both slow, then both partly going with the ground."""
-    case = read_case(TOWER).with_(f"concrete.modulus={modulus} Pa")
+    case = plane_case(TOWER).with_(f"concrete.modulus={modulus} Pa")
     (joint,) = with_response_spectrum(statics_of_sections(case), DESIGN).joints
     mass, ground = 2.0 * 60.0 * 2400.0, 0.02 * G * 1.2
     periods = [2.0 * math.pi * 60.0**2 / root**2 * math.sqrt(2400.0 / (modulus * 2.0**2 / 12.0)) for root in ROOTS]
@@ -174,10 +174,10 @@ def test_a_dam_without_a_modulus_or_a_motion_is_refused():
         with_response_spectrum(statics_of_sections(read_case(BLOCK)), DESIGN)
     assert refused.value.code == "modulus-missing"
     with pytest.raises(InputError) as refused:
-        with_response_spectrum(statics_of_sections(read_case(TOWER)), "motion")
+        with_response_spectrum(statics_of_sections(plane_case(TOWER)), "motion")
     assert refused.value.code == "motion-missing"
     with pytest.raises(InputError) as refused:
-        with_response_spectrum(read_case(TOWER), "motion")
+        with_response_spectrum(plane_case(TOWER), "motion")
     assert refused.value.code == "not-checks"
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
@@ -36,7 +37,7 @@ from heeltoe.result.contract import CRACKED, headlines
 from heeltoe.result.crest import CrestMotion, crest_peaks
 from heeltoe.result.judge import Judgement, judge, leading_crack
 from heeltoe.result.limits import allowances
-from heeltoe.result.numbers import SelfExcitation, SignNumbers
+from heeltoe.result.numbers import AssumedRock, RockTrial, SelfExcitation, SignNumbers
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.rest import LAST_S, last_change, still_since
 from heeltoe.units.sentences import Sentence
@@ -93,7 +94,8 @@ def run_flexible(
     leads = leading_crack([crack.residual_slip_m for crack in cracks])
     is_first = run is first.run and leads == first.leads
     growth = at_first.result() if is_first else _growth(shaken, run, outcome, leads)
-    numbers = dam_numbers(shaken, run, growth, tension)
+    rock = assumed_rock(case, block, begun.earthquake, frame_step, leads) if outcome.has_result else None
+    numbers = dam_numbers(shaken, run, growth, tension, rock)
     return FlexibleResponse(
         model="flexible",
         title=case.title,
@@ -117,6 +119,34 @@ def run_flexible(
         envelope=envelope,
         crest=crest.motion(case.gravity),
     )
+
+
+def assumed_rock(case: Case, block: Block, earthquake: Earthquake, frame_step: float, leads: int) -> AssumedRock | None:
+    """Return the rock that is assumed below a dam, and how far the crack that leads slips on other rock; None where the
+    case says which rock it is."""
+    rock = case.foundation
+    if rock is None or not case.surroundings.assumed:
+        return None
+    moduli: list[float | None] = [rock.modulus / 2.0, 2.0 * rock.modulus, None]
+    if case.flexible.evidence == "none":
+        return AssumedRock(modulus_pa=rock.modulus, trials=[])
+    ending = Ending()
+
+    def trial(modulus: float | None) -> RockTrial:
+        other = case.on_rigid_plane() if modulus is None else case.on_rock(modulus)
+        dam = build_flexible_dam(other)
+        rested = run_until_rest(other, dam, block, earthquake, frame_step, stresses=False, ending=ending)
+        slip = rested.run.summaries[leads].slip if rested.outcome.has_result else None
+        return RockTrial(modulus_pa=modulus, outcome=rested.outcome, residual_slip_m=slip)
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        trials = [pool.submit(trial, modulus) for modulus in moduli]
+        try:
+            return AssumedRock(modulus_pa=rock.modulus, trials=[each.result() for each in trials])
+        except BaseException:
+            ending.ask()
+            pool.shutdown(cancel_futures=True)
+            raise
 
 
 def _growth(
@@ -152,7 +182,7 @@ class Rested(NamedTuple):
             return -math.inf
         reach = -math.inf
         for frames in self.run.all_frames:
-            moved = (frames.time, frames.slip, frames.opening_heel, frames.opening_toe)
+            moved = (frames.time, frames.slip, frames.gap_heel, frames.gap_toe)
             reach = max(reach, still_since(*moved) + LAST_S if last_change(*moved).rest else math.inf)
         return reach
 
@@ -188,7 +218,7 @@ class Rested(NamedTuple):
             outcome=self.outcome,
             elevation_m=section.heel[1] - section.base_elevation if known else None,
             residual_slip_m=rows[self.leads].slip if known else None,
-            opening_m=max(max(row.opening_heel, row.opening_toe) for row in rows) if known else None,
+            opening_m=max(max(row.opening_upstream, row.opening_downstream) for row in rows) if known else None,
             limits_not_met=self.judged(case).badness()[1],
         )
 

@@ -127,13 +127,18 @@ def _most_loaded(case: Case, run: DamRun) -> list[AnchorForce]:
 
 
 def _about_the_rock(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
+    around = case.surroundings
+    if around.rigid_since:
+        yield Notice("rock-not-assumed", why=Sentence(around.rigid_since))
+    if around.mass_since:
+        yield Notice("sound-not-assumed", why=Sentence(around.mass_since))
     if dam.rock_error > ENOUGH_OF_ROCK:
         yield Notice("rock-coarse", error=dam.rock_error, highest_hz=band_of(case))
-    if case.rock is not None and may_have_no_limit(case, dam):
-        yield Notice("rock-undamped", damping=case.rock.damping, usual=Rock.model_fields["damping"].default)
-    if case.rock is not None and case.rock.massless:
+    if case.foundation is not None and may_have_no_limit(case, dam):
+        yield Notice("rock-undamped", damping=case.foundation.damping, usual=Rock.model_fields["damping"].default)
+    if case.foundation is not None and case.foundation.massless:
         yield Notice("rock-keeps-waves", path="rock.massless", value="true", other="false")
-    elif case.rock is not None and not case.rock.radiation:
+    elif case.foundation is not None and not case.foundation.radiation:
         yield Notice("rock-keeps-waves", path="rock.radiation", value="false", other="true")
 
 

@@ -131,7 +131,7 @@ def _likeness(dam: _Dam, swing: Swing, mean_period: float, place: int) -> Likene
         peak=swing.peak,
         spectral=float(swing.accelerations[place]),
         crack=float(swing.at_crack[place]),
-        critical=block.static["critical_acceleration_g"]["sliding"] * dam.gravity,
+        critical=block.static.critical_acceleration_g.sliding * dam.gravity,
         level=dam.elevation / dam.height,
         water=dam.water / dam.height,
         damping=dam.damping,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -17,9 +17,17 @@ from heeltoe.mechanics.block import Block, static_state
 from heeltoe.mechanics.references import cited
 from heeltoe.models.rigid.bond import BondedBlock, bonded_block, held_histories
 from heeltoe.models.rigid.slip_history import law_histories, law_result, roughness_histories, roughness_result
-from heeltoe.result.contract import HEADLINES, ground_histories, headlines, slip_by_mode, time_by_mode
+from heeltoe.result.contract import (
+    HEADLINES,
+    OPENINGS,
+    ROTATIONS,
+    ground_histories,
+    headlines,
+    slip_by_mode,
+    time_by_mode,
+)
 from heeltoe.result.crest import LOOKS_S, CrestMotion, CrestSeries, crest_series
-from heeltoe.result.histories import EventLog, Histories
+from heeltoe.result.histories import EventLog, Histories, computed_columns
 from heeltoe.result.numbers import AnchorForce, BlockNumbers, Energy
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.quantity import computed
@@ -41,10 +49,8 @@ def opening(case: Case, width: Floats, rotation: Floats) -> Floats:
 def with_openings(columns: dict[str, Floats], case: Case, width: Floats) -> dict[str, Floats]:
     """Return the headline numbers of blocks, (n,) by name, with the openings that their rotations make."""
     # Rocking downstream, about the toe, opens the crack at the upstream face.
-    return columns | {
-        "opening_upstream_m": opening(case, width, columns["rocking_downstream_rad"]),
-        "opening_downstream_m": opening(case, width, columns["rocking_upstream_rad"]),
-    }
+    pairs = zip(OPENINGS, ROTATIONS, strict=True)
+    return columns | {item.key: opening(case, width, columns[rotation]) for item, rotation in pairs}
 
 
 def anchors_of(case: Case, run: BlockRun) -> list[AnchorForce]:
@@ -78,7 +84,7 @@ def numbers_of(
     case: Case,
     block: Block,
     run: BlockRun,
-    histories: Mapping[str, Floats],
+    histories: Histories,
     drainage: Sequence[float] = (),
     bonded: BondedBlock | None = None,
 ) -> BlockNumbers:
@@ -89,10 +95,10 @@ def numbers_of(
     first: dict[str, Any] = {
         name: float(value[0]) for name, value in with_openings(headlines(table), case, np.array([block.width])).items()
     }
-    about = "toe" if first["rocking_downstream_rad"] > first["rocking_upstream_rad"] else "heel"
+    about = "toe" if first[ROTATIONS[0]] > first[ROTATIONS[1]] else "heel"
     return BlockNumbers(
         **first,
-        **computed(BlockNumbers, histories["time_s"], histories["slip_m"]),
+        **computed(BlockNumbers, histories.time_s, histories.slip_m),
         largest_gap_heel_m=raw.largest_gap_heel,
         largest_gap_toe_m=raw.largest_gap_toe,
         slip_by_mode_m=slip_by_mode(row),
@@ -132,11 +138,11 @@ def crack_response(
     met of its drainage."""
     bonded = bonded_block(block, shaking)
     every = histories_of(case, block, shaking, moments, run, bonded) if started else {}
-    histories = {name: values[shown] for name, values in every.items()}
+    histories = Histories({name: values[shown] for name, values in every.items()})
     return CrackResponse(
         elevation=block.section.heel[1] - block.section.base_elevation,
         of_crack=numbers_of(case, block, run, histories, drainage, bonded) if started else None,
-        histories=Histories(histories),
+        histories=histories,
         mode=tuple(MODE_NAMES.take(run.mode[shown]).tolist()) if started else (),
         event_log=EventLog(events_of(run)),
         static=static_state(block),
@@ -236,18 +242,7 @@ def histories_of(
         # The gaps go with its sine.
         rotation = np.arcsin(np.clip(rotation, -1.0, 1.0))
         rate = rate / np.maximum(np.cos(rotation), 1e-9)
-    result |= {
-        "slip_m": column.slip,
-        "slip_velocity_m_s": column.slip_velocity,
-        "slip_acceleration_m_s2": column.slip_acceleration,
-        "gap_heel_m": column.gap_heel,
-        "gap_toe_m": column.gap_toe,
-        "rotation_rad": rotation,
-        "rotation_velocity_rad_s": rate,
-        "friction_force_n": column.friction_force,
-        "normal_force_heel_n": column.normal_force_heel,
-        "normal_force_toe_n": column.normal_force_toe,
-    }
+    result |= computed_columns(Histories, column) | {"rotation_rad": rotation, "rotation_velocity_rad_s": rate}
     if bonded is not None:
         held, forces = held_histories(block, shaking, moments, bonded.until)
         result |= {name: np.where(held, force, result[name]) for name, force in forces.items()}
@@ -263,22 +258,9 @@ def events_of(run: BlockRun) -> dict[str, Any]:
     def named(places: Floats, names: tuple[str, ...]) -> list[str]:
         return [names[k] for k in places.astype(np.intp).tolist()]
 
-    return {
-        "time_s": column.time,
+    names = {
         "kind": named(column.kind, EVENT_KINDS),
         "mode_before": named(column.mode_before, MODES),
         "mode_after": named(column.mode_after, MODES),
-        "slip_m": column.slip,
-        "gap_heel_m": column.gap_heel,
-        "gap_toe_m": column.gap_toe,
-        "slip_velocity_m_s": column.slip_velocity,
-        "gap_velocity_heel_m_s": column.gap_velocity_heel,
-        "gap_velocity_toe_m_s": column.gap_velocity_toe,
-        "approach_slip_velocity_m_s": column.approach_slip_velocity,
-        "approach_velocity_heel_m_s": column.approach_velocity_heel,
-        "approach_velocity_toe_m_s": column.approach_velocity_toe,
-        "friction_impulse_n_s": column.impulse_friction,
-        "heel_impulse_n_s": column.impulse_heel,
-        "toe_impulse_n_s": column.impulse_toe,
-        "energy_lost_j": column.energy_lost,
     }
+    return computed_columns(EventLog, column) | names

@@ -203,7 +203,7 @@ def statics(
         site_information=choice.site_information,
         cases=tuple(cases),
         checks=tuple(checks),
-        critical_acceleration_g=static_state(without_bond(build_block(case)))["critical_acceleration_g"],
+        critical_acceleration_g=static_state(without_bond(build_block(case))).critical_acceleration_g,
         critical_water_level_m=critical_water_levels(case),
         highest_water_level_m=highest_level(case),
         slip_m=slip,

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from heeltoe.case.model import Case
+from heeltoe.mechanics.block import StaticState
 from heeltoe.mechanics.loads import crack_water_density
 from heeltoe.warnings.notice import Notice
 
@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 _NOTICED = 1e-3
 
 
-def standing_warnings(case: Case, static: Mapping[str, Any]) -> tuple[Notice, ...]:
+def standing_warnings(case: Case, static: StaticState) -> tuple[Notice, ...]:
     """Return what the usual loads do to the crack that a run of the earthquake does not count; nothing where the crack
     stays closed.
 
     The models of the earthquake keep the uplift of the case, of which `static` is the state of its block.
     """
-    position, width = static["resultant_from_heel_m"], case.cut.crack_width
+    position, width = static.resultant_from_heel_m, case.cut.crack_width
     # In the middle third nothing opens: no need for more. What floats at once, every model says by itself.
     if position is None or 1.0 / 3.0 <= position / width <= 2.0 / 3.0:
         return ()
@@ -30,7 +30,7 @@ def standing_warnings(case: Case, static: Mapping[str, Any]) -> tuple[Notice, ..
 
     solved = usual(case)
     if solved.load_case.outcome == "stands":
-        return _opened(case, static["normal_force_n"], solved)
+        return _opened(case, static.normal_force_n, solved)
     return (Notice("crack-opens-through"),)
 
 

@@ -7,12 +7,13 @@ import copy
 import numpy as np
 import pytest
 
-from heeltoe import InputError, read_case, rigid, statics_of_sections
+from heeltoe import InputError, rigid, statics_of_sections
 from heeltoe.case.field_usage import unused_fields
 from heeltoe.mechanics.law_curve import curves_of
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake, flexible
+from shared.dams import plane_case
 from shared.two_cracks import DAM, STEP, bonded, same, shaken
 
 WEAK = {"name": "slip weakening", "peak_friction": 0.9, "residual_friction": 0.6, "slip": "20 mm"}
@@ -31,7 +32,7 @@ def dam(base, neck, **blocks):
         "crack": {"elevation": "0 m", **given[0]},
         "further_cracks": [{"elevation": "90 m", **given[1]}],
     }
-    return read_case(fields | blocks)
+    return plane_case(fields | blocks)
 
 
 def constant(friction: float):
@@ -77,7 +78,7 @@ def test_a_mirrored_dam_slides_the_other_way():
     changes = {
         "section": {**dict.fromkeys(case.section.model_fields_set), "polygon": mirrored},
         "reservoir": None,
-        "tailwater": {"depth": "100 m"},
+        "tailwater": {"depth": "100 m", "compressible": False},
         "motion.reverse": True,
     }
     for one, other in zip(shaken(case).all_frames, shaken(case.with_(changes)).all_frames, strict=True):
@@ -113,7 +114,7 @@ def test_each_crack_is_told_of():
 
 
 def test_a_further_crack_has_the_law_of_the_first_unless_it_says_otherwise():
-    case = read_case(DAM | {"crack": {"law": WEAK}, "further_cracks": [{"elevation": "90 m"}]})
+    case = plane_case(DAM | {"crack": {"law": WEAK}, "further_cracks": [{"elevation": "90 m"}]})
     assert [single_crack_case.crack.law for single_crack_case in case.single_crack_cases] == [case.crack.law] * 2
     rough = case.with_("further_cracks[0].friction=0.8")
     assert [single_crack_case.crack.law for single_crack_case in rough.single_crack_cases] == [None, case.crack.law]
@@ -124,7 +125,7 @@ def test_a_further_crack_has_the_law_of_the_first_unless_it_says_otherwise():
 
 def test_what_does_not_go_together_is_refused_by_name():
     with pytest.raises(InputError, match=r"further_cracks\[0\]\.friction: .*law"):
-        read_case(DAM | {"further_cracks": [{"elevation": "90 m", "friction": 0.8, "law": WEAK}]})
+        plane_case(DAM | {"further_cracks": [{"elevation": "90 m", "friction": 0.8, "law": WEAK}]})
     with pytest.raises(
         InputError,
         match=r'further_cracks\[0\]\.law: the rigid model does not support a friction law \("slip weakening"\)',

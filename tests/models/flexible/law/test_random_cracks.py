@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from heeltoe import InputError, read_case
+from heeltoe import InputError
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
-from heeltoe.validation.random_dams import LEFT, MADE, Drawn
 from models.rigid.test_friction_laws import random_law
+from shared.dams import plane_case
+from shared.random_dams import LEFT, MADE, Drawn
 
 FRICTIONS = [0.2, 0.5, 0.8, 1.0, 1.3]
 
@@ -51,7 +52,7 @@ def draw(rng: np.random.Generator) -> Drawn | None:
     if rng.random() < 0.6:
         fields["reservoir"] = {"depth": f"{height * rng.uniform(0.3, 1.0)} m"}
     try:
-        case = read_case(fields)
+        case = plane_case(fields)
         dam = build_flexible_dam(case)
     except InputError:
         return None

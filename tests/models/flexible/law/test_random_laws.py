@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heeltoe.validation.random_dams import LEFT, MADE, draw
 from models.rigid.test_friction_laws import random_law
+from shared.random_dams import LEFT, MADE, draw
 
 
 def check(seed):

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from heeltoe import GroundMotion, flexible, read_case
+from heeltoe import GroundMotion, flexible
 from heeltoe.models.flexible.body.elastic import dofs, principal
 from heeltoe.models.flexible.body.modes import reduce
 from heeltoe.models.flexible.body.stress_places import bounded, stress_places
 from heeltoe.models.flexible.result.envelope import largest_tension
-from shared.dams import TRIANGLE, TYPICAL, polygon
+from shared.dams import TRIANGLE, TYPICAL, plane_case, polygon
 from shared.elastic import built, parts
 
 G = 9.80665
@@ -22,7 +22,7 @@ SHAKING = 0.6 * G * np.sin(np.pi * TIME / 2.0) ** 2 * np.sin(2.0 * np.pi * TIME 
 def shaken(corners=CORNERS, factor=1.0, motion=1.0, elevation=12.0, output_step=None, **blocks):
     """Return a run of a dam, its lengths and its modulus times a factor, its times times the root of it."""
     elastic = {"elements_across": 3, "evidence": "none", "time_step": f"{0.2 * factor**0.5} ms"}
-    case = read_case(
+    case = plane_case(
         {
             "section": polygon([(factor * x, factor * z) for x, z in corners]),
             "concrete": {"modulus": f"{20.0 * factor} GPa", **blocks.pop("concrete", {})},
@@ -59,7 +59,7 @@ def test_a_field_of_constant_strain_has_the_same_stress_everywhere(elevation, co
 def test_a_cantilever_has_the_bending_stress_of_a_beam(across):
     # 4 m wide, held at its base, pushed at the crack 40 m up by 1 MN: sigma = M c / I.
     slender = [(0.0, 0.0), (4.0, 0.0), (4.0, 48.0), (0.0, 48.0)]
-    case = read_case(
+    case = plane_case(
         {
             "section": polygon(slender),
             "concrete": {"modulus": "20 GPa", "poisson": 0.0},

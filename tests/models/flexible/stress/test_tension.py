@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from heeltoe import flexible, read_case
+from heeltoe import flexible
 from heeltoe.models.flexible.result.tension import share_beyond
 from heeltoe.result.numbers import StressPlace
 from heeltoe.result.tension import place_phrase
-from shared.dams import BASE, FAST, HEIGHT, example
+from shared.dams import BASE, FAST, HEIGHT, example, plane_case
 
 
 def codes(response):
@@ -16,7 +16,7 @@ def codes(response):
 
 
 def run(*changes):
-    return flexible(read_case(HEIGHT, [*FAST, *changes]))
+    return flexible(plane_case(HEIGHT, [*FAST, *changes]))
 
 
 def test_without_a_strength_nothing_is_judged():
@@ -72,7 +72,7 @@ def test_another_mesh_says_how_certain_it_is():
 
 
 def test_a_dam_that_does_not_stand_has_no_tension_to_tell():
-    response = flexible(read_case(BASE, [*FAST, "crack.friction=0.3"]))
+    response = flexible(plane_case(BASE, [*FAST, "crack.friction=0.3"]))
     assert response.outcome == "unstable"
     assert response.tension is None
     assert "tension-exceeds" not in codes(response)

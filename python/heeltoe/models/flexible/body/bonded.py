@@ -112,8 +112,8 @@ def bonded_dam(case: Case) -> BondedDam:
 
 
 def case_key(case: Case, left_out: Any) -> tuple[str, ...]:
-    """Return a case without what is left out, with what its mesh files contain."""
-    return case.model_dump_json(exclude=left_out), *fingerprints(case)
+    """Return a case without what is left out, with where its water has sound and what its mesh files contain."""
+    return case.model_dump_json(exclude=left_out), " ".join(sorted(case.surroundings.sound)), *fingerprints(case)
 
 
 def fingerprints(case: Case) -> list[str]:

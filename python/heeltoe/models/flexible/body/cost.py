@@ -124,7 +124,7 @@ def parts_of(case: Case) -> list[Part]:
 
 def wave_bodies(case: Case) -> int:
     """Return how many bodies with waves surround a dam: water with sound on either side, and rock for several."""
-    return len(_waters(case)) + (0 if case.rock is None else _ROCK_STEPS)
+    return len(_waters(case)) + (0 if case.foundation is None else _ROCK_STEPS)
 
 
 def surroundings_of(case: Case) -> Cost:
@@ -133,8 +133,8 @@ def surroundings_of(case: Case) -> Cost:
     for water in _waters(case):
         periods = band_of(case) * water.depth / water.wave_speed
         cost += Cost(_WATER[0], _WATER[1] + _WATER_BY_DEPTH * periods)
-    if case.rock is not None:
-        across = float(_rock_elements(case, case.rock))
+    if case.foundation is not None:
+        across = float(_rock_elements(case, case.foundation))
         cost += Cost(_ROCK[0] + _ROCK_ACROSS[0] * across**2.5, _ROCK[1] + _ROCK_ACROSS[1] * across**2)
     return cost
 
@@ -154,8 +154,8 @@ def _rock_elements(case: Case, rock: Rock) -> int:
 
 
 def _waters(case: Case) -> list[Water]:
-    sides = (case.reservoir, case.tailwater)
-    return [body for body in sides if body is not None and body.compressible and body.depth > 0.0]
+    sides = {"reservoir": case.reservoir, "tailwater": case.tailwater}
+    return [body for side, body in sides.items() if body is not None and case.has_sound(side) and body.depth > 0.0]
 
 
 def building(parts: Sequence[Part], surroundings: Cost = Cost(0.0, 0.0)) -> Cost:
@@ -204,7 +204,11 @@ def _driver(case: Case) -> str:
     """Return the field that makes most of the cost."""
     options = case.flexible
     duration = case.motion.duration if case.motion else None
-    rock = 0.0 if case.rock is None else _rock_elements(case, case.rock) / max(24.0, options.elements_across + 2.0)
+    rock = (
+        0.0
+        if case.foundation is None
+        else _rock_elements(case, case.foundation) / max(24.0, options.elements_across + 2.0)
+    )
     far = {
         "rock.modulus": rock,
         "flexible.elements_across": max(options.elements_across, options.elements_across_below or 0) / 8.0,

@@ -154,7 +154,7 @@ def _simplified(case: Case) -> Iterator[str]:
     """Walk what of the case would make no mode real: what waves take with them."""
     if case.has_compressible_water:
         yield "The compressible water counts as a mass here, as if it were incompressible."
-    if case.rock is not None:
+    if case.foundation is not None:
         yield "The rock counts as rigid here."
 
 

@@ -207,7 +207,7 @@ def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
         whole = founded(case, bonded, larger=larger)
         rock = rock_body(case, bodies[-1], larger=larger)
     reservoir = water.result()
-    if rock is not None and case.rock is not None and case.rock.bears_uplift:
+    if rock is not None and case.foundation is not None and case.foundation.bears_uplift:
         last = len(sections) - 1
         rock = replace(rock, pressed=water_on_rock(case.single_crack_cases[last], bonded.faces(last), rock))
     if whole is not None:

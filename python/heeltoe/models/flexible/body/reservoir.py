@@ -70,7 +70,7 @@ def water_body(case: Case, bodies: Sequence[Body], highest: float, *, longer: fl
     Parameters
     ----------
     case
-        With ``compressible`` set of reservoir or tailwater.
+        With sound in the water of reservoir or tailwater.
     bodies
         The parts of the dam.
     highest
@@ -81,7 +81,7 @@ def water_body(case: Case, bodies: Sequence[Body], highest: float, *, longer: fl
     waters: list[tuple[ReducedWater, str, list[tuple[int, Integers]]]] = []
     base = case.cut.base_elevation
     for side, water in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
-        if water is None or not water.compressible or water.depth <= 0.0:
+        if water is None or not case.has_sound(side) or water.depth <= 0.0:
             continue
         paths = [(place, _path(body, side)) for place, body in reversed(list(enumerate(bodies)))]
         wet = [(place, path) for place, path in paths if bodies[place].mesh.nodes[path[0], 1] < base + water.depth]

@@ -11,6 +11,7 @@ from heeltoe.base.arrays import Floats
 from heeltoe.base.cache import Kept
 from heeltoe.case.dam import Rock
 from heeltoe.case.model import Case
+from heeltoe.case.surroundings import LEVEL
 from heeltoe.errors.error import InputError
 from heeltoe.mechanics.beam import band_of
 from heeltoe.models.flexible.body.bonded import BondedDam
@@ -27,9 +28,7 @@ from heeltoe.models.flexible.surroundings.rock import (
     reduced_rock,
 )
 
-# A base that rises by no more than this part of its width is level.
-_LEVEL = 1e-6
-# So are nodes that are one but for this part of it.
+# Nodes are one but for this part of the width.
 _SAME = 1e-10
 
 
@@ -114,10 +113,10 @@ def founded(case: Case, bonded: BondedDam, *, larger: float = 1.0) -> Founded | 
         Factor on the extent of the rock that is meshed, and on the band in which it answers well.
     """
     lowest, held = bonded.bodies[-1], bonded.modes[-1]
-    if case.rock is None or not lowest.mesh.fixed.size:
+    if case.foundation is None or not lowest.mesh.fixed.size:
         return None
     nodes = base_nodes(lowest)
-    rock = _rock_below(lowest.mesh.nodes[nodes], case.rock, larger, larger * band_of(case))
+    rock = _rock_below(lowest.mesh.nodes[nodes], case.foundation, larger, larger * band_of(case))
     load = np.concatenate([body.load for body in bonded.bodies])
     # Of the whole dam, for the settlement, and of the part alone.
     every = base_shapes(bonded, load.size - lowest.load.size + dofs(nodes)) @ rock.shapes
@@ -164,12 +163,12 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
     InputError
         Where the base is not level.
     """
-    if case.rock is None or lowest.mesh.fixed.size:
+    if case.foundation is None or lowest.mesh.fixed.size:
         return None
     cut = case.single_crack_cases[-1].cut
     base = lowest.mesh.nodes[lowest.mesh.faces[-1]]
     rise = float(np.ptp(base[:, 1]))
-    if rise > _LEVEL * cut.crack_width:
+    if rise > LEVEL * cut.crack_width:
         raise InputError("rock-level", "rock", f"{rise:.3g} m")
     # As long as the edges along the rock's own base.
     finer = 2 ** halvings(len(base) // 2)
@@ -177,7 +176,7 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
     ahead = [base[0] - (BEYOND - k / 2.0) * first for k in range(2 * BEYOND)]
     behind = [base[-1] + (k + 1) / 2.0 * last for k in range(2 * BEYOND)]
     points = np.vstack([*ahead, base, *behind])
-    reduced = _rock_below(points, case.rock, larger, larger * band_of(case), beyond=2 * BEYOND)
+    reduced = _rock_below(points, case.foundation, larger, larger * band_of(case), beyond=2 * BEYOND)
     count = reduced.omega_squared.size
     shapes = reduced.shapes.T.reshape(count, -1, 2).swapaxes(1, 2).reshape(count, -1)
     still = np.zeros(count)

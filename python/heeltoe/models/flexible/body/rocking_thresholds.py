@@ -37,6 +37,6 @@ def elastic_give(case: Case, section: CutSection, crack_force: NDArray[np.float6
         with 1/E, as the rigid model needs it, and turn with the crack. On elastic rock its 1/E comes on top.
     """
     normal = float(along_and_across(crack_force.reshape(-1, 2), section)[:, 1].sum())
-    soft = 1.0 / (case.concrete.modulus or np.inf) + (0.0 if case.rock is None else 1.0 / case.rock.modulus)
+    soft = 1.0 / (case.concrete.modulus or np.inf) + (0.0 if case.foundation is None else 1.0 / case.foundation.modulus)
     gap = max(normal, 0.0) * soft
     return _TURNS * gap / section.crack_width, gap

@@ -50,9 +50,11 @@ def virtual_masses(mesh: BodyMesh, case: Case, *, above: bool) -> Any:
             depth = water_above_crack(case, case.reservoir)
             result.add(mesh.upstream, case.reservoir, depth, _surface(case, case.reservoir), None)
     else:
-        for path, water, side in ((mesh.upstream, case.reservoir, 1.0), (mesh.downstream, case.tailwater, -1.0)):
+        upstream, downstream = ("reservoir", mesh.upstream, 1.0), ("tailwater", mesh.downstream, -1.0)
+        for name, path, side in (upstream, downstream):
+            water: Water | None = getattr(case, name)
             # Compressible water is no mass, see heeltoe.models.flexible.body.reservoir.
-            if water is not None and not water.compressible:
+            if water is not None and not case.has_sound(name):
                 result.add(path, water, water.depth, _surface(case, water), side)
     return result.matrix()
 

@@ -34,7 +34,7 @@ def may_have_no_limit(case: Case, dam: FlexibleDam) -> bool:
     """Return whether slips may grow with each finer mesh: those of a dam cracked on rock without damping may, as
     sliding feeds the shortest waves along the crack (Adams, Journal of Applied Mechanics 62, 1995)."""
     # A part bonded to the rock slides on damped concrete.
-    return case.rock is not None and dam.rock is not None and case.rock.damping < LEAST_ROCK_DAMPING
+    return case.foundation is not None and dam.rock is not None and case.foundation.damping < LEAST_ROCK_DAMPING
 
 
 def allowed(slip: float) -> float:

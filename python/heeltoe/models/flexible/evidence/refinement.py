@@ -26,7 +26,7 @@ from heeltoe.models.flexible.evidence.evidence import (
 from heeltoe.models.flexible.evidence.trials import SCALES, SOFTENING, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import FEWEST_ACROSS
-from heeltoe.result.contract import CRACKED, HEADLINES
+from heeltoe.result.contract import CRACKED, HEADLINES, RESIDUAL_SLIP
 from heeltoe.result.numbers import EvidenceNumbers, HeadlineWorth, RotationWorth
 
 # Two meshes may agree by chance. Twice the elements of quadratic shape make what they leave a quarter at best, so of
@@ -274,8 +274,8 @@ class _Stand:
         trials = self._trials
         run, other = trials.numbers(self._level, _AS_IT_IS, crack), trials.numbers(self._step, _AS_IT_IS, crack)
         varied = trials.numbers(self._cheap, SCALES, crack) if self._full else None
-        step = float(run["residual_slip_m"][0] - other["residual_slip_m"][0])
-        mean = varied is not None and _scatter(varied["residual_slip_m"], step)
+        step = float(run[RESIDUAL_SLIP.key][0] - other[RESIDUAL_SLIP.key][0])
+        mean = varied is not None and _scatter(varied[RESIDUAL_SLIP.key], step)
         scales = SCALES if mean else _AS_IT_IS
         beside = None if self.mesh is None else trials.numbers(self.mesh, scales, crack)
         own = trials.numbers(self._own, scales, crack) if self._full else run
@@ -317,11 +317,11 @@ class _Stand:
                 least = max(length.run, width - length.run)
             moved = (length.step, length.mesh, length.shaking, length.surroundings)
             cracked = worth_of(length.run, length.run, *moved, least=least)
-        slip = worth("residual_slip_m")
+        slip = worth(RESIDUAL_SLIP.key)
         on_rock = dam.rock is not None and crack == len(dam.lines) - 1
         no_limit = may_have_no_limit(trials.dam_of(0).case, dam)
         failed = 0 if varied is None else trials.failed(self._own if mean else self._cheap, SCALES)
-        slips = [] if ensembles is None else ensembles[0]["residual_slip_m"].tolist()
+        slips = [] if ensembles is None else ensembles[0][RESIDUAL_SLIP.key].tolist()
         headline_worths: dict[str, Any] = {item.key: worth(item.key) for item in HEADLINES}
         for item in HEADLINES:
             if item.kind == "rotation":

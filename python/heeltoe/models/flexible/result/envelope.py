@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.frozen import ReadOnlyArrays
 from heeltoe.kernel.dam import DamRun
 from heeltoe.models.flexible.body.elastic import principal, stresses
 from heeltoe.models.flexible.body.reduced import FlexibleDam
 
 
 @dataclass(frozen=True, eq=False)
-class PartEnvelope:
+class PartEnvelope(ReadOnlyArrays):
     """The largest stresses of one part over a run, at p corners of its elements; tension is positive.
 
     Attributes

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.frozen import ReadOnlyArrays
 from heeltoe.kernel.dam import CONTACT_STATUSES
 from heeltoe.models.flexible.body.elastic import stresses
 from heeltoe.models.flexible.body.reduced import FlexibleDam
@@ -24,7 +25,7 @@ LEAST_DAMAGE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class CrackHistory:
+class CrackHistory(ReadOnlyArrays):
     """Frames of a run of the flexible model.
 
     Attributes

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from heeltoe.result.numbers import (
+    AssumedRock,
     BeforeShaking,
     BondState,
     ElasticGive,
@@ -71,6 +72,7 @@ class FlexibleResponse(Response):
     rayleigh_stiffness_s = Of[float | None]()
     before_shaking = Of[BeforeShaking | None]()
     self_excitation = Of[SelfExcitation | None]()
+    assumed_rock = Of[AssumedRock | None]()
     tension = Of[Tension | None]()
     water_pressure = Of[list[FacePressure] | None]()
     contact = Of[str]()

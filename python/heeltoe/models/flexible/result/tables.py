@@ -24,9 +24,10 @@ from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.slip_history import law_result, sliding_friction, worn_of
 from heeltoe.result.contract import ground_histories, headlines, slip_by_mode, time_by_mode
 from heeltoe.result.crest import CrestSeries, crest_series
-from heeltoe.result.histories import EventLog, Histories
+from heeltoe.result.histories import EventLog, Histories, computed_columns
 from heeltoe.result.numbers import (
     AnchorForce,
+    AssumedRock,
     BeforeShaking,
     BondState,
     CrackEnergy,
@@ -41,6 +42,11 @@ from heeltoe.result.numbers import (
     Tension,
 )
 from heeltoe.result.quantity import computed
+
+# Columns of the histories that cracks with a friction law alone have, and those with a bond.
+_OF_LAWS = ("slip_path_m", "friction_strength_n")
+_CRACKED = ("cracked_upstream_m", "cracked_downstream_m", "cracked_length_m")
+_OF_BONDS = ("softening_length_m", "fracture_energy_j")
 
 
 def anchors_of(case: Case, run: DamRun, place: int) -> list[AnchorForce]:
@@ -96,8 +102,8 @@ def crack_numbers(
     numbers = ElasticCrack(
         **computed(ElasticCrack, run.frames.time, run.all_frames[place].slip),
         **{name: float(column) for name, column in headlines(row).items()},
-        largest_gap_heel_m=raw.opening_heel,
-        largest_gap_toe_m=raw.opening_toe,
+        largest_gap_heel_m=raw.opening_upstream,
+        largest_gap_toe_m=raw.opening_downstream,
         slip_by_mode_m=slip_by_mode(row),
         time_by_mode_s=time_by_mode(row),
         impacts=int(raw.impacts),
@@ -151,7 +157,13 @@ def start_of(dam: FlexibleDam, place: int) -> BeforeShaking:
     return BeforeShaking(stands=start.stands, slip_m=start.slips[place], open_contacts=start.open_contacts[place])
 
 
-def dam_numbers(shaken: ShakenDam, run: DamRun, growth: SelfExcitation | None, tension: Tension | None) -> ElasticDam:
+def dam_numbers(
+    shaken: ShakenDam,
+    run: DamRun,
+    growth: SelfExcitation | None,
+    tension: Tension | None,
+    assumed_rock: AssumedRock | None,
+) -> ElasticDam:
     """Return the numbers of the dam as a whole."""
     raw, dam, case = run.summary, shaken.dam, shaken.case
     coefficients = dam.damping.coefficients
@@ -178,6 +190,7 @@ def dam_numbers(shaken: ShakenDam, run: DamRun, growth: SelfExcitation | None, t
         uplift_during_shaking=case.uplift.during_shaking,
         drainage_by_motion=None,
         self_excitation=growth,
+        assumed_rock=assumed_rock,
         tension=tension,
         water_pressure=face_pressures(dam, run.frames.time, run.water),
     )
@@ -207,32 +220,12 @@ def histories_of(
 ) -> dict[str, Floats]:
     """Return the histories of the contract for a crack, frame by frame; with those of its friction `law`, and of a bond
     over its width [m]."""
-    column, result = run.all_frames[place], ground_histories(shaking, run.frames.time)
-    if law:
-        result |= {"slip_path_m": column.slip_path, "friction_strength_n": column.friction_strength}
-    if bonded_width is not None:
-        result |= {
-            "cracked_upstream_m": np.minimum(column.cracked_from_heel, bonded_width),
-            "cracked_downstream_m": np.minimum(column.cracked_from_toe, bonded_width),
-            "cracked_length_m": np.minimum(column.cracked_length, bonded_width),
-            "softening_length_m": column.softening_length,
-            "fracture_energy_j": column.energy_fracture,
-        }
-    return result | {
-        "slip_m": column.slip,
-        "slip_velocity_m_s": column.slip_velocity,
-        "gap_heel_m": column.opening_heel,
-        "gap_toe_m": column.opening_toe,
-        "rotation_rad": column.rotation,
-        "normal_force_n": column.normal_force,
-        "friction_force_n": column.friction_force,
-        "touching": column.touching,
-        "stored_energy_j": column.energy_stored,
-        "input_energy_j": column.energy_input,
-        "damping_energy_j": column.energy_damping,
-        "friction_energy_j": column.energy_friction,
-        "impact_energy_j": column.energy_impact,
-    }
+    columns = computed_columns(Histories, run.all_frames[place])
+    # The kernel adds lengths of a face that its loads have strained.
+    columns |= {name: np.minimum(columns[name], bonded_width or 0.0) for name in _CRACKED}
+    without = (*(() if law else _OF_LAWS), *(() if bonded_width is not None else (*_CRACKED, *_OF_BONDS)))
+    kept = {name: column for name, column in columns.items() if name not in without}
+    return ground_histories(shaking, run.frames.time) | kept
 
 
 def crest_of(shaken: ShakenDam, run: DamRun) -> CrestSeries:

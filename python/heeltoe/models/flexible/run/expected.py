@@ -99,10 +99,26 @@ def analysing(
         finer = with_mesh(case, 1)
         parts += building(parts_of(finer), surroundings_of(finer))
     runs = [running(case, end + min(silence, STEP), frame_step, step, counted)]
+    if case.surroundings.assumed and case.flexible.evidence != "none":
+        parts, others = _on_other_rock(case, parts, end + min(silence, STEP), frame_step, step)
+        runs.append(others)
     if silence:
         again = end if case.flexible.contact == "idce" else 0.0
         runs.append(running(case, again + silence, frame_step, step, 1.0))
     return Cost(parts.seconds + sum(run.seconds for run in runs), parts.memory + max(run.memory for run in runs))
+
+
+def _on_other_rock(case: Case, parts: Cost, end: float, frame_step: float, step: float | None) -> tuple[Cost, Cost]:
+    """Return what building costs with three dams on other rock than is assumed, two of them at once, and their runs."""
+    assert case.foundation is not None
+    dams = [case.on_rock(factor * case.foundation.modulus) for factor in (0.5, 2.0)] + [case.on_rigid_plane()]
+    built = [building(parts_of(dam), surroundings_of(dam)) for dam in dams]
+    runs = [running(dam, end, frame_step, step, 1.0) for dam in dams]
+    seconds, beside = sum(cost.seconds for cost in built), max(cost.memory for cost in built)
+    return (
+        Cost(parts.seconds + seconds, parts.memory + beside),
+        Cost(sum(run.seconds for run in runs), 2.0 * max(run.memory for run in runs)),
+    )
 
 
 def _step_of(case: Case) -> float:

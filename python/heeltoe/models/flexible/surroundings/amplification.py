@@ -149,16 +149,16 @@ def _sounding(case: Case) -> Case:
 
 
 def _rock(case: Case) -> Rock:
-    return case.rock or Rock.model_validate({"modulus": f"{case.concrete.modulus!r} Pa"})
+    return case.foundation or Rock.model_validate({"modulus": f"{case.concrete.modulus!r} Pa"})
 
 
 def _assumptions(case: Case) -> Iterator[tuple[str, dict[str, float]]]:
-    if case.rock is None:
+    if case.foundation is None or case.surroundings.assumed:
         yield (
             "The case has no [rock]: elastic rock has the modulus of the concrete, {modulus_pa:.3g GPa}.",
             {"modulus_pa": case.concrete.modulus or 0.0},
         )
-    if case.reservoir is not None and not case.reservoir.compressible:
+    if case.reservoir is not None and not case.has_sound("reservoir"):
         yield (
             "The case has water without sound: compressible water has sound of {speed_m_s:.4g m/s}, and the floor "
             "reflects {reflection:.3g} of a wave.",

@@ -33,7 +33,11 @@ def left_out(case: Case, slip: float, peak: float) -> Iterator[Notice]:
     peak
         Peak acceleration of the ground [m/s2].
     """
-    if case.rock is not None or case.has_compressible_water or abs(slip) < _LEAST:
+    around = case.surroundings
+    if case.foundation is not None or case.has_compressible_water or abs(slip) < _LEAST:
+        return
+    if around.rigid_since or around.mass_since:
+        # Another warning says that nothing could be assumed.
         return
     height = case.cut.crest_elevation - case.cut.base_elevation
     depth = 0.0 if case.reservoir is None else case.reservoir.depth / height

@@ -81,8 +81,8 @@ class SectionForces:
         first = 1.0 / float(intact_periods(parts, 1, water=False)[0])
         waves = water_body(case, parts.bodies, farthest * first)
         rock = None
-        if case.rock is not None:
-            rock = reduced_rock(intact.base, rock_material(case.rock), highest=farthest * first)
+        if case.foundation is not None:
+            rock = reduced_rock(intact.base, rock_material(case.foundation), highest=farthest * first)
         water = WaterOfDam.of(intact, parts, waves)
         return cls(intact, parts.upper, case.above.heel, case.concrete.damping, water, waves, rock, first)
 
@@ -223,7 +223,7 @@ def first_period(case: Case, field: str) -> float:
     InputError
         Where the dam has no modulus, or is damped so much that its crest has no peak.
     """
-    if case.rock is None and not case.has_compressible_water:
+    if case.foundation is None and not case.has_compressible_water:
         return float(intact_periods(bonded_dam(case), 1)[0])
     resonance = SectionForces.of(case, _FARTHEST).crest().resonance
     if resonance is None:
