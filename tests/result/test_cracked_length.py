@@ -8,13 +8,12 @@ import json
 import numpy as np
 import pytest
 
-import heeltoe
-from heeltoe import InputError, read_case, run, run_suite
+from heeltoe import InputError, run, run_suite
 from heeltoe.result.verdict import verdict
 from heeltoe.study.plan.file import Study
 from heeltoe.study.plan.plan import plan_of
 from heeltoe.views.content.study import study_answer
-from shared.dams import BASE
+from shared.dams import BASE, plane_case
 
 # Half a second of shaking, as a record of two strengths.
 PULSES = ([0.0, 0.1, 0.3, 0.5, 0.6], [0.0, 0.6, -0.9, 0.9, 0.0])
@@ -62,7 +61,7 @@ def of_record(records, name):
     """The run of one record by itself."""
     fields = copy.deepcopy(DAM)
     fields["motion"]["file"] = str(records / f"{name}.txt")
-    return run(read_case(fields), "flexible")
+    return run(plane_case(fields), "flexible")
 
 
 @pytest.fixture(scope="module")
@@ -84,7 +83,7 @@ def test_each_of_several_joints_has_its_own_check():
     fields = copy.deepcopy(DAM)
     fields["cracks"][1]["bond"] = fields["cracks"][0]["bond"] | {"tensile_strength": "0.3 MPa"}
     fields["motion"]["points"] = [[f"{t} s", f"{a} g"] for t, a in zip(*PULSES, strict=True)]
-    response = run(read_case(fields), "flexible")
+    response = run(plane_case(fields), "flexible")
     lengths = {crack.elevation: crack.joint.cracked_length_m for crack in response.cracks}
     assert {check.elevation_m: check.value for check in response.limits} == lengths
     assert len(lengths) == 2
@@ -94,7 +93,7 @@ def test_each_of_several_joints_has_its_own_check():
 def test_a_suite_says_how_far_the_joint_cracks(records, strong):
     fields = copy.deepcopy(DAM)
     fields["motion"]["file"] = str(records / "strong.txt")
-    suite = run_suite(read_case(fields), records, model="flexible", judge="largest")
+    suite = run_suite(plane_case(fields), records, model="flexible", judge="largest")
     (answer,) = suite.suite["models"]
     length = next(check.value for check in strong.limits)
     (joint,) = answer["joints"]
@@ -114,10 +113,10 @@ def test_without_a_bonded_joint_there_is_nothing_to_judge(records):
     fields = copy.deepcopy(DAM)
     del fields["cracks"][0]
     fields["motion"]["file"] = str(records / "strong.txt")
-    response = run(read_case(fields), "rigid")
+    response = run(plane_case(fields), "rigid")
     assert not response.limits
     assert any("no effect of limits.cracked_length: no crack has a bond" in str(text) for text in response.warnings)
-    (answer,) = run_suite(read_case(fields), records, model="rigid").suite["models"]
+    (answer,) = run_suite(plane_case(fields), records, model="rigid").suite["models"]
     assert (answer["joints"], answer["limits"]) == ([], [])
 
 
@@ -126,4 +125,4 @@ def test_a_fragility_curve_of_it_needs_a_bond():
         {"case": "dam", "model": "rigid", "fragility": {"limits": {"cracked_length": ["1 m"]}}}, BASE.parent
     )
     with pytest.raises(InputError, match="a bonded joint"):
-        plan_of(study, heeltoe.read_case(BASE))
+        plan_of(study, plane_case(BASE))

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfiltfilt
 
-from heeltoe import GroundMotion, flexible, read_case, rigid
+from heeltoe import GroundMotion, flexible, rigid
 from heeltoe.result.crest import ACCELERATION, DISPLACEMENT, crest_series, in_band
-from shared.dams import BASE, COARSE
+from shared.dams import BASE, COARSE, plane_case
 
 TIME = np.arange(0.0, 3.0 + 1e-9, 0.005)
 SHAKES = GroundMotion.from_points(TIME, 6.0 * np.sin(2.0 * np.pi * 2.0 * TIME))
@@ -44,7 +44,7 @@ def test_a_blow_comes_through_as_scipy_filters_it():
 @pytest.mark.parametrize("model", [rigid, flexible])
 def test_the_peak_is_the_same_for_every_output_step(model):
     """The peak of the fine histories that a filter of scipy leaves, whatever is shown."""
-    case = read_case(BASE, [*COARSE, "analysis.silence=0s"])
+    case = plane_case(BASE, [*COARSE, "analysis.silence=0s"])
     shown = {step: model(case, SHAKES, output_step=step) for step in (0.02, 0.005, 0.001)}
     peaks = [response.crest for response in shown.values()]
     assert len({peak.to_json()["acceleration_g"] for peak in peaks}) == 1
@@ -57,7 +57,7 @@ def test_the_peak_is_the_same_for_every_output_step(model):
 
 
 def test_the_crest_of_a_block_goes_with_its_slip_and_turn():
-    case = read_case(BASE)
+    case = plane_case(BASE)
     response = rigid(case, SHAKES)
     h, height = response.histories, case.cut.height
     assert h["rotation_rad"].min() < 0.0 < h["slip_m"].max()
@@ -72,7 +72,7 @@ def test_the_crest_of_a_block_goes_with_its_slip_and_turn():
 
 
 def test_the_crest_of_a_stiff_elastic_dam_that_sticks_shakes_as_the_ground():
-    stiff = read_case(BASE, ["concrete.modulus=2000 GPa", "crack.friction=3", "flexible.evidence=none"])
+    stiff = plane_case(BASE, ["concrete.modulus=2000 GPa", "crack.friction=3", "flexible.evidence=none"])
     # One that begins at once would let the dam swing in its own period, too.
     gentle = GroundMotion.from_points(TIME, 0.6 * np.sin(2.0 * np.pi * TIME) * np.sin(np.pi * TIME / TIME[-1]) ** 2)
     response = flexible(stiff, gentle)
@@ -83,7 +83,7 @@ def test_the_crest_of_a_stiff_elastic_dam_that_sticks_shakes_as_the_ground():
 def test_the_peak_of_the_crest_does_not_hang_on_where_a_motion_has_its_points():
     """A pulse by its corners, and with every point between them on the same lines."""
     corners, values = np.array([0.0, 0.2, 0.5, 1.0, 2.0]), np.array([0.0, 6.0, -5.0, 0.0, 0.0])
-    case = read_case(BASE, "crack.friction=3")
+    case = plane_case(BASE, "crack.friction=3")
     coarse = rigid(case, GroundMotion.from_points(corners, values)).crest.displacement_m
     fine = np.unique(np.concatenate([corners, np.arange(0.0, 2.0, 1e-3)]))
     response = rigid(case, GroundMotion.from_points(fine, np.interp(fine, corners, values)))

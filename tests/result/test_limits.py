@@ -12,7 +12,7 @@ from heeltoe import GroundMotion, flexible, read_case, verdict
 from heeltoe.case.options import Limits
 from heeltoe.result.limits import check_limits
 from heeltoe.result.response import Response
-from shared.dams import BASE, FAST
+from shared.dams import BASE, FAST, plane_case
 from shared.responses import with_numbers
 
 NUMBERS = {
@@ -90,7 +90,7 @@ def test_without_evidence_nothing_is_said_of_certainty(response):
 def test_where_single_runs_scatter_the_mean_is_judged():
     time = np.linspace(0.0, 2.0, 201)
     motion = GroundMotion.from_points(time, 5.0 * np.sin(2.0 * np.pi * 2.0 * time))
-    result = flexible(read_case(SCATTERS), motion)
+    result = flexible(plane_case(SCATTERS), motion)
     worth = result.evidence["residual_slip_m"]
     assert result.evidence["value_is"] == "mean"
     (check,) = result.limits

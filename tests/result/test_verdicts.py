@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heeltoe import Response, flexible, read_case, verdict
+from heeltoe import Response, flexible, verdict
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.units.write import angle, length
-from shared.dams import BASE, FAST
+from shared.dams import BASE, FAST, plane_case
 from shared.responses import with_numbers
 
 
@@ -67,7 +67,7 @@ def test_a_crack_that_opens_in_part_does_not_rock(response):
 
 def test_a_quiet_dam_stays_where_it_is():
     quiet = [*FAST, "motion.pga=0.05g", "reservoir.depth=20m"]
-    text = verdict(flexible(read_case(BASE, quiet)))
+    text = verdict(flexible(plane_case(BASE, quiet)))
     assert text.startswith("The dam does not slide.")
     assert "It has come to rest in the end." in text
     assert "strike" not in text

@@ -12,6 +12,7 @@ import shapely
 from heeltoe import run
 from heeltoe.case.at_crack import anchor_line
 from heeltoe.case.dam import Reservoir
+from heeltoe.result.histories import Histories
 from heeltoe.views.animation import look
 from heeltoe.views.animation.bodies import ACCURACY, Moments, rigid_parts
 from heeltoe.views.animation.frames import STATUSES, automatic, build_scene, round_below, shaken_sign
@@ -75,7 +76,7 @@ def test_a_block_is_carried_by_all_blocks_below_it():
     case = example("two-cracks").with_({"further_cracks": [{"elevation": "50 m"}, {"elevation": "90 m"}]})
     slips = (0.01, 0.2, 3.0)
     still = dict.fromkeys(("gap_heel_m", "gap_toe_m", "rotation_rad"), np.zeros(2))
-    histories = [{**still, "slip_m": np.array([0.0, slip])} for slip in slips]
+    histories = [Histories({**still, "slip_m": np.array([0.0, slip])}) for slip in slips]
     blocks = rigid_parts(case, histories, Moments.of(np.arange(2.0), np.arange(2.0)))
     assert len(blocks) == 3
     areas = []

@@ -14,7 +14,7 @@ from heeltoe.base.atomic_files import LISTED, files
 from heeltoe.result.write import json_text
 from heeltoe.study.small.run_table import parse_axes, run_small
 from heeltoe.views.files.write import write_all, write_overturning
-from shared.dams import BLOCK, FAST, HEIGHT, KOYNA, SHORT, SLENDER, example
+from shared.dams import BLOCK, FAST, HEIGHT, KOYNA, SHORT, SLENDER, example, plane_case
 
 
 @pytest.fixture
@@ -218,7 +218,7 @@ def test_the_crack_is_written_with_its_forces_and_statuses(both, typical_written
 @pytest.mark.parametrize(("contactors", "upper", "lower"), [(1, 5, 0), (2, 0, 7), (3, 5, 2), (4, 2, 7), (5, 5, 7)])
 def test_statuses_belong_to_the_nodes_that_are_watched(contactors, upper, lower, tmp_path):
     changes = [f"flexible.contactors={contactors}", "flexible.elements_across_below=3", "motion.duration=0.2s"]
-    response = flexible(read_case(HEIGHT, [*FAST, *changes]))
+    response = flexible(plane_case(HEIGHT, [*FAST, *changes]))
     write_all(response, tmp_path, figures={})
     first = pq.read_table(tmp_path / "crack.parquet").slice(0, 12).to_pydict()
     assert first["side"] == ["upper"] * 5 + ["lower"] * 7

@@ -18,6 +18,7 @@ from heeltoe.units.write import length
 from heeltoe.views.report.html import html
 from heeltoe.views.report.write import build_report
 from shared.command import command
+from shared.dams import plane_case
 from shared.report_reader import Reader
 from shared.studies import rows
 
@@ -63,7 +64,7 @@ def words(text):
 @pytest.fixture(scope="module")
 def file(tmp_path_factory):
     path = tmp_path_factory.mktemp("owner") / "dam.toml"
-    path.write_text(case_text(read_case(DAM).model_dump(mode="json", exclude_unset=True)), encoding="utf-8")
+    path.write_text(case_text(plane_case(DAM).model_dump(mode="json", exclude_unset=True)), encoding="utf-8")
     return path
 
 

@@ -67,7 +67,7 @@ def test_numbers_of_both_models_equal_those_of_the_json(both, document):
 def test_numbers_have_units(document):
     plain = ("factor", "friction", "ratio.", "impacts", "events", "samples", "steps", "iterations", "elements", "nodes")
     # The caption says that factors have no unit.
-    plain += ("modes", "residual", "statics.checks.", "open_contacts")
+    plain += ("modes", "residual", "statics.checks.", "open_contacts", "basis_error", "damping_ratio", "evidence.")
     for value in values(document.blocks):
         length_or_time = value.key.endswith(("_m", "_rad", "_s")) and "ratio." not in value.key
         if length_or_time or not any(word in value.key for word in plain):

@@ -41,7 +41,7 @@ def test_fragility_curves_stand_on_their_points(tmp_path):
     assert share.min() >= 0.0
     assert share.mean() == pytest.approx(fitted[0]["exceeding"] / fitted[0]["runs"], abs=0.02)
     assert "fragility" in figures
-    low, high = result.curves[0][1].within(np.array([fitted[0]["median"]]))
+    low, high = result.fragility[0].within(np.array([fitted[0]["median"]]))
     assert low[0] < 0.5 < high[0]
 
 

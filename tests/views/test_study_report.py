@@ -97,9 +97,9 @@ def test_what_failed_and_what_is_missing_come_first(tmp_path):
 
 
 def test_an_incomplete_study_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr("heeltoe.study.run.run._MOST", 20)
+    monkeypatch.setattr("heeltoe.study.run.run.MOST_OF_PART", 20)
     run_study(study_file(tmp_path, GRID), tmp_path / "out")
-    (tmp_path / "out" / "runs" / "part-00000001.parquet").unlink()
+    next((tmp_path / "out" / "runs").glob("part-00000001-*.parquet")).unlink()
     document, message = report(open_study(tmp_path / "out"), tmp_path)
     assert "Not complete 1 of 3 parts of the runs are missing." in message
     assert "Fragility" not in titles(document)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from heeltoe import flexible, read_case
+from heeltoe import flexible
 from heeltoe.result.numbers import TensionByMesh
 from heeltoe.result.tension import place_phrase, tension_sentence
 from heeltoe.result.verdict import verdict
@@ -16,7 +16,7 @@ from heeltoe.views.figures.stress.tension import tension_figure
 from heeltoe.views.report.html import html
 from heeltoe.views.report.write import build_report
 from heeltoe.views.words.response import tension_line, tension_worth
-from shared.dams import BASE, COARSE, ENDS, HEIGHT
+from shared.dams import BASE, COARSE, ENDS, HEIGHT, plane_case
 from shared.drawn import check, texts
 from shared.report_reader import Reader
 
@@ -25,7 +25,7 @@ SHORT = [*COARSE, "flexible.elements_across=4", "motion.duration=3s", ENDS]
 
 @pytest.fixture(scope="module")
 def judged():
-    return flexible(read_case(HEIGHT, [*SHORT, "concrete.tensile_strength=0.5 MPa"]))
+    return flexible(plane_case(HEIGHT, [*SHORT, "concrete.tensile_strength=0.5 MPa"]))
 
 
 def test_it_is_said_with_place_moment_and_strength(judged):
@@ -63,7 +63,7 @@ def test_the_verdict_names_it_where_the_concrete_does_not_bear_it(judged):
 
 @pytest.mark.slow
 def test_page_one_of_the_report_has_it(judged):
-    case = read_case(HEIGHT, [*SHORT, "concrete.tensile_strength=0.5 MPa"])
+    case = plane_case(HEIGHT, [*SHORT, "concrete.tensile_strength=0.5 MPa"])
     text = Reader(html(build_report(case, judged))).text
     assert re.search(r"Largest tension in the concrete\s+[\d.]+ MPa", text)
     assert re.search(r"What it bears in an earthquake\s+0\.75 MPa", text)
@@ -94,5 +94,5 @@ def test_the_figure_marks_the_place_and_the_strength(judged, units):
 
 
 def test_a_dam_that_does_not_stand_has_no_such_figure():
-    case = read_case(BASE, [*SHORT, "crack.friction=0.3"])
+    case = plane_case(BASE, [*SHORT, "crack.friction=0.3"])
     assert "tension" not in all_figures(case, flexible(case))

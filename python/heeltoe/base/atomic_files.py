@@ -5,7 +5,8 @@ cannot be renamed in one moment: they are written into one directory aside, whic
 one moment, and from then on the new result is the one that counts. Its files then move to their places, the last of
 them the list of all files of ours, ``.heeltoe-files``. A process that is killed before leaves the old result; one that
 is killed after leaves the new one, some of it still in ``.heeltoe-ready``, and the next run into this directory moves
-that, too (:func:`settle`). What is on that list may be replaced or removed by later runs, nothing else.
+that, too (:func:`settle`), if it was written here by this user: a folder of a stranger may hold one as well. What is on
+that list may be replaced or removed by later runs, nothing else.
 
 Every directory aside is locked as long as the process that fills it is alive: the next one removes what is not.
 """
@@ -34,6 +35,7 @@ LISTED = ".heeltoe-files"
 """The list of our files in a directory, one in a line."""
 READY = ".heeltoe-ready"
 """A new result that is complete, on its way to its places."""
+_MARK = ".heeltoe-mark"
 _ASIDE = ".heeltoe-"
 # Signals that interrupt or end a command; some systems have fewer of them.
 _SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
@@ -96,6 +98,23 @@ def check_inside(directory: Path, place: Path, field: str) -> None:
     for part in (inner, *inner.parents[:-1]):
         if (directory / part).is_symlink():
             raise InputError("cannot-write", field, place, reason="a link leads out of the directory")
+
+
+def mark(ready: Path) -> None:
+    """Write into a complete result where it is: a copy of it, or one out of an archive, is another directory."""
+    (ready / _MARK).write_text(str(ready.stat().st_ino), encoding="utf-8")
+
+
+def _is_ours(ready: Path) -> bool:
+    """Whether this user wrote a complete result, here."""
+    here = ready.stat()
+    if sys.platform != "win32" and here.st_uid != os.geteuid():
+        return False
+    try:
+        return (ready / _MARK).read_text(encoding="utf-8") == str(here.st_ino)
+    except (OSError, UnicodeDecodeError):
+        # Nothing but directories is what a removal leaves that did not come to its end.
+        return all(path.is_dir() and not path.is_symlink() for path in ready.rglob("*"))
 
 
 @contextmanager
@@ -220,6 +239,7 @@ def _publish(fresh: Path, directory: Path, own: Sequence[str], field: str) -> li
             check_inside(directory, directory / name, field)
         kept = [name for name in listed if not any(fnmatch(PurePosixPath(name).name, pattern) for pattern in own)]
         (fresh / LISTED).write_text("".join(f"{name}\n" for name in sorted({*kept, *names})), encoding="utf-8")
+        mark(fresh)
         with _uninterrupted():
             fresh.rename(directory / READY)
             _move_in(directory)
@@ -227,10 +247,18 @@ def _publish(fresh: Path, directory: Path, own: Sequence[str], field: str) -> li
 
 
 def _move_in(directory: Path) -> None:
-    """Move a result that is complete to its places; interrupted anywhere, this can be done again."""
+    """Move a result that is complete to its places; interrupted anywhere, this can be done again.
+
+    Raises
+    ------
+    InputError
+        Where a stranger may have written it, or one of its places is behind a link.
+    """
     ready = directory / READY
     if not ready.is_dir() or ready.is_symlink():
         return
+    if not _is_ours(ready):
+        raise InputError("left-over", "--out", ready)
     if (ready / LISTED).is_file():
         gone = set(files(directory)) - set((ready / LISTED).read_text(encoding="utf-8").splitlines())
         for name in gone:
@@ -238,7 +266,7 @@ def _move_in(directory: Path) -> None:
             for folder in (directory / name).relative_to(directory).parents[:-1]:
                 with suppress(OSError):  # it holds more
                     (directory / folder).rmdir()
-        for source in sorted(path for path in ready.rglob("*") if path.is_file() and path != ready / LISTED):
+        for source in sorted(path for path in ready.rglob("*") if path.is_file() and path.name not in (LISTED, _MARK)):
             place = directory / source.relative_to(ready)
             check_inside(directory, place, "--out")
             place.parent.mkdir(parents=True, exist_ok=True)

@@ -10,6 +10,7 @@ What follows from other fields is a property with such an annotation, and stands
 
 from __future__ import annotations
 
+import re
 import types
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
@@ -19,6 +20,9 @@ from typing import Annotated, Any, Literal, NamedTuple, Union, dataclass_transfo
 import numpy as np
 
 from heeltoe.base.frozen import FrozenList
+
+#: So many places of a list of numbers stand in a table.
+LISTED = 6
 
 
 @dataclass(frozen=True)
@@ -38,6 +42,11 @@ class Number:
     meaning: str
     unit: str = ""
     optional: bool = False
+
+    @property
+    def full(self) -> str:
+        """What a row of it in a table is called: its meaning up to a colon or semicolon."""
+        return re.split("[:;] ", self.meaning)[0].removesuffix(".")
 
 
 @dataclass_transform(kw_only_default=True, frozen_default=True, eq_default=False, field_specifiers=(field,))
@@ -129,6 +138,26 @@ def _optional(kind: type) -> dict[str, bool]:
 
 def _annotated(hint: Any) -> bool:
     return get_origin(hint) is Annotated
+
+
+def ending_of(unit: str) -> str:
+    """Return how the name of a number of this unit ends."""
+    ending = unit.partition(" per ")[0].lower().replace("n m", "nm").replace("²", "2")
+    return "_" + re.sub("[ /]", "_", ending) if unit else ""
+
+
+def numbers_in(kind: type, above: str = "") -> Iterator[tuple[str, str, str]]:
+    """Walk label, path and unit of all numbers of a block, with those of the blocks that it always has; of a list those
+    of its first :data:`LISTED` places."""
+    for name, hint, number in entries(kind):
+        path, label = f"{above}{name}", number.full[:1].upper() + number.full[1:]
+        kinds = set(get_args(hint)) if get_origin(hint) in (Union, types.UnionType) else {hint}
+        if isinstance(hint, type) and is_dataclass(hint):
+            yield from numbers_in(hint, f"{path}.")
+        elif kinds & {float, int}:
+            yield label, path, number.unit
+        elif kinds & {list[float], list[int]}:
+            yield from ((f"{label}, {place + 1}", f"{path}.{place}", number.unit) for place in range(LISTED))
 
 
 def described(kind: type, above: str = "") -> Iterator[tuple[str, Number]]:

@@ -8,6 +8,31 @@ from typing import Any, NoReturn
 import numpy as np
 
 
+class ReadOnlyArrays:
+    """Holds arrays that nobody writes to, nor to those of its copies."""
+
+    def __post_init__(self) -> None:
+        """Take the arrays as views that are read-only."""
+        for name, value in vars(self).items():
+            if isinstance(value, np.ndarray):
+                object.__setattr__(self, name, _read_only(value))
+            elif isinstance(value, tuple) and any(isinstance(item, np.ndarray) for item in value):
+                object.__setattr__(self, name, tuple(map(_read_only, value)))
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Take what was pickled or copied; arrays come back as ones that can be written to."""
+        vars(self).update(state)
+        ReadOnlyArrays.__post_init__(self)
+
+
+def _read_only(value: Any) -> Any:
+    if not isinstance(value, np.ndarray) or not value.flags.writeable:
+        return value
+    view = value.view()
+    view.flags.writeable = False
+    return view
+
+
 class FrozenDict(Mapping[str, Any]):
     """A mapping of names to values; its arrays are read-only."""
 

@@ -16,7 +16,7 @@ from rich.console import Console
 from typer.core import TyperGroup
 
 from heeltoe.base.atomic_files import check_file, write_text
-from heeltoe.cli.streams import console, print_data
+from heeltoe.cli.streams import console, end_if_deaf, print_data
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 from heeltoe.result.outcome import NO_RESULT as NO_RESULT
@@ -24,6 +24,7 @@ from heeltoe.units.systems import unit_system
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
+    from heeltoe.models.flexible.body.cost import Cost
     from heeltoe.study.run.run import Progress as StudyProgress
 
 # Typer shows this class of its click by its heirs alone.
@@ -80,6 +81,8 @@ BUG = 1
 BAD_INPUT = 2
 INTERRUPTED = 130
 LONGEST_PATH = 5000
+# What takes longer says so before it starts [s].
+_A_WAIT = 5.0
 
 CasePath = Annotated[str, typer.Argument(metavar="CASE.toml", help="The case file (TOML or JSON).")]
 Changes = Annotated[
@@ -225,6 +228,17 @@ def say_files(done: str, paths: Sequence[Path], words: Console) -> None:
 def say_file(done: str, path: Path, words: Console) -> None:
     """Say what was done to a file."""
     words.print(f"  {done} {plain(path, LONGEST_PATH)}", soft_wrap=True, markup=False)
+
+
+def say_cost(case: Case, cost: Cost | None) -> None:
+    """Say what a run of a case will take, where somebody would wait for it without a word; what takes more than the
+    case allows is refused."""
+    end_if_deaf()
+    if cost is not None and cost.seconds > _A_WAIT and cost.within(case):
+        from heeltoe.models.flexible.body.cost import shown_cost
+
+        words = f"heeltoe: takes about {shown_cost(cost)} of memory; Ctrl-C ends it"
+        console(stderr=True).print(words, soft_wrap=True, markup=False)
 
 
 @contextmanager

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -29,6 +29,9 @@ from heeltoe.cli.streams import console
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 
+if TYPE_CHECKING:
+    from rich.console import Console
+
 
 def periods(
     case: CasePath,
@@ -48,7 +51,7 @@ def periods(
     """Print the vibration periods of the intact dam and of the parts above and below its crack."""
     from heeltoe.case.read import read_case
     from heeltoe.models.flexible.body.periods import dam_periods
-    from heeltoe.views.terminal.dam import about_dam, print_periods
+    from heeltoe.views.terminal.dam import about_dam, print_drawing, print_periods
 
     check_units(units)
     if out is not None and not response:
@@ -69,12 +72,12 @@ def periods(
         from heeltoe.views.files.write import write_amplification
 
         written = write_amplification(periods.title, periods.amplification, out)
-    finish(
-        periods.to_json(),
-        json_,
-        written,
-        lambda console: print_periods(periods, console, dam, details=details, units=shown),
-    )
+
+    def show(console: Console) -> None:
+        print_periods(periods, console, dam, details=details, units=shown)
+        print_drawing(loaded, console, shown)
+
+    finish(periods.to_json(), json_, written, show)
 
 
 def overturning(
@@ -90,7 +93,7 @@ def overturning(
     from heeltoe.case.read import read_case
     from heeltoe.study.small.overturning import overturning_map
     from heeltoe.views.files.write import OVERTURNING, write_overturning
-    from heeltoe.views.terminal.dam import about_dam, print_overturning
+    from heeltoe.views.terminal.dam import about_dam, print_drawing, print_overturning
 
     check_units(units)
     loaded = read_case(case, list(set_ or []))
@@ -100,8 +103,13 @@ def overturning(
         say(f"running {count * count} pulses")
         overturning = overturning_map(loaded, pulse, count=count)
         written = write_overturning(overturning, out)
-    dam = about_dam(loaded, units_of(loaded, units))
-    finish(overturning.to_json(), json_, written, lambda console: print_overturning(overturning, console, dam))
+    in_units = units_of(loaded, units)
+
+    def show(console: Console) -> None:
+        print_overturning(overturning, console, about_dam(loaded, in_units))
+        print_drawing(loaded, console, in_units)
+
+    finish(overturning.to_json(), json_, written, show)
 
 
 def animate(

@@ -22,7 +22,7 @@ from heeltoe.cli import solve as solve_command
 from heeltoe.cli import statics as statics_command
 from heeltoe.cli import study as study_command
 from heeltoe.cli.common import BAD_INPUT, BUG, INTERRUPTED, LONGEST_PATH, NO_RESULT, app
-from heeltoe.cli.streams import console, streams
+from heeltoe.cli.streams import streams
 from heeltoe.errors.error import InputError, UnfinishedError
 from heeltoe.errors.sanitize import plain
 
@@ -99,16 +99,6 @@ def _options(
     pass
 
 
-def validate(
-    name: Annotated[str | None, typer.Argument(help="Reference case to recompute (default: all).")] = None,
-) -> None:
-    """Recompute the reference cases: reference, ours, deviation, verdict."""
-    from heeltoe.validation.table import run_all
-
-    if not run_all(name, console()):
-        raise typer.Exit(1)
-
-
 def new(
     name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the case; NAME.toml is written.")],
 ) -> None:
@@ -156,7 +146,6 @@ for command in (
     study_command.study,
     app_command.app,
     explain_command.explain,
-    validate,
     new,
     examples,
 ):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,7 +11,7 @@ import typer
 
 from heeltoe.cli.common import Details, JsonPath, UnitsName, check_json, finish
 from heeltoe.cli.streams import console
-from heeltoe.errors.error import InputError
+from heeltoe.errors.error import InputError, shown
 from heeltoe.errors.sanitize import plain
 from heeltoe.units.parse import STANDARD_GRAVITY, parse
 from heeltoe.units.systems import unit_system
@@ -36,6 +37,12 @@ def motion(
     channel: Annotated[
         str | None, typer.Option(help="Channel to read from a multi-channel file (number or direction).")
     ] = None,
+    layout: Annotated[
+        str | None, typer.Option(metavar="rows|columns", help="How the numbers of a plain table run.")
+    ] = None,
+    factor: Annotated[
+        float | None, typer.Option(help="Factor of a header by which to multiply the values, or 1 if they contain it.")
+    ] = None,
     match: Annotated[
         str | None,
         typer.Option(metavar="en1998:0.3g,B | asce7:0.9g,0.4g,8s | FILE", help="Match the motion to this spectrum."),
@@ -53,13 +60,13 @@ def motion(
     details: Details = False,
     list_: Annotated[bool, typer.Option("--list", help="List the records available by name.")] = False,
 ) -> None:
-    """Print what is in a record, or its components: peaks, intensity measures, origin, warnings.
+    """Print what is in a record, its components, or a folder of them: peaks, intensity measures, origin, warnings.
 
     With --out or --figure it draws them, too.
 
-    Formats: PEER AT2, COSMOS and CSMIP V2, USGS SMC, K-NET, ESM and ITACA ASC, AFAD, GeoNet V1A and V2A, USC V2,
-    CSMNC, UNAM, BHRC and RENADIC V1, columns with or without a header, miniSEED and SAC (with
-    the package obspy); all of them also in zip, tar, gz or bz2.
+    Formats: PEER AT2, COSMOS and CSMIP V2, USGS SMC, K-NET, CWA and CWB, ESM and ITACA ASC, AFAD, GeoNet V1A and V2A,
+    USC V2, CSMNC, UNAM and CICESE, V1 of CSMIP, USC, BHRC and RENADIC, tables with any header, miniSEED and SAC
+    (with the package obspy); all of them also in zip, tar, gz or bz2.
     """
     from heeltoe.motion.records.catalog import available
 
@@ -72,14 +79,21 @@ def motion(
     if not files:
         raise InputError("record-missing", "FILE-or-NAME")
     check_json(json_)
-    motions = [motion for file in files for motion in _motions(file, unit, time_step, channel)]
+    folders = [file for file in files if os.path.isdir(file)]
+    read = [motion for file in files for motion in _motions(file, unit, time_step, channel, layout, factor)]
+    motions = _called_apart(read)
     misfits: list[Misfit] = []
     matches: list[Matched] | None = None
     if match is not None:
         motions, misfits, matches = _matched(motions, match)
     written = _written(motions, matches, out, figure, units)
     data = {} if json_ is None else _json(motions, misfits)
-    finish(data, json_, written, lambda shown: _show(motions, misfits, shown, units, len(files) > 1, details))
+    finish(
+        data,
+        json_,
+        written,
+        lambda shown: _show(motions, misfits, shown, units, len(files) > 1 and not folders, details),
+    )
 
 
 def _show(
@@ -133,6 +147,7 @@ def _json(motions: list[GroundMotion], misfits: list[Misfit]) -> dict[str, Any]:
 
 def _matched(motions: list[GroundMotion], text: str) -> tuple[list[GroundMotion], list[Misfit], list[Matched]]:
     """Match each motion to a spectrum, as far as that goes and the motion lasts."""
+    from heeltoe.motion.check import check_scaling
     from heeltoe.motion.matching import match_known_band
     from heeltoe.motion.targets import target_of
     from heeltoe.views.figures.motion import Matched
@@ -140,7 +155,12 @@ def _matched(motions: list[GroundMotion], text: str) -> tuple[list[GroundMotion]
     target = target_of(text, "--match")
     pairs = [match_known_band(motion, target) for motion in motions]
     records = [motion.scaled(misfit.scale) for motion, (_, misfit) in zip(motions, pairs, strict=True)]
-    return [pair for pair, _ in pairs], [misfit for _, misfit in pairs], [Matched(target, record) for record in records]
+    # What is said of its peak is said of any motion that is shown.
+    looked_at = [
+        matched.with_warnings(*check_scaling(motion, misfit.scale, "--match"))
+        for motion, (matched, misfit) in zip(motions, pairs, strict=True)
+    ]
+    return looked_at, [misfit for _, misfit in pairs], [Matched(target, record) for record in records]
 
 
 def _written(
@@ -183,22 +203,61 @@ def _columns(motion: GroundMotion) -> str:
     return f"{header}# time [s], acceleration [g]\n" + "".join(f"{t:.6f} {a:.9e}\n" for t, a in rows)
 
 
-def _motions(file: str, unit: str | None, time_step: str | None, channel: str | None) -> list[GroundMotion]:
-    """Read what is to be looked at: all channels of a file, the one wanted, or a motion made to order."""
+def _motions(
+    file: str, unit: str | None, time_step: str | None, channel: str | None, layout: str | None, factor: float | None
+) -> list[GroundMotion]:
+    """Read what is to be looked at: all channels of a file, or of all in a folder, the one wanted, or a motion made to
+    order."""
     from heeltoe.motion.records import read_channels, read_record
     from heeltoe.motion.records.catalog import PREFIX, find
     from heeltoe.motion.scenario import synthetic
 
+    given = {"--unit": unit, "--time-step": time_step, "--channel": channel, "--layout": layout, "--factor": factor}
     if file.startswith(PREFIX):
-        for option, value in (("--unit", unit), ("--time-step", time_step), ("--channel", channel)):
+        for option, value in given.items():
             if value is not None:
                 raise InputError("synthetic-option", option)
         return [synthetic(file, field="FILE-or-NAME")]
     step = None if time_step is None else parse(time_step, "duration", "--time-step")
+    if layout not in (None, "rows", "columns"):
+        raise InputError("not-a-choice", "--layout", shown(layout), choices='"rows" or "columns"')
+    if os.path.isdir(file):
+        return [
+            motion
+            for path in _files_of(file)
+            for motion in _accelerations(path, unit, time_step, channel, layout, factor)
+        ]
     path = find(file, Path.cwd(), field="FILE-or-NAME")
+    options = {"unit": unit, "time_step": step, "layout": layout, "factor": factor}
     if channel is None:
-        return read_channels(path, unit=unit, time_step=step)
-    return [read_record(path, channel, unit=unit, time_step=step, assume=True)]
+        return read_channels(path, **options)  # type: ignore[arg-type]
+    return [read_record(path, channel, **options, assume=True)]  # type: ignore[arg-type]
+
+
+def _files_of(folder: str) -> list[str]:
+    """Return the files of records in a folder as it was downloaded."""
+    from heeltoe.study.plan.motions import records_of
+
+    return records_of(folder, Path.cwd(), "FILE-or-NAME")
+
+
+def _accelerations(file: str, *options: Any) -> list[GroundMotion]:
+    """Read a file of a folder; velocities and displacements are left out."""
+    try:
+        return _motions(file, *options)
+    except InputError as error:
+        if error.code != "record-not-acceleration":
+            raise
+        return []
+
+
+def _called_apart(motions: list[GroundMotion]) -> list[GroundMotion]:
+    """Return motions with a name each: files of one name that differ in their ending are called with it."""
+    names = [motion.name for motion in motions]
+    return [
+        replace(motion, name=f"{motion.name}{Path(motion.source).suffix}") if names.count(motion.name) > 1 else motion
+        for motion in motions
+    ]
 
 
 def _file_name(name: str) -> str:

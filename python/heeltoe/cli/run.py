@@ -26,11 +26,13 @@ from heeltoe.cli.common import (
     motion_changes,
     refuse,
     removed_files,
+    say_cost,
     status,
     units_of,
 )
 from heeltoe.cli.many import Suite, run_suite_command
 from heeltoe.cli.options import RunOptions
+from heeltoe.cli.streams import end_if_deaf
 from heeltoe.errors.error import InputError
 
 if TYPE_CHECKING:
@@ -202,8 +204,10 @@ def _run(path: str, changes: FieldChanges, reverse: bool, output_step: str | Non
         if request.vary:
             result = _table(path, changes, request, step, say)
         else:
+            from heeltoe.models.run import cost_of
             from heeltoe.study.small.analysis import analyse
 
+            say_cost(case, cost_of(case, request.model, step, runs if isinstance(runs, int) else 0))
             result = analyse(case, request.model, output_step=step, spread=runs, say=say)
         # Files first: if they cannot be written that is all there is to say.
         earlier = [] if place is None else files(place)
@@ -259,6 +263,7 @@ def _table(
     def progress(done: int, of: int) -> None:
         say(f"running the {request.model} model, {done} of {of} runs done")
 
+    end_if_deaf()
     return run_small(path, changes, parse_axes(request.vary or []), run_one, cost=cost, progress=progress)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -22,6 +22,9 @@ from heeltoe.cli.common import (
     units_of,
 )
 from heeltoe.errors.error import InputError, shown
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 
 def solve(
@@ -46,6 +49,7 @@ def solve(
     from heeltoe.case.read import read_case
     from heeltoe.study.small.solve import solve as solve_case
     from heeltoe.views.files.write import SOLVED, write_solved
+    from heeltoe.views.terminal.dam import print_drawing
     from heeltoe.views.terminal.small import print_solved
 
     check_units(units)
@@ -62,8 +66,11 @@ def solve(
             loaded, field, until, model=model, between=None if ends is None else (ends[0], ends[1]), progress=say
         )
         written = [] if out is None else write_solved(solution, out, in_units)
-    finish(
-        solution.to_json(), json_, written, lambda console: print_solved(solution, console, in_units, details=details)
-    )
+
+    def show(console: Console) -> None:
+        print_solved(solution, console, in_units, details=details)
+        print_drawing(loaded, console, in_units)
+
+    finish(solution.to_json(), json_, written, show)
     if not solution.crossings:
         raise typer.Exit(NO_RESULT)

@@ -11,6 +11,7 @@ import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from types import FrameType
 
 from rich.console import Console
 
@@ -20,6 +21,10 @@ from heeltoe.errors.error import InputError
 _NARROWEST, _USUAL = 20, 80
 # Signals that ask a command to end.
 _ENDINGS = ("SIGTERM", "SIGHUP")
+#: So long Python may not hear of an interruption [s].
+_PATIENCE = 1.5
+# Where signals are written to, while a command listens for an interruption beside Python.
+_LISTENING: list[int] = []
 # What the system says of streams and files that cannot be written.
 _NOT_WRITTEN = (
     *(errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF, errno.EPIPE, errno.EINVAL, errno.EAGAIN),
@@ -61,6 +66,7 @@ def streams() -> Iterator[None]:
         try:
             yield
         finally:
+            _listen_no_more()
             sys.stdout.flush()
     except OSError as error:
         if error.errno not in _NOT_WRITTEN:
@@ -76,6 +82,34 @@ def streams() -> Iterator[None]:
             signal.signal(number, signal.SIG_DFL)
         if before is not None:
             signal.signal(signal.SIGPIPE, before)
+
+
+def end_if_deaf() -> None:
+    """Let Ctrl-C end a command within two seconds even where it is deep in a library that does not look out for it:
+    what it has written stays whole, and what it has put aside the next one removes."""
+    if sys.platform == "win32" or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        return
+    from heeltoe.kernel import interruption
+
+    reading, writing = os.pipe()
+    os.set_blocking(writing, False)
+    signal.set_wakeup_fd(writing, warn_on_full_buffer=False)
+    interruption.end_if_deaf(reading, _PATIENCE)
+
+    def interrupted(number: int, frame: FrameType | None) -> None:
+        interruption.hear_interruption()
+        signal.default_int_handler(number, frame)
+
+    signal.signal(signal.SIGINT, interrupted)
+    _LISTENING.append(writing)
+
+
+def _listen_no_more() -> None:
+    """Leave the signals as they were: a command may run in a program that goes on."""
+    while _LISTENING:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        signal.set_wakeup_fd(-1)
+        os.close(_LISTENING.pop())
 
 
 def _end(number: int, _: object) -> None:

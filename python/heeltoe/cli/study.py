@@ -21,7 +21,7 @@ from heeltoe.cli.common import (
     units_of,
 )
 from heeltoe.cli.many import Output, run_many
-from heeltoe.cli.streams import console
+from heeltoe.cli.streams import console, end_if_deaf
 from heeltoe.errors.sanitize import plain
 
 
@@ -56,6 +56,7 @@ def study(
 
     check_json(json_)
     check_units(units)
+    end_if_deaf()
     read = read_study(file)
     if dry_run:
         expected = outlook(plan_of(read), os.cpu_count() or 1)

@@ -54,6 +54,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "override-form": ("{value} does not set a field", "write PATH=VALUE, for example crack.friction=1.0"),
     "unit-missing": ("{value} has no unit", "write for example {example}"),
     "unit-unknown": ("{value} has the unknown unit {unit}", "write for example {example}"),
+    "density-weight": (
+        "{value} is a weight for each volume, not a density",
+        "divide it by one g, 9.80665 m/s^2: {density}",
+    ),
     "unit-ton": (
         "{value} may mean the metric ton of 1000 kg or the one of 2000 lb",
         'write "t" (or "tonne") for the metric one, "short_ton" for the other',
@@ -95,6 +99,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     # motion
     "motion-short": ("has {value} samples", "give a record with at least two moments"),
     "motion-not-finite": ("value {number} is {value}", "give a record of finite numbers"),
+    "motion-no-numbers": (
+        "its {value} is of {kind}",
+        "give an array of numbers: times in seconds from the first, accelerations in m/s2",
+    ),
     "motion-order": ("its time goes back from {before} to {value}", "give the samples in order of time"),
     "motion-zero": ("the ground motion is zero throughout", "give another record, or set motion.allow_zero = true"),
     "motion-peak": ("{name} peaks at {value}, beyond any earthquake", "check its unit (motion.unit) and its values"),
@@ -287,7 +295,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "animation-frames": ("{value} frames are too many", "show less, or faster; {most} are possible"),
     "animation-nothing": ('has no histories (outcome "{value}")', "show a run that has started"),
     "animation-package": ("videos need the package imageio-ffmpeg", "pip install imageio-ffmpeg"),
-    "no-such-validation": ("{value} is not a reference case", "choose one of {names}"),
     "file-not-sent": ("{value} has not been sent", "send it with the case file, or name a record of the catalogue"),
     "record-missing": ("is required but missing", "give a file or a name, or --list"),
     "file-exists": ("already exists", "give another name, or remove it first"),
@@ -297,6 +304,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "not-ours": (
         "{value} is there, and no earlier run listed it as its own",
         "give another directory, or empty this one (an older heeltoe listed nothing)",
+    ),
+    "left-over": (
+        "{value} is a result that was not written here, or by another user, and is not completed",
+        "remove it, or move its files yourself",
     ),
     "not-a-directory": ("{value} is a file", "give a directory"),
     "no-room": (

@@ -21,7 +21,52 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
     ),
     "record-factor": (
         "its header has the factor {value}, and does not say whether the values contain it",
-        "apply it to the values, or not, and take it out of the header",
+        "say in {factor_field} what they are multiplied by: this factor, 1 over it, or 1 where they contain it",
+    ),
+    "record-factor-none": ("{value} is given, and the header of {name} has no factor", "remove it"),
+    "record-factor-other": (
+        "{value} is neither 1 nor what the header of {name} states, {stated}",
+        "give the factor, 1 over it where it is a sensitivity, or 1 where the values contain it",
+    ),
+    "record-table": (
+        "is a table of a spectrum, of hazard or of a list by its heading {value}, and no record",
+        "give the acceleration over time",
+    ),
+    "record-one-sided": (
+        "never changes its sign, and no word in it says that it is an acceleration over time: it may be a spectrum",
+        "give the acceleration over time, with names above its columns, as in `time [s], acceleration [g]`",
+    ),
+    "record-layout": (
+        "states {value} values, has {rows} rows of {width}, and does not say clearly how they run",
+        'say motion.layout = "rows" where they run along the rows, or "columns", or correct the number or the names',
+    ),
+    "record-layout-time": (
+        "{value} makes values of the times that the first column of {name} has",
+        'remove it, or say "columns"',
+    ),
+    "record-time-column": (
+        "has two columns, of which the first is no time: it goes back, or has unequal steps without a name",
+        "name the columns, as in `time [s], acceleration [g]`, or say motion.layout",
+    ),
+    "record-steps-stated": (
+        "states two time steps, {value} and {other}",
+        "correct the one that is not that of its values",
+    ),
+    "record-step-differs": (
+        "states a step of {value}, but its times are {found} apart",
+        "correct the one that is wrong",
+    ),
+    "record-times-repeat": (
+        "has {value} times that repeat the one before: they have too few digits, or rows are missing",
+        "give times with more digits, or the accelerations alone with their step",
+    ),
+    "record-duration": (
+        "lasts {value}, and its header states {stated}",
+        "check its time step and whether all of it is there, or correct its header",
+    ),
+    "record-peak-far": (
+        "peaks at {value} in its own unit, and its header states {stated}",
+        "check its unit, its columns and whether all of it is there, or correct its header",
     ),
     "record-time-unit": (
         "its times are in {value}, which is not a unit of time that heeltoe reads",
@@ -33,7 +78,8 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
     ),
     "record-columns": (
         "has {value} columns of numbers, and no line above them that names each",
-        "name them there, as in `time [s], NS [g], EW [g]`, or keep two of them, time and acceleration, or one",
+        'name them there, as in `time [s], NS [g], EW [g]`, or say motion.layout = "rows" where one series runs along '
+        "the rows",
     ),
     "record-counts-samples": (
         "its first column counts the samples and is no time",
@@ -47,6 +93,10 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
         "{name} moves the ground at {value} or by {displacement}, more than {limit} or {farthest}: no earthquake does",
         "check its time step and its unit, or take its drift out by motion.processing (baseline or band-pass)",
     ),
+    "motion-gravity": (
+        "{name} rests at {value}: gravity is in it, as its sensor feels it",
+        "take it out by motion.processing, by a band-pass from some 0.1 Hz, or give the corrected record",
+    ),
     "motion-one": ("is of one motion, and here are {value}", "give one file, or choose one by --channel"),
     "target-form": (
         "{value} names no spectrum",
@@ -57,6 +107,10 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
         "write period [s], period [ms] or frequency [Hz] above it",
     ),
     "target-unit": ("does not state the unit of its accelerations", "say it above them, as in # period [s], Sa [g]"),
+    "record-workbook": (
+        "is a workbook of a spreadsheet program, which is not read",
+        "save the sheet with the record as CSV, or as text with tabs, and give that",
+    ),
     "record-archive": ("is an archive that cannot be read ({reason})", "unpack it and give the record"),
     "record-archive-empty": ("holds no record that can be read", "give an archive of records"),
     "record-package": ("needs the package obspy, which is not installed", "pip install obspy"),

@@ -55,6 +55,16 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
     "study-version": ("was written by another version of heeltoe ({value})", "read it with that one"),
     "study-not-there": ("is not the directory of a study", "give what `heeltoe study FILE --out DIR` has written"),
     "study-unreadable": ("does not say what study it is ({reason})", "give another directory, or restore the file"),
+    "study-damaged": ("is damaged: its checksum is another one", "give another directory, or restore the file"),
+    "study-part": (
+        "holds other runs than were written there: it is damaged, or belongs elsewhere",
+        "compute them anew: `heeltoe study FILE --out DIR --resume`",
+    ),
+    "study-no-workers": (
+        "the scheduler at {value} has had no worker for {seconds} s",
+        "start some: `dask worker {value}`, or leave --scheduler out",
+    ),
+    "study-no-runs": ("has no runs yet", "run the study: `heeltoe study FILE --out DIR --resume`"),
     "study-no-grid": ("a study by {value} has no axes of a grid", "take to_pandas"),
     "study-no-answer": ("a study by {value} has no such answer", 'run one with method = "{method}"'),
     "study-measure": ("{value} is not a measure of its motions", "known are {known}"),
@@ -103,6 +113,8 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
     "dams-unreadable": ("{value} cannot be read ({reason})", "give a CSV file in UTF-8"),
     "dams-empty": ("{value} has no dams", "write a header with fields, and a row for each dam"),
     "dams-row": ("has {value} cells, the header {count}", "give each dam as many cells as the header has"),
+    "dams-name": ("{value} is the name of {count} dams", "give each dam a name of its own"),
+    "dams-letter": ("the name {value} holds a letter that cannot be shown", "write it without"),
     "dams-unit": ("holds words, which have no unit ({value})", "leave the unit out of the header"),
     # fields that are solved for
     "solve-until": ("{value} is not a limit of the case", "write NAME = VALUE with one of {names}"),

@@ -13,6 +13,7 @@ import numpy as np
 import shapely
 
 from heeltoe.base.arrays import Floats, number, ratio
+from heeltoe.base.frozen import ReadOnlyArrays
 from heeltoe.errors.error import InputError, shown
 
 ON_LINE = 1e-9
@@ -33,7 +34,7 @@ class Edge(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class CutSection:
+class CutSection(ReadOnlyArrays):
     """The part of the section above the crack, x downstream and z up, in the coordinates of the case.
 
     Parameters

@@ -126,9 +126,9 @@ class BlockEvents:
     approach_slip_velocity: Final[Floats]
     approach_velocity_heel: Final[Floats]
     approach_velocity_toe: Final[Floats]
-    impulse_friction: Final[Floats]
-    impulse_heel: Final[Floats]
-    impulse_toe: Final[Floats]
+    friction_impulse: Final[Floats]
+    heel_impulse: Final[Floats]
+    toe_impulse: Final[Floats]
     energy_lost: Final[Floats]
 
     def by_name(self) -> dict[str, Floats]:
@@ -367,6 +367,21 @@ def run_rigid_many(
     between them; then ``crest_displacement`` and ``crest_acceleration`` are among them.
     """
 
+def end_if_deaf(descriptor: int, seconds: float) -> None:
+    """End this process, with exit code 130, where Python does not hear of an interruption for so long: it may be deep
+    in a library. Not on Windows.
+
+    Parameters
+    ----------
+    descriptor
+        Of a pipe from which signals are read, see `signal.set_wakeup_fd`.
+    seconds
+        How long Python has.
+    """
+
+def hear_interruption() -> None:
+    """Say that Python has heard. Not on Windows."""
+
 def spectrum(time: Floats, ground: Floats, periods: Floats, damping: float) -> Floats:
     """Return (k, 2): largest relative displacement [m] and total acceleration [m/s2] of oscillators.
 
@@ -503,8 +518,8 @@ class DamSummary:
     slip_velocity: Final[float]
     rotation_max: Final[float]
     rotation_min: Final[float]
-    opening_heel: Final[float]
-    opening_toe: Final[float]
+    opening_upstream: Final[float]
+    opening_downstream: Final[float]
     penetration: Final[float]
     slip_sliding: Final[float]
     slip_slide_rocking: Final[float]
@@ -562,26 +577,26 @@ class DamFrames:
     slip: Final[Floats]
     slip_velocity: Final[Floats]
     rotation: Final[Floats]
-    opening_heel: Final[Floats]
-    opening_toe: Final[Floats]
+    gap_heel: Final[Floats]
+    gap_toe: Final[Floats]
     normal_force: Final[Floats]
     friction_force: Final[Floats]
     touching: Final[Floats]
     state: Final[Floats]
-    energy_stored: Final[Floats]
-    energy_input: Final[Floats]
-    energy_damping: Final[Floats]
-    energy_impact: Final[Floats]
-    energy_friction: Final[Floats]
-    energy_numerical: Final[Floats]
+    stored_energy: Final[Floats]
+    input_energy: Final[Floats]
+    damping_energy: Final[Floats]
+    impact_energy: Final[Floats]
+    friction_energy: Final[Floats]
+    numerical_energy: Final[Floats]
     slip_path: Final[Floats]
     friction_strength: Final[Floats]
-    energy_fracture: Final[Floats]
-    energy_boundary: Final[Floats]
-    energy_floor: Final[Floats]
-    energy_far_end: Final[Floats]
-    cracked_from_heel: Final[Floats]
-    cracked_from_toe: Final[Floats]
+    fracture_energy: Final[Floats]
+    boundary_energy: Final[Floats]
+    floor_energy: Final[Floats]
+    far_end_energy: Final[Floats]
+    cracked_upstream: Final[Floats]
+    cracked_downstream: Final[Floats]
     cracked_length: Final[Floats]
     softening_length: Final[Floats]
 

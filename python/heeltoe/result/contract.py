@@ -38,6 +38,14 @@ RESIDUAL_SLIP = HEADLINES[0]
 #: The openings, of the upstream face before the downstream one.
 OPENINGS = tuple(item for item in HEADLINES if item.kind == "opening")
 
+#: The peak slips and the rotations, downstream before upstream.
+PEAKS = tuple(item.key for item in HEADLINES[1:] if item.kind == "slip")
+ROTATIONS = tuple(item.key for item in HEADLINES if item.kind == "rotation")
+#: The width of a crack.
+WIDTH = "crack_width_m"
+#: Columns of slips and of times by the mode of motion, in tables of runs.
+SLIPS_BY_MODE = tuple(f"slip_{name}_m" for name in SlipByMode.names())
+TIMES_BY_MODE = tuple(f"time_{name}_s" for name in TimeByMode.names())
 #: What the earthquake has cracked of a bonded joint in the end; zero of a crack without a bond.
 CRACKED = "cracked_length_m"
 

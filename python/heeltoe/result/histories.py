@@ -7,7 +7,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 from heeltoe.base.arrays import Floats
-from heeltoe.base.blocks import Number
+from heeltoe.base.blocks import Number, ending_of
 from heeltoe.base.frozen import FrozenDict
 
 
@@ -118,6 +118,12 @@ class EventLog(Columns):
     heel_impulse_n_s: Annotated[Floats, Number("Impulse at the heel.", "N s per metre of dam")]
     toe_impulse_n_s: Annotated[Floats, Number("Impulse at the toe.", "N s per metre of dam")]
     energy_lost_j: Annotated[Floats, Number("Energy lost in the event.", "J per metre of dam")]
+
+
+def computed_columns(kind: type[Columns], table: object) -> dict[str, Any]:
+    """Return the columns that a table of a kernel has: it has their names without units."""
+    own = {name: name.removesuffix(ending_of(number.unit)) for name, number in columns_of(kind).items()}
+    return {name: getattr(table, bare) for name, bare in own.items() if hasattr(table, bare)}
 
 
 @cache

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.base.blocks import Block, Number
-from heeltoe.result.contract import CRACKED, JOINT_METER_M, OPENINGS, RESIDUAL_SLIP
+from heeltoe.result.contract import CRACKED, JOINT_METER_M, OPENINGS, PEAKS, RESIDUAL_SLIP, ROTATIONS, WIDTH
+from heeltoe.result.crest import ACCELERATION, CREST_PEAKS, DISPLACEMENT
 from heeltoe.result.outcome import Outcome
 
 Flags = NDArray[np.bool_]
@@ -36,16 +37,16 @@ class Limit(NamedTuple):
 #: Everything that a case or a study can limit. `opening` stands in studies alone.
 LIMITS = {
     "residual_slip": Limit(RESIDUAL_SLIP.label, (RESIDUAL_SLIP.key,), "slip_m"),
-    "peak_slip": Limit("peak slip", ("peak_slip_downstream_m", "peak_slip_upstream_m"), "slip_m"),
+    "peak_slip": Limit("peak slip", PEAKS, "slip_m"),
     "opening": Limit("opening at either face", tuple(item.key for item in OPENINGS), ""),
     **{
         item.key.removesuffix("_m"): Limit(item.label, (item.key,), column)
         for item, column in zip(OPENINGS, ("gap_heel_m", "gap_toe_m"), strict=True)
     },
     "cracked_length": Limit("cracked length", (CRACKED,), CRACKED),
-    "rotation": Limit("rotation", ("rocking_downstream_rad", "rocking_upstream_rad"), "rotation_rad", "rad"),
-    "crest_displacement": Limit("crest displacement", ("crest_displacement_m",), "crest_displacement_m"),
-    "crest_acceleration": Limit("crest acceleration", ("crest_acceleration_g",), "crest_acceleration_m_s2", "g"),
+    "rotation": Limit("rotation", ROTATIONS, "rotation_rad", "rad"),
+    "crest_displacement": Limit("crest displacement", CREST_PEAKS[:1], DISPLACEMENT),
+    "crest_acceleration": Limit("crest acceleration", CREST_PEAKS[1:], ACCELERATION, "g"),
 }
 #: Those of the crest, which some models do not know.
 CREST_LIMITS = ("crest_displacement", "crest_acceleration")
@@ -112,10 +113,6 @@ class LimitCheck(Block):
         )
 
 
-_PEAKS = LIMITS["peak_slip"].keys
-_WIDTH = "crack_width_m"
-
-
 class Judged(NamedTuple):
     """One row: whether it has a result, whether the dam has failed and slid off, how bad that is (the larger the
     worse), which crack governs, and whether each limit is met, None where the run does not say."""
@@ -160,11 +157,11 @@ class Judgement:
         """(n,) whether the part above slides farther than its crack is wide, so that nothing is left below it."""
         if "slid_off" in self.columns:
             return np.asarray(self.columns["slid_off"][:, 0] != 0.0)
-        if _WIDTH not in self.columns or any(key not in self.columns for key in _PEAKS):
+        if WIDTH not in self.columns or any(key not in self.columns for key in PEAKS):
             return np.zeros(len(self), dtype=bool)
         known = self._by_outcome(lambda outcome: outcome in (Outcome.OK, Outcome.LOST, Outcome.LARGE_ROTATION))
-        down, up = (self.columns[key] for key in _PEAKS)
-        return np.asarray(known & slides_off(down, up, self.columns[_WIDTH]).any(axis=1))
+        down, up = (self.columns[key] for key in PEAKS)
+        return np.asarray(known & slides_off(down, up, self.columns[WIDTH]).any(axis=1))
 
     @cached_property
     def failed(self) -> Flags:

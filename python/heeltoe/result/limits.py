@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from heeltoe.result.contract import CRACKED
+from heeltoe.result.contract import CRACKED, WIDTH
 from heeltoe.result.crest import CREST_PEAKS, crest_peaks
 from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judgement, LimitCheck, judge
 from heeltoe.result.record import CrackResponse, ResponseData
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 #: The numbers of a crack by which a response is judged.
-_KEYS = ("crack_width_m", *sorted({key for limit in LIMITS.values() for key in limit.keys} - {*CREST_PEAKS, CRACKED}))
+_KEYS = (WIDTH, *sorted({key for limit in LIMITS.values() for key in limit.keys} - {*CREST_PEAKS, CRACKED}))
 
 
 def allowances(limits: Limits, gravity: float) -> dict[str, float]:
@@ -84,9 +84,9 @@ def _cracked(crack: CrackResponse) -> float:
         return 0.0
     joint = numbers.get("joint")
     if joint is not None:
-        return float(joint["cracked_length_m"])
+        return float(joint[CRACKED])
     # The bond of a block breaks all at once.
-    return 0.0 if numbers["bond"]["breaks_s"] is None else float(numbers["crack_width_m"])
+    return 0.0 if numbers["bond"]["breaks_s"] is None else float(numbers[WIDTH])
 
 
 def _uncertainty(name: str, crack: CrackResponse) -> float:

@@ -31,11 +31,11 @@ class SlipByMode(Block):
 class TimeByMode(Block):
     """Time by the mode of motion."""
 
-    rest: Annotated[float, Number("How long the crack is at rest in all.", "s")]
-    sliding: Annotated[float, Number("How long it slides in all.", "s")]
-    rocking: Annotated[float, Number("How long it rocks in all.", "s")]
-    slide_rocking: Annotated[float, Number("How long it slides while rocking in all.", "s")]
-    drifting: Annotated[float, Number("How long the part above is in the air in all.", "s")]
+    rest: Annotated[float, Number("Time at rest.", "s")]
+    sliding: Annotated[float, Number("Time sliding.", "s")]
+    rocking: Annotated[float, Number("Time rocking.", "s")]
+    slide_rocking: Annotated[float, Number("Time sliding while rocking.", "s")]
+    drifting: Annotated[float, Number("Time in the air.", "s")]
 
 
 class AnchorForce(Block):
@@ -192,15 +192,15 @@ class ElasticGive(Block):
     """From when on an elastic dam rocks and drifts."""
 
     rotation_rad: Annotated[float, Number("Rotation from which on an elastic dam counts as rocking.", "rad")]
-    gap_m: Annotated[float, Number("Gap from which on it counts as lifted off.", "m")]
+    gap_m: Annotated[float, Number("Gap from which on an elastic dam counts as lifted off.", "m")]
 
 
 class BeforeShaking(Block):
     """How a crack stands before the earthquake."""
 
     stands: Annotated[bool, Number("Whether the dam stands with its crack let go.")]
-    slip_m: Annotated[float, Number("How far it slips until it stands.", "m")]
-    open_contacts: Annotated[int, Number("How many nodes of the crack are open then.")]
+    slip_m: Annotated[float, Number("Slip under the static loads before the earthquake.", "m")]
+    open_contacts: Annotated[int, Number("Nodes of the crack that are open under the static loads.")]
 
 
 class Penetration(Block):
@@ -299,7 +299,7 @@ class CrackNumbers(Block):
             label="opening at the upstream face",
             short="opening\nup",
             kind="opening",
-            column="opening_heel",
+            column="opening_upstream",
         ),
     ]
     opening_downstream_m: Annotated[
@@ -310,7 +310,7 @@ class CrackNumbers(Block):
             label="opening at the downstream face",
             short="opening\ndown",
             kind="opening",
-            column="opening_toe",
+            column="opening_downstream",
         ),
     ]
     largest_gap_heel_m: Annotated[float, Number("Largest gap at the heel, in the air included.", "m")]
@@ -432,6 +432,29 @@ class SelfExcitation(Block):
     ]
 
 
+class RockTrial(Block):
+    """What a dam does on other rock than is assumed."""
+
+    modulus_pa: Annotated[
+        float | None, Number("Modulus of the rock; null on a rigid plane, before water without sound.", "Pa")
+    ]
+    outcome: Annotated[str, Number("How that run ended.")]
+    residual_slip_m: Annotated[float | None, Number("Residual slip there; null where that run has no result.", "m")]
+
+
+class AssumedRock(Block):
+    """The rock that is assumed where the case says nothing of it, and what other rock would do."""
+
+    modulus_pa: Annotated[float, Number("Modulus of the assumed rock, that of the concrete.", "Pa")]
+    trials: Annotated[
+        list[RockTrial],
+        Number(
+            "The same dam on rock with half and twice this modulus, and on a rigid plane before water without sound; "
+            "none where the run has no evidence."
+        ),
+    ]
+
+
 class StressPlace(Block):
     """A stress, and when and where it was."""
 
@@ -478,37 +501,8 @@ class Tension(StressPlace):
     compression: Annotated[StressPlace, Number("The largest principal compression, where and when.")]
 
 
-class HeadlineWorth(Block):
-    """What a headline number is worth, in its unit."""
-
-    value: Annotated[float, Number("The number to trust: that of the run, or the mean where single runs scatter.")]
-    run: Annotated[float, Number("The number of the run itself.")]
-    uncertainty: Annotated[
-        float, Number("How far it may be off: what step, mesh, shaking and surroundings move it by, together.")
-    ]
-    step: Annotated[float, Number("By how much another time step moves it.")]
-    mesh: Annotated[
-        float | None,
-        Number(
-            "By how much another mesh moves it, more where the mesh lowers the strength of a joint; null without "
-            "another mesh."
-        ),
-    ]
-    shaking: Annotated[
-        float | None,
-        Number("Standard deviation over runs with the shaking varied by up to 1 %; null where there are none."),
-    ]
-    surroundings: Annotated[
-        float | None,
-        Number(
-            "By how much rock and water with sound that reach 1.5 times as far, and answer well up to 1.5 times the "
-            "frequency, move it; null where there are none."
-        ),
-    ] = None
-
-
 class RotationWorth(Block):
-    """Evidence of a rotation [rad]: as of any headline number, but with a bound only where there is one."""
+    """What a headline number is worth, in its unit; of a rotation [rad] with a bound only where there is one."""
 
     value: Annotated[float, Number("The number to trust: that of the run, or the mean where single runs scatter.")]
     run: Annotated[float, Number("The number of the run itself.")]
@@ -533,8 +527,19 @@ class RotationWorth(Block):
     ]
     surroundings: Annotated[
         float | None,
-        Number("By how much rock and water with sound that reach farther move it; null where there are none."),
+        Number(
+            "By how much rock and water with sound that reach 1.5 times as far, and answer well up to 1.5 times the "
+            "frequency, move it; null where there are none."
+        ),
     ] = None
+
+
+class HeadlineWorth(RotationWorth):
+    """What any other headline number is worth: there is always a bound."""
+
+    uncertainty: Annotated[
+        float, Number("How far it may be off: what step, mesh, shaking and surroundings move it by, together.")
+    ]
 
 
 class EvidenceNumbers(Block):
@@ -555,15 +560,17 @@ class EvidenceNumbers(Block):
     other_time_step_s: Annotated[float, Number("Time step of the run beside it.", "s")]
     elements_across: Annotated[int, Number("Elements along the crack of the run.")]
     other_elements_across: Annotated[
-        int | None, Number("The same of the run with another mesh; null where there is none.")
+        int | None, Number("Elements along the crack with another mesh; null where there is none.")
     ]
-    third_elements_across: Annotated[int | None, Number("The same of a third, coarser mesh; null where there is none.")]
+    third_elements_across: Annotated[
+        int | None, Number("Elements along the crack of a third, coarser mesh; null where there is none.")
+    ]
     scales: Annotated[list[float], Number("Factors on the ground motion of the runs with the shaking varied.")]
-    residual_slips_m: Annotated[list[float], Number("Their residual slips.", "m")]
-    failed: Annotated[int, Number("How many of them end without a result.")]
-    runs: Annotated[int, Number("How many runs it took in all.")]
-    work: Annotated[float, Number("What they cost, in runs of the first mesh and step.")]
-    budget: Annotated[float, Number("What they may cost.")]
+    residual_slips_m: Annotated[list[float], Number("Residual slips of the runs with the shaking varied.", "m")]
+    failed: Annotated[int, Number("Runs with the shaking varied that end without a result.")]
+    runs: Annotated[int, Number("Runs in all.")]
+    work: Annotated[float, Number("Cost of all runs, in runs of the first mesh and step.")]
+    budget: Annotated[float, Number("Cost that is allowed.")]
     budget_spent: Annotated[bool, Number("Whether that ended the refinement.")]
     residual_slip_m: Annotated[HeadlineWorth, Number("What the residual slip is worth.", "m")]
     peak_slip_downstream_m: Annotated[HeadlineWorth, Number("What the peak slip downstream is worth.", "m")]
@@ -626,17 +633,17 @@ class ElasticDam(Block):
     """What an elastic dam did as a whole."""
 
     end_time_s: Annotated[float, Number("When the run ended.", "s")]
-    periods_s: Annotated[list[float], Number("Of the intact dam with its water, longest first.", "s")]
+    periods_s: Annotated[list[float], Number("Periods of the intact dam with its water, longest first.", "s")]
     mesh: Annotated[Mesh, Number("Elements, nodes and modes of each part, nodes along the crack, error of the basis.")]
     damping: Annotated[str, Number("How the concrete is damped, as the case says.")]
     damping_ratio: Annotated[float, Number("Damping ratio of the concrete.")]
-    damping_ratios: Annotated[list[float], Number("What modes 1 to 5 of the intact dam really get.")]
+    damping_ratios: Annotated[list[float], Number("Damping ratios of modes 1 to 5 of the intact dam.")]
     rayleigh_mass_1_s: Annotated[float | None, Number("Rayleigh coefficient of mass.", "1/s")]
     rayleigh_stiffness_s: Annotated[float | None, Number("Rayleigh coefficient of stiffness.", "s")]
     contact: Annotated[str, Number("How contact is solved, as the case says.")]
-    steps: Annotated[int, Number("How many time steps.")]
-    time_step_s: Annotated[float, Number("Their length.", "s")]
-    contact_iterations_per_step: Annotated[float, Number("Tries until the contact forces are found.")]
+    steps: Annotated[int, Number("Number of time steps.")]
+    time_step_s: Annotated[float, Number("Time step.", "s")]
+    contact_iterations_per_step: Annotated[float, Number("Tries per step until the contact forces are found.")]
     contact_residual: Annotated[float, Number("Worst violation of the contact conditions, over the impulse.")]
     uplift_during_shaking: Annotated[str, Number("What the uplift does in the earthquake, as the case says.")]
     drainage_by_motion: Annotated[
@@ -646,6 +653,10 @@ class ElasticDam(Block):
     self_excitation: Annotated[
         SelfExcitation | None,
         Number("How fast a vibration grows as the dam slides; null where it does not slide."),
+    ]
+    assumed_rock: Annotated[
+        AssumedRock | None,
+        Number("The rock that is assumed below the dam; null where the case says which rock it is."),
     ]
     tension: Annotated[
         Tension | None,
@@ -726,7 +737,9 @@ class Energy(Block):
     input_j: Annotated[
         float,
         Number(
-            "Work of water, weight, uplift and the ground's inertia force on the motion relative to the ground.", _JOULE
+            "Energy put in: work of water, weight, uplift and the ground's inertia force on the motion relative to the "
+            "ground.",
+            _JOULE,
         ),
     ]
     friction_j: Annotated[float, Number("Energy lost in friction.", _JOULE)]
@@ -734,8 +747,8 @@ class Energy(Block):
     left_j: Annotated[
         float,
         Number(
-            "Energy left in the dam at the end: kinetic, and of elastic parts with that of strain and anchors, "
-            "less that at the start; below zero where the dam has let go of some.",
+            "Energy left in the dam at the end, less that at the start: kinetic, and of elastic parts with that of "
+            "strain and anchors; below zero where the dam has let go of some.",
             _JOULE,
         ),
     ]
@@ -757,7 +770,8 @@ class Energy(Block):
     gained_j: Annotated[
         float,
         Number(
-            "Energy that contact added in steps of positive work, and bonds beyond their own; it should be nothing.",
+            "Energy that contact added, which should be nothing: in steps of positive work, and by bonds beyond their "
+            "own.",
             _JOULE,
         ),
     ] = 0.0

@@ -28,7 +28,7 @@ def stages(response: ResponseData, parts: Sequence[Part]) -> Iterator[Stage]:
             return
         within = (time >= part.begins) & (time <= after)
         last = within & (time >= max(min(after, response.end_time_s) - _LAST_S, part.begins))
-        moved = [histories[name][last] for name in ("slip_m", "gap_heel_m", "gap_toe_m")]
+        moved = [column[last] for column in (slip, histories.gap_heel_m, histories.gap_toe_m)]
         # The run itself knows what it ends with.
         final = after >= response.end_time_s
         left = response.residual_slip_m if final else float(slip[within][-1])

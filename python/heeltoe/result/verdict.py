@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
 from heeltoe.result.judge import LimitCheck
-from heeltoe.result.numbers import BlockBond, BondState
+from heeltoe.result.numbers import AssumedRock, BlockBond, BondState, RockTrial
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.record import CrackResponse, ResponseData
 from heeltoe.result.rest import comes_to_rest, last_of, motion_end, rests_from
@@ -52,6 +52,7 @@ def verdict(response: ResponseData, units: str = "si", *, brief: bool = False) -
             _elastic_rocking(response) if brief else _openings(response, units),
             _other_cracks(response, units, brief),
             _elastic_end(response, units, brief),
+            rock_sentence(response, units),
             tension_sentence(getattr(response, "tension", None), units),
         ]
     else:
@@ -294,6 +295,33 @@ def _damping(response: ResponseData, units: str) -> str:
     growth = getattr(response, "self_excitation", None)
     other = None if growth is None else growth.twice_damped_slip_m
     return "" if other is None else f"; {length(abs(other), units)} with twice the damping"
+
+
+def rock_sentence(response: ResponseData, units: str = "si") -> str:
+    """Say which rock is assumed, and how far the dam slides on other rock; nothing where the case says which rock it
+    is."""
+    rock: AssumedRock | None = getattr(response, "assumed_rock", None)
+    if rock is None:
+        return ""
+    modulus = written("{modulus_pa:.3g GPa}", units, modulus_pa=rock.modulus_pa)
+    assumed = f"The case gives no rock: rock as stiff as the concrete ({modulus}) is assumed"
+    if not rock.trials:
+        return f"{assumed}."
+    soft, stiff, rigid = (_on_other_rock(trial, units) for trial in rock.trials)
+    moduli = f"with half its modulus the dam {soft}, with twice it {stiff}"
+    slips = [trial.residual_slip_m for trial in rock.trials[:2]]
+    if None not in slips:
+        half, twice = (length(abs(slip or 0.0), units) for slip in slips)
+        moduli = f"with half and twice its modulus the dam slides {half} and {twice}"
+    return f"{assumed}; {moduli}, and on a rigid plane before water without sound it {rigid}."
+
+
+def _on_other_rock(trial: RockTrial, units: str) -> str:
+    if trial.outcome == Outcome.KEEPS_SLIDING:
+        return "keeps sliding"
+    if trial.residual_slip_m is None:
+        return "comes to no result"
+    return f"slides {length(abs(trial.residual_slip_m), units)}"
 
 
 def _way(slip: float) -> str:

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
 # How a formula of a spreadsheet begins; a sign before a number does not make one.
 _FORMULA = r"^(?:[=@\t\r]|[+-][^\d.\s])"
-_MEASURES = ("arias_intensity_m_s", "cav_m_s", "significant_duration_s", "mean_period_s", "end_velocity_m_s")
 
 
 class MotionPart(Block):
@@ -122,7 +121,7 @@ def critical_json(critical: Mapping[str, float]) -> tuple[dict[str, float], dict
 def static_json(state: StaticState) -> dict[str, Any]:
     """Return what the contract says about the static state: what is no number is left out, and why stands beside it."""
     static = state.to_json()
-    critical, left_out = critical_json(static["critical_acceleration_g"])
+    critical, left_out = critical_json(state.critical_acceleration_g)
     others = {name: value for name, value in static.items() if name != "critical_acceleration_g"}
     left_out |= {f"static.{name}": _LEFT_OUT[name] for name, value in others.items() if value is None}
     stated = {name: value for name, value in others.items() if value is not None}
@@ -135,12 +134,9 @@ def motion_json(motion: GroundMotion, gravity: float) -> dict[str, Any]:
     return MotionNumbers(
         name=motion.name,
         pga_g=motion.pga / gravity,
-        pgv_m_s=motion.pgv,
-        pgd_m=motion.pgd,
         dt_s=motion.dt,
-        duration_s=motion.duration,
         samples=int(motion.time.size),
-        **{name: numbers.get(name) for name in _MEASURES},
+        **{name: numbers[name] for name in MotionNumbers.names() if name in numbers},
         source=motion.source,
         processing=list(motion.processing),
         parts=[_part(part, gravity) for part in motion.parts] or None,

@@ -36,15 +36,54 @@ _SHORT = {
     "kcf": "(kilopound/ft^3)",
     "psf": "(lbf/ft^2)",
     "ksf": "(kip/ft^2)",
+    # Of the United States alone, where a ton is 2,000 pounds.
+    "tsf": "(force_ton/ft^2)",
     "plf": "(lbf/ft)",
     "klf": "(kip/ft)",
 }
 _SHORT_UNIT = re.compile(rf"(?<![A-Za-z_])(?:{'|'.join(_SHORT)})(?![A-Za-z_])")
 _POUND = re.compile(r"(?<![A-Za-z_])(?:lbs?|pounds?)(?![A-Za-z_])")
 _OF_FORCES = ("pressure", "line force", "fracture energy", "stiffness")
+# Weights for each volume, for which densities are often taken.
+_WEIGHT = "N/m^3"
 # Numbers above this are no accelerations in g.
 _LARGEST_IN_G = 10.0
 _UNIT = re.compile(r"[A-Za-z%µμ_0-9()*/^²³⁻·. -]+")
+
+
+# Python reads "1_0" and the digits of all scripts.
+_PLAIN = re.compile(r"\s*[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\s*")
+# TOML has "1_000" for a thousand, and would have "1_0" for ten; comments and texts are passed over.
+_GROUPED = re.compile(
+    r'"""(?:\\.|[^\\])*?"""|"(?:\\.|[^"\\\n])*"|'
+    r"'''.*?'''|'[^'\n]*'|#[^\n]*|([+-]?\b[0-9]+(?:_[0-9]+)+\b)",
+    re.DOTALL,
+)
+_THOUSANDS = re.compile(r"[+-]?[0-9]{1,3}(?:_[0-9]{3})+")
+
+
+def plain_number(text: str) -> float:
+    """Return a plain number of a table.
+
+    Raises
+    ------
+    ValueError
+        Where it is none.
+    """
+    if not _PLAIN.fullmatch(text):
+        raise ValueError(text)
+    return float(text)
+
+
+def misgrouped(text: str) -> str | None:
+    """Return the first number of a text in TOML whose underscores do not part thousands; None without one."""
+    numbers = (match[1] for match in _GROUPED.finditer(text) if match[1])
+    return next((number for number in numbers if not _THOUSANDS.fullmatch(number)), None)
+
+
+# Powers of numbers, of powers and of what is in brackets, and such of three digits: none is a unit, and some would be
+# worked out for minutes.
+_POWERS = re.compile(r"(?:^|[0-9)²³⁻·*/^. -])\s*(?:\*\*|\^)|(?:\*\*|\^)[\s(+-]*[0-9]{3}")
 
 
 @dataclass(frozen=True)
@@ -146,7 +185,7 @@ def parse_acceleration(value: object, field: str) -> Acceleration:
     number, unit = _split(value, "acceleration", field)
     if unit == "g":
         return Acceleration(number, in_g=True)
-    if unit == "%g":
+    if unit.replace(" ", "") == "%g":
         return Acceleration(number / 100.0, in_g=True)
     # Seismologists write gal; to pint that is a gallon.
     factor = _factor("Gal" if unit == "gal" else unit, value, "acceleration", field)
@@ -154,7 +193,10 @@ def parse_acceleration(value: object, field: str) -> Acceleration:
 
 
 def acceleration_unit(unit: str, field: str) -> Acceleration:
-    """Return what one `unit` (``"g"``, ``"cm/s^2"``, ...) of a record's numbers is; many headers write ``G``."""
+    """Return what one `unit` (``"g"``, ``"cm/s^2"``, ...) of a record's numbers is; many headers write ``G``, and those
+    of small sensors ``mg``, thousandths of g."""
+    if unit.strip() == "mg":
+        return Acceleration(1e-3, in_g=True)
     return parse_acceleration(f"1 {'g' if unit.strip() == 'G' else unit}", field)
 
 
@@ -222,18 +264,31 @@ def _factor(unit: str, value: object, dimension: str, field: str) -> float:
         elif dimension == "angle":
             # To pint a per cent is an angle.
             factor = _conversion(unit, expected.unit) if _ANGLE.fullmatch(unit) else None
-        elif _UNIT.fullmatch(unit):
+        elif _UNIT.fullmatch(unit) and not _POWERS.search(unit):
             unit_here = _SHORT_UNIT.sub(lambda match: _SHORT[match[0]], unit)
-            factor = _conversion(_POUND.sub("lbf", unit_here) if dimension in _OF_FORCES else unit_here, expected.unit)
+            factor = _conversion(_pounds_of_force(unit) if dimension in _OF_FORCES else unit_here, expected.unit)
         else:
             raise ValueError
     except Exception:  # pint passes on whatever Python's tokenizer and arithmetic make of a unit it cannot read
         raise InputError(
             "unit-unknown", field, shown(value), unit=shown(unit), example=shown(expected.example)
         ) from None
+    if factor is None and dimension == "density" and (weight := _conversion(_pounds_of_force(unit), _WEIGHT)):
+        raise InputError("density-weight", field, shown(value), density=_density(value, unit, weight))
     if factor is None:
         raise InputError("wrong-quantity", field, shown(value), kind=expected.kind, example=shown(expected.example))
     return factor
+
+
+def _pounds_of_force(unit: str) -> str:
+    """Return a unit as pint reads it, in which a pound is a force."""
+    return _POUND.sub("lbf", _SHORT_UNIT.sub(lambda match: _SHORT[match[0]], unit))
+
+
+def _density(value: object, unit: str, weight: float) -> str:
+    """Return the density [kg/m^3] of what weighs so much for each volume, as a case has it."""
+    number = float(str(value).replace("\u2212", "-").removesuffix(unit))
+    return shown(f"{number * weight / STANDARD_GRAVITY:.5g} kg/m^3")
 
 
 def _finite(number: float, value: object, dimension: str, field: str) -> float:

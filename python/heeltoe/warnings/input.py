@@ -14,6 +14,12 @@ with care. ``"grave"``: some number is not what it seems, or the dam does not ho
 # As in heeltoe.warnings.notice: code -> (how grave, field of the case, sentence).
 OF_INPUT: dict[str, tuple[Severity, str, str]] = {
     # case
+    "section-drawn": (
+        "note",
+        "section",
+        "{field} from a drawing: {height_m:.4g m} high, {base_m:.4g m} wide at its base, {area_m2:.4g m²}, on the "
+        "layer {layer}; read to {within_m:.2g mm}",
+    ),
     "friction-high": (
         "caution",
         "crack",
@@ -54,6 +60,17 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "caution",
         "reservoir.density",
         "{field}: {density_kg_m3:g kg/m^3} is unusual for water",
+    ),
+    "height-unusual": ("caution", "section.height", "{field}: {height_m:.3g m} is unusual for a dam: check its unit"),
+    "damping-unusual": (
+        "caution",
+        "concrete.damping",
+        "{field}: {damping:.2g %} is more than a dam has on its rock: a ratio of 5 % is 0.05",
+    ),
+    "peak-unusual": (
+        "caution",
+        "motion.pga",
+        "{field}: {peak_g:.2g g} is hardly felt by a dam: check its unit",
     ),
     "density-unusual": ("caution", "concrete.density", "{field}: {density_kg_m3:g kg/m^3} is unusual for concrete"),
     "water-over-crest": (
@@ -125,8 +142,7 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
     "motion-drifts": (
         "caution",
         "motion",
-        "{name} ends at {end_velocity_m_s:.3g m/s}, {share:.0%} of its largest velocity: its baseline drifts, or it "
-        "was cut",
+        "{name} ends at {share:.0%} of its largest velocity: its baseline drifts, or it was cut",
     ),
     "motion-jumps": (
         "caution",
@@ -144,6 +160,12 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "caution",
         "motion",
         "{name} has values every {step_s:.3g s} only: check its step, as a dam feels much faster shaking",
+    ),
+    "motion-coarse-for-dam": (
+        "caution",
+        "motion",
+        "{name} has values every {step_s:.3g s}, and the dam swings in about {period_s:.2g s}: straight lines between "
+        "them leave out some {share:.2g %} of such motion; take the record in steps of {most_s:.2g s} or less",
     ),
     "component-vertical": (
         "grave",
@@ -173,10 +195,27 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "motion",
         "{name} stays at its peak for four samples or more: it may be clipped",
     ),
+    "motion-gravity": (
+        "grave",
+        "motion.processing",
+        "{name} rests at {level_g:.3g g}: gravity is in it, as its sensor feels it; without processing it is refused",
+    ),
+    "motion-offset": (
+        "caution",
+        "motion.processing",
+        "{name} rests at {level_g:.2g g}, {share:.2g} of how far it shakes from there: an offset of its instrument "
+        "makes the ground run away; a band-pass or a baseline takes it out",
+    ),
     "motion-cut": (
         "caution",
         "motion.duration",
         "the cut to {duration_s:g s} leaves out the record's peak at {time_s:g s}",
+    ),
+    "motion-scaled": (
+        "caution",
+        "motion",
+        "{name} is scaled by {factor:.3g}, more than {most:g}: an earthquake of such strength lasts longer and has "
+        "more of its motion at long periods; take a stronger record",
     ),
     "motion-stretched": (
         "caution",
@@ -202,11 +241,6 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
     # records; their numbers are in the units of the file
     "record-count": ("caution", "", "{name} states {stated:g} values and has {found:d}: all of them are used"),
     "record-peak": ("caution", "", "{name} states a peak of {stated:g} and has {found:.6g}: what it has is used"),
-    "record-step-differs": (
-        "caution",
-        "",
-        "{name} states a step of {stated_s:g s}, but its times are {found_s:g s} apart: they are used",
-    ),
     "record-step-doubtful": (
         "caution",
         "",
@@ -218,6 +252,13 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "",
         "{name} breaks off before its end: what comes behind this channel, other channels too, is missing",
     ),
+    "record-borehole": (
+        "caution",
+        "",
+        "{name} was recorded in a borehole: it is a motion within the ground, with what the surface above throws back "
+        "in it; an analysis takes it for that of the surface of the rock",
+    ),
+    "record-reader-warns": ("caution", "", "{name}: its reader warns: {text}"),
     "record-torn": ("caution", "", "{name} ends in the middle of a number: its last value may be wrong"),
     "record-flagged": ("caution", "", "{name} flags a problem with its data: see the comments in it"),
     "record-uncorrected": (

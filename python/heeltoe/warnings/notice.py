@@ -254,19 +254,38 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "the rock is so soft, and its waves so short, that it answers with an error of up to {error:.2g %} below "
         "{highest_hz:g Hz}; the uncertainty of the slip does not count that: look at a stiffer rock, too",
     ),
+    "rock-assumed": (
+        "note",
+        "rock",
+        "the case gives no rock: rock as stiff as the concrete ({modulus_pa:.3g GPa}) is assumed below the elastic "
+        "dam; a block [rock] has that of the site",
+    ),
+    "rock-not-assumed": (
+        "grave",
+        "rock",
+        "the case gives no rock, and none could be assumed ({why}): on a rigid plane nothing carries away the "
+        "vibration that sliding feeds, so that the slip may be far off either way; give a block [rock], or say "
+        'rock = "rigid" if that is meant',
+    ),
+    "sound-not-assumed": (
+        "grave",
+        "reservoir.compressible",
+        "the water is a mass that moves with the dam, as no sound could be assumed in it ({why}), and carries away "
+        "nothing of the vibration that sliding feeds; say {field} = false if that is meant",
+    ),
     "surroundings-left-out": (
         "note",
         "rock",
         "{share:.2g %} of {cases:d} computed dams like this one slide less far on elastic rock with sound in the "
-        "water, half of all {times:.2g|to} times as far; here the rock is rigid and the water a mass: a [rock] block "
-        "and reservoir.compressible = true add them",
+        "water, half of all {times:.2g|to} times as far; here the rock is rigid and the water a mass, as the case has "
+        'it: without rock = "rigid" and reservoir.compressible = false both carry waves',
     ),
     "surroundings-unlike": (
         "note",
         "rock",
         "the rock is rigid and the water a mass here, and the dams studied with elastic rock and sound are not like "
-        "this one ({why}): its slip may be off either way; a run with a [rock] block and reservoir.compressible = true "
-        "shows which",
+        'this one ({why}): its slip may be off either way; a run without rock = "rigid" and '
+        "reservoir.compressible = false shows which",
     ),
     "outline-simplified": (
         "note",

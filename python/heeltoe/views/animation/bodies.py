@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,6 +15,7 @@ from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import BodyMesh
 from heeltoe.models.flexible.result.history import CrackHistory
+from heeltoe.result.histories import Histories
 
 #: How far the displacements of an elastic part may be off, as a part of the largest: far below the pixel.
 ACCURACY = 2e-4
@@ -100,7 +101,7 @@ class Part:
         return moved
 
 
-def rigid_parts(case: Case, histories: Sequence[Mapping[str, Floats]], moments: Moments) -> tuple[Part, ...]:
+def rigid_parts(case: Case, histories: Sequence[Histories], moments: Moments) -> tuple[Part, ...]:
     """Return the rigid blocks from the crest down and, if the lowest crack is not at the base, what stands still below.
 
     `histories` are those of the cracks, from the crest down. A block moves by its own crack and by the cracks below it,
@@ -120,16 +121,15 @@ def rigid_parts(case: Case, histories: Sequence[Mapping[str, Floats]], moments: 
     return tuple(parts)
 
 
-def _amplitudes(case: Case, histories: Mapping[str, Floats], moments: Moments) -> Floats:
+def _amplitudes(case: Case, histories: Histories, moments: Moments) -> Floats:
     """Return how far (f, 4) the part above a crack moves along the four shapes of :func:`_shapes`.
 
     The contact coordinates are turned into the motion of a rigid body of any rotation: the corner that is lower slides
     along the crack, and the gaps are those of the histories. All four amplitudes multiply shapes that are linear in
     the place, so an exaggerated block keeps its gaps in proportion, too.
     """
-    slip, heel, toe, rotation = (
-        moments.between(histories[name]) for name in ("slip_m", "gap_heel_m", "gap_toe_m", "rotation_rad")
-    )
+    columns = (histories.slip_m, histories.gap_heel_m, histories.gap_toe_m, histories.rotation_rad)
+    slip, heel, toe, rotation = map(moments.between, columns)
     width = case.cut.crack_width
     sine = np.clip((toe - heel) / width, -1.0, 1.0)
     cosine = np.where(np.abs(rotation) > math.pi / 2.0, -1.0, 1.0) * np.sqrt(1.0 - sine**2)

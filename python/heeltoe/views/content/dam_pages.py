@@ -11,6 +11,7 @@ import numpy as np
 from heeltoe.case.model import Case
 from heeltoe.case.paths import quantity_of
 from heeltoe.errors.sanitize import plain
+from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.units.parse import DIMENSIONS, STANDARD_GRAVITY
 from heeltoe.units.write import digits
 from heeltoe.views.content.drawings import drawing
@@ -44,7 +45,7 @@ def _runs(subject: StudySubject, dams: list[int]) -> dict[int, list[dict[str, An
     """Return the runs of some dams with what varies, by the place of the dam."""
     fields = list(_fields(subject))
     kept: dict[int, list[dict[str, Any]]] = {dam: [] for dam in dams}
-    names = ("sample", "model", "motion", "reversed", "factor", "outcome", "residual_slip_m", *fields)
+    names = ("sample", "model", "motion", "reversed", "factor", "outcome", RESIDUAL_SLIP.key, *fields)
     for runs in subject.results.walk(*names):
         here = runs.table.filter(np.isin(runs.whole("sample"), dams))
         for row in here.to_pylist():
@@ -115,9 +116,9 @@ def _motions(subject: StudySubject, runs: list[dict[str, Any]]) -> Table:
     peaks = {
         motion["name"]: motion["measures"]["pga"] / STANDARD_GRAVITY for motion in subject.results.manifest["motions"]
     }
-    ranked = sorted(runs, key=lambda run: np.inf if run["residual_slip_m"] is None else abs(run["residual_slip_m"]))
+    ranked = sorted(runs, key=lambda run: np.inf if run[RESIDUAL_SLIP.key] is None else abs(run[RESIDUAL_SLIP.key]))
     worst = ranked[::-1][:_MOTIONS]
-    slips = in_one_unit([[Amount(run["residual_slip_m"], zero="0")] for run in worst], subject.units)
+    slips = in_one_unit([[Amount(run[RESIDUAL_SLIP.key], zero="0")] for run in worst], subject.units)
     several = len(subject.results.walk.models) > 1
     rows: list[tuple[Inline, ...]] = [
         (

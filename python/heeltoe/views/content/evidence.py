@@ -3,49 +3,12 @@
 from __future__ import annotations
 
 from heeltoe.models.rigid.varying import varies
-from heeltoe.result.contract import HEADLINES
+from heeltoe.result.contract import HEADLINES, RESIDUAL_SLIP
+from heeltoe.result.numbers import BeforeShaking, ElasticDam, Energy, EvidenceNumbers, HeadlineWorth, SelfExcitation
 from heeltoe.result.outcome import Outcome
 from heeltoe.units.write import NOTHING
-from heeltoe.views.content.subject import Labels, Run, Subject
+from heeltoe.views.content.subject import Run, Subject, labels_of
 from heeltoe.views.content.tree import Block, Code, Inline, Section, Table, paragraph
-
-_ENERGY = (
-    ("Put in", "input_j"),
-    ("Friction", "friction_j"),
-    ("Impacts", "impact_j"),
-    ("Damping of the concrete", "damping_j"),
-    ("Fracture of the joint", "fracture_j"),
-    ("Left in and through the rock", "rock_j"),
-    ("Left through the floor of the reservoir", "floor_j"),
-    ("Left along the reservoir", "far_end_j"),
-    ("Lost by the time stepping", "numerical_j"),
-    ("Left in the dam", "left_j"),
-    ("Made by contact, which should be none", "gained_j"),
-    ("What the ledger leaves unexplained, over the turnover", "residual"),
-)
-_RARE = ("fracture_j", "rock_j", "floor_j", "far_end_j")
-_FLEXIBLE: Labels = (
-    ("Time step", "time_step_s", None),
-    ("Steps", "steps", None),
-    ("Step of the run beside it", "evidence.other_time_step_s", None),
-    ("Elements along the crack", "evidence.elements_across", None),
-    ("Those of the mesh beside it", "evidence.other_elements_across", None),
-    ("Those of a third mesh, by which two that agree by chance are found out", "evidence.third_elements_across", None),
-    ("Residual slip to trust", "evidence.residual_slip_m.value", "displacement"),
-    ("How uncertain it is, give or take", "evidence.residual_slip_m.uncertainty", "displacement"),
-    ("Of that, by the time step", "evidence.residual_slip_m.step", "displacement"),
-    ("Of that, by the mesh", "evidence.residual_slip_m.mesh", "displacement"),
-    ("Of that, by the shaking, 0.99 to 1.01 times", "evidence.residual_slip_m.shaking", "displacement"),
-    ("Of that, by rock and water that reach 1.5 times as far", "evidence.residual_slip_m.surroundings", "displacement"),
-    ("Uncertainty that is allowed", "evidence.allowed_m", None),
-    ("Slip under the static loads before the shaking", "before_shaking.slip_m", "displacement"),
-    ("Nodes of the crack that open then", "before_shaking.open_contacts", None),
-    ("Growth rate of a vibration in steady sliding", "self_excitation.growth_1_s", None),
-    ("Time it slides", "self_excitation.sliding_time_s", None),
-    ("Residual slip with twice the damping", "self_excitation.twice_damped_slip_m", "displacement"),
-    ("Tries per step until contact is found", "contact_iterations_per_step", None),
-    ("Worst violation of the contact conditions, over the impulse", "contact_residual", None),
-)
 
 _STANDS = {
     True: "The residual slip has converged: {} by less than is allowed.",
@@ -75,12 +38,7 @@ def evidence(subject: Subject) -> Section:
     for run in subject.runs:
         blocks += _spread(subject, run)
     if any(run.response.energy is not None for run in subject.runs):
-        ledgers = [run.response.energy for run in subject.runs if run.response.energy is not None]
-        # What only joints and water with sound have.
-        flows = {name: any(getattr(ledger, name) for ledger in ledgers) for name in _RARE}
-        entries = [(label, name) for label, name in _ENERGY if flows.get(name, True)]
-        rows = tuple(_energy_row(subject, label, name) for label, name in entries)
-        blocks.append(Table(subject.head(), _seen(rows), f"Energy ledger, {subject.per_width}.", subject.align()))
+        blocks.append(subject.compared(labels_of(Energy, "energy."), f"Energy ledger, {subject.per_width}."))
         blocks += subject.figure("energy")[-1:]
     for run in subject.runs:
         if run.response.elastic and run.response.summary:
@@ -88,19 +46,6 @@ def evidence(subject: Subject) -> Section:
         elif run.response.model == "rigid" and run.response.summary:
             blocks.append(paragraph(_WALK[varies(subject.case)]))
     return Section("How far to trust it", tuple(blocks))
-
-
-def _energy_row(subject: Subject, label: str, name: str) -> tuple[Inline, ...]:
-    return subject.row(label, f"energy.{name}")
-
-
-def _seen(rows: tuple[tuple[Inline, ...], ...]) -> tuple[tuple[Inline, ...], ...]:
-    """Leave out rows in which no run has anything but zero."""
-
-    def counts(cell: Inline) -> bool:
-        return not isinstance(cell, str) and getattr(cell, "number", 1) != 0
-
-    return tuple(row for row in rows if any(map(counts, row[1:])))
 
 
 def _spread(subject: Subject, run: Run) -> list[Block]:
@@ -153,36 +98,18 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
         stands = _NO_LIMIT if result["no_limit"] else _STANDS[result["converged"]]
         movers = _MOVERS["step" if result["asked"] == "step" else "full"]
         said = paragraph(stands.format(movers) + _MEAN[result["value_is"] == "mean"])
+    # Of the evidence what the number that is judged first is worth.
+    labels = (
+        *labels_of(ElasticDam),
+        *labels_of(SelfExcitation, "self_excitation."),
+        *labels_of(BeforeShaking, "before_shaking."),
+        *(label for label in labels_of(EvidenceNumbers, "evidence.") if label[1].count(".") == 1),
+        *(
+            (f"{RESIDUAL_SLIP.label.capitalize()}: {label[0].lower()}{label[1:]}", key, "displacement")
+            for label, key, _ in labels_of(HeadlineWorth, f"evidence.{RESIDUAL_SLIP.key}.")
+        ),
+    )
     return [
         said,
-        known(_FLEXIBLE, run.prefix, "Evidence, time step and contact of the flexible model."),
-        known(_numbers_of_parts(run), run.prefix, "Mesh, modes and damping of the flexible model."),
+        known(labels, run.prefix, "Evidence, mesh, time step, damping and contact of the flexible model."),
     ]
-
-
-def _numbers_of_parts(run: Run) -> Labels:
-    """Return the labels of meshes, modes and damping: as many as there are parts, periods and ratios."""
-    summary = run.response.summary
-    count = len(summary["mesh"]["elements"])
-    parts = ["above the crack", "below the crack"][:count]
-    if run.response.several:
-        parts = [f"of part {place + 1} from the crest down" for place in range(count)]
-    return (
-        *(
-            (f"{label} {where}", f"mesh.{name}.{place}", None)
-            for place, where in enumerate(parts)
-            for label, name in (("Elements", "elements"), ("Nodes", "nodes"), ("Modes kept", "modes"))
-        ),
-        ("Nodes along the crack", "mesh.crack_nodes", None),
-        ("Error left by modes that are not kept", "mesh.basis_error", "share"),
-        *(
-            (f"Period {place + 1} of the intact dam, with its water", f"periods_s.{place}", "time")
-            for place in range(len(summary["periods_s"]))
-        ),
-        *(
-            (f"Damping that mode {place + 1} of the intact dam gets", f"damping_ratios.{place}", "share")
-            for place in range(len(summary["damping_ratios"]))
-        ),
-        ("Rayleigh damping, mass term a₀", "rayleigh_mass_1_s", None),
-        ("Rayleigh damping, stiffness term a₁", "rayleigh_stiffness_s", None),
-    )

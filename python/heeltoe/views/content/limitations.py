@@ -41,7 +41,7 @@ def limitations(subject: Subject) -> Section:
 def _water(subject: Subject, model: str) -> str:
     """Say what the water and the rock are to a model."""
     reservoir = subject.case.reservoir
-    sound = model == "flexible" and reservoir is not None and reservoir.compressible
+    sound = model == "flexible" and subject.case.has_sound("reservoir")
     if sound:
         water = "The water carries sound over a floor that takes some of it, in a reservoir of one depth."
     elif reservoir is not None:
@@ -49,7 +49,7 @@ def _water(subject: Subject, model: str) -> str:
     else:
         water = ""
     rock = "The rock below the base is rigid: it neither gives way nor takes energy from the dam."
-    if model == "flexible" and subject.case.rock is not None:
+    if model == "flexible" and subject.case.foundation is not None:
         rock = (
             "The rock is an even, linear elastic half-plane whose level surface moves as the record says where no dam "
             "stands; it has settled under its own weight, and neither slides nor cracks."

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from heeltoe.errors.sanitize import plain
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.result.write import MotionNumbers
 from heeltoe.units.sentences import written
 from heeltoe.units.write import NOTHING
 from heeltoe.views.content.drawings import in_rows
-from heeltoe.views.content.subject import Subject
+from heeltoe.views.content.subject import Subject, labels_of
 from heeltoe.views.content.tree import Block, Code, FigureBlock, Inline, Notes, Section, Table, paragraph, without_gaps
 
 # Of all steps of processing together.
@@ -19,19 +20,6 @@ _WORDS = (
     ("Date", "date"),
     ("Source", "source"),
     ("Read as", "units_as_read"),
-)
-_NUMBERS = (
-    ("Peak acceleration", "pga_g"),
-    ("Peak velocity", "pgv_m_s"),
-    ("Peak displacement", "pgd_m"),
-    ("Velocity at the end, from rest", "end_velocity_m_s"),
-    ("Arias intensity", "arias_intensity_m_s"),
-    ("Cumulative absolute velocity", "cav_m_s"),
-    ("Significant duration, 5–95 %", "significant_duration_s"),
-    ("Mean period", "mean_period_s"),
-    ("Time step", "dt_s"),
-    ("Duration", "duration_s"),
-    ("Samples", "samples"),
 )
 
 
@@ -49,8 +37,8 @@ def ground_motion(subject: Subject) -> Section:
         if any(words):
             rows.append((label, *(plain(word or NOTHING) for word in words)))
     rows.append(("Processing", *(plain(motion.all_processing or "none", _LONGEST) for motion, _ in motions.values())))
-    for label, name in _NUMBERS:
-        cells = [n(f"{prefix}{key}.{name}") for _, key in motions.values()]
+    for label, name, quantity in labels_of(MotionNumbers):
+        cells = [n(f"{prefix}{key}.{name}", quantity) for _, key in motions.values()]
         if any(cell != NOTHING for cell in cells):
             rows.append((label, *cells))
     table = Table(

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
-from heeltoe.result.contract import HEADLINES
+from heeltoe.mechanics.block import StaticState
+from heeltoe.result.contract import HEADLINES, WIDTH
+from heeltoe.result.numbers import (
+    OF_SEVERAL,
+    BlockNumbers,
+    CrackEnergy,
+    CrackLevel,
+    CrackNumbers,
+    ElasticCrack,
+)
 from heeltoe.result.response import Response
 from heeltoe.units.sentences import written
+from heeltoe.units.write import NOTHING
 from heeltoe.views.content.drawings import in_rows
-from heeltoe.views.content.subject import Labels, Subject
+from heeltoe.views.content.subject import Subject, labels_of
 from heeltoe.views.content.tree import Block, Inline, Section, Table, paragraph
-from heeltoe.views.words.numbers import Value
 from heeltoe.views.words.response import (
     SEQUENCE_COLUMNS,
     law_line,
@@ -22,99 +30,19 @@ from heeltoe.views.words.response import (
 )
 from heeltoe.views.words.starts import starts
 
-_ROWS: Labels = (
-    ("Slip while sliding", "slip_by_mode_m.sliding", "displacement"),
-    ("Slip while slide-rocking", "slip_by_mode_m.slide_rocking", "displacement"),
-    ("Slip while drifting", "slip_by_mode_m.drifting", "displacement"),
-    ("Time at rest", "time_by_mode_s.rest", "time"),
-    ("Time sliding", "time_by_mode_s.sliding", "time"),
-    ("Time rocking", "time_by_mode_s.rocking", "time"),
-    ("Time slide-rocking", "time_by_mode_s.slide_rocking", "time"),
-    ("Time drifting, in touch with nothing", "time_by_mode_s.drifting", "time"),
-    ("Strikes (of corners; of nodes of the crack)", "impacts", None),
-    ("Fastest strike", "largest_impact_velocity_m_s", None),
-    ("Events of the walk", "events", None),
-    ("Largest normal force on the crack", "peak_normal_force_n", None),
-    ("Slip velocity at the end", "final_slip_velocity_m_s", None),
-    ("End of the run", "end_time_s", None),
-    ("Of it silence, after the ground motion", "silence_s", "time"),
-)
-_ALWAYS = ("impacts", "final_slip_velocity_m_s", "end_time_s")
-_STATIC: Labels = (
-    ("Sliding safety factor", "static.sliding_safety_factor", None),
-    ("Normal force on the crack", "static.normal_force_n", None),
-    ("Force along the crack, + downstream", "static.horizontal_force_n", None),
-    ("Resultant from the heel", "static.resultant_from_heel_m", "length"),
-    ("Width of the crack", "crack_width_m", "length"),
-    ("Mass of the concrete above the crack", "static.concrete_mass_kg", None),
-    ("Virtual mass of the water", "static.virtual_mass_kg", None),
-)
 _STARTS = {
     ("sliding", "downstream"): "Sliding downstream starts at",
     ("sliding", "upstream"): "Sliding upstream starts at",
     ("rocking", "downstream"): "Rocking downstream, about the toe, starts at",
     ("rocking", "upstream"): "Rocking upstream, about the heel, starts at",
 }
-_OF_CRACKS: Labels = (
-    *(
-        (item.full.capitalize(), item.key, None if item.kind == "rotation" else "displacement")
-        for item in HEADLINES
-        if item.way > 0
-    ),
-    ("Strikes of nodes", "impacts", None),
-    ("Lost in friction", "crack_energy.friction_j", None),
-    ("Lost in impacts", "crack_energy.impact_j", None),
-)
-_CRACK_LEVEL: Labels = (
-    ("Peak of the ground", "ground_peak_g", "g"),
-    ("Peak at the crack, horizontal", "peak_horizontal_g", "g"),
-    ("Peak at the crack, over that of the ground", "amplification", None),
-    ("Peak at the crack, upward", "peak_vertical_g", "g"),
-    ("Peak rotational acceleration of the crack", "peak_rotation_rad_s2", None),
-    ("First period of the part below with the part above attached", "periods_s.0", "time"),
-    ("First period of the dam without a crack, all of it elastic", "bonded.periods_s.0", "time"),
-    ("Peak in that dam at the place of the crack", "bonded.peak_horizontal_g", "g"),
-    ("Spacing of the motion of the crack", "convergence.step_s", "time"),
-    ("Residual slip with twice that", "convergence.coarser_residual_slip_m", "displacement"),
-)
-_LAW: Labels = (
-    ("Slip path, to and fro", "slip_path_m", "displacement"),
-    ("Normal stress under the static loads", "normal_stress_pa", None),
-    ("Apparent friction before the earthquake", "apparent_friction_before", None),
-    ("Apparent friction after it", "apparent_friction_after", None),
-    ("Cohesion left", "cohesion_left_pa", None),
-    ("Work that broke the bond", "bond_energy_j", "energy"),
-    ("Least slip path of a node", "slip_path_range_m.0", "displacement"),
-    ("Largest slip path of a node", "slip_path_range_m.1", "displacement"),
-    ("Apparent friction of a node after it, least", "apparent_friction_after_range.0", None),
-    ("Apparent friction of a node after it, largest", "apparent_friction_after_range.1", None),
-    ("Time walked by integration, the rest exactly", "integrated_time_s", "time"),
-    ("Estimated error of the integration", "integration_error_m", None),
-)
-_JOINT: Labels = (
-    ("First cracking", "first_cracking_s", "time"),
-    ("Place of it, from the upstream face", "first_cracking_at_m", "length"),
-    ("Cracked through", "cracked_through_s", "time"),
-    ("Cracked from the upstream face", "cracked_upstream_m", "length"),
-    ("Cracked from the downstream face", "cracked_downstream_m", "length"),
-    ("Cracked in all", "cracked_length_m", "length"),
-    ("Softened, not yet cracked", "softening_length_m", "length"),
-    ("Energy that the bond took", "fracture_energy_j", "energy"),
-    ("Process zone of the concrete", "process_zone_m", "length"),
-    ("Longest element along the joint", "element_m", "length"),
-    ("Tensile strength that the model takes", "tensile_strength_pa", None),
-)
-_BOND: Labels = (
-    ("Bond breaks", "breaks_s", "time"),
-    ("Part of the tensile strength used until then", "tensile_strength_used", None),
-    ("Part of the shear strength used until then", "shear_strength_used", None),
-)
 
 
 def results(subject: Subject) -> Section:
     """Return the section with all numbers and figures of what happens."""
     n, prefix = subject.numbers, subject.first.prefix
-    static: list[tuple[Inline, ...]] = [(label, n(prefix + key, quantity)) for label, key, quantity in _STATIC]
+    labels = (*labels_of(StaticState, "static."), ("Width of the crack", WIDTH, "length"))
+    static = list(subject.known(labels, prefix, "").rows)
     for (kind, way), start in starts(subject.first.response).items():
         static.append((_STARTS[kind, way], n(f"{prefix}critical_acceleration_g.{kind}_{way}", "g")))
         if start.varied:
@@ -131,19 +59,16 @@ def results(subject: Subject) -> Section:
         *subject.figure("comparison", "response"),
     ]
     if any(run.response.summary for run in subject.runs):
-        rows: list[tuple[Inline, ...]] = []
-        for label, key, quantity in _ROWS:
-            row = subject.row(label, key, quantity)
-            if key in _ALWAYS or any(isinstance(cell, Value) and cell.number for cell in row[1:]):
-                rows.append(row)
-        blocks.append(
-            Table(
-                subject.head(),
-                tuple(rows),
-                f"How it moves, {subject.per_width}; modes that do not happen are left out.",
-                subject.align(),
-            )
+        # The headline numbers stand before; those of one model stay empty for another.
+        moves = dict.fromkeys(
+            label
+            for run in subject.runs
+            for label in labels_of(_kind_of(run.response))
+            if label[1] not in (WIDTH, *(item.key for item in HEADLINES))
         )
+        silence = ("Silence after the ground motion, at the end of the run", "silence_s", "time")
+        caption = f"How it moves, {subject.per_width}; what is zero is left out."
+        blocks.append(subject.compared([*moves, silence], caption))
         figure = subject.figure
         blocks += [
             *_signs(subject),
@@ -168,6 +93,10 @@ def results(subject: Subject) -> Section:
     return Section("Results", tuple(blocks))
 
 
+def _kind_of(response: Response) -> type[CrackNumbers]:
+    return ElasticCrack if response.elastic else BlockNumbers
+
+
 def _signs(subject: Subject) -> list[Block]:
     """Return what the motion does both ways round."""
     signs, n = subject.result.signs, subject.numbers
@@ -190,16 +119,19 @@ def _cracks(subject: Subject) -> list[Block]:
     cracks = subject.result.cracks
     n = subject.numbers
     head = ("", *(f"crack at {written('{at_m:g m}', subject.units, at_m=crack.elevation)}" for crack in cracks))
+    labels = [
+        *(label for label in labels_of(_kind_of(subject.result)) if label[1] not in (*OF_SEVERAL, WIDTH)),
+        *labels_of(CrackEnergy, "crack_energy."),
+        *(
+            (f"Largest force of anchor {place + 1}", f"anchors.{place}.peak_force_n", None)
+            for place in range(len(subject.case.anchors))
+        ),
+    ]
     rows: list[tuple[Inline, ...]] = [
         (label, *(n(f"cracks.{place}.{key}", quantity) for place in range(len(cracks))))
-        for label, key, quantity in (
-            *_OF_CRACKS,
-            *(
-                (f"Largest force of anchor {place + 1}", f"anchors.{place}.peak_force_n", None)
-                for place in range(len(subject.case.anchors))
-            ),
-        )
+        for label, key, quantity in labels
     ]
+    rows = [row for row in rows if any(cell != NOTHING for cell in row[1:])]
     caption = "Each crack by itself, from the crest down; unless stated, values are those of the crack that slips most."
     return [Table(head, tuple(rows), caption, "l" + "r" * len(cracks))]
 
@@ -218,8 +150,10 @@ def _tension(subject: Subject) -> list[Block]:
 def _at_the_crack(subject: Subject) -> list[Block]:
     """Return how the crack moves that shakes a decoupled block."""
     caption = "The motion of the crack, which shakes the block."
+    # The spectra have figures.
+    labels = [label for label in labels_of(CrackLevel) if not label[1].startswith("spectrum.")]
     return [
-        subject.values(_CRACK_LEVEL, f"{run.prefix}crack_level.", caption)
+        subject.known(labels, f"{run.prefix}crack_level.", caption)
         for run in subject.runs
         if "crack_level" in run.response.summary
     ]
@@ -285,12 +219,11 @@ def _law(subject: Subject) -> list[Block]:
     blocks += subject.figure("law")
     for run in subject.runs:
         whose = "" if len(subject.runs) == 1 else f", {run.name}"
-        for prefix, law_state in _laws_of(run.response):
-            at, law = _where(subject, law_state.get("elevation_m")), law_state["friction_law"]
+        for prefix, elevation, law in _laws_of(run.response):
+            at = _where(subject, elevation)
             blocks.append(paragraph(f"What it has come to{at}{whose}: {law_line(law, subject.units)}."))
-            present = [key for _, key, _ in _LAW if key.split(".")[0] in law]
             caption = f"The friction law{at}{whose}."
-            blocks.append(subject.values(_LAW, f"{run.prefix}{prefix}friction_law.", caption, present))
+            blocks.append(subject.known(labels_of(type(law)), f"{run.prefix}{prefix}friction_law.", caption))
     return blocks
 
 
@@ -298,11 +231,11 @@ def _joint(subject: Subject) -> list[Block]:
     """Return what has become of the bonds of joints."""
     blocks: list[Block] = []
     for run in subject.runs:
-        for name, labels in (("joint", _JOINT), ("bond", _BOND)):
+        for name in ("joint", "bond"):
             whose = " below the block" if name == "bond" else ""
-            for prefix, state in _laws_of(run.response, name):
-                caption = f"What has become of the joint{whose}{_where(subject, state.get('elevation_m'))}."
-                blocks.append(subject.known(labels, f"{run.prefix}{prefix}{name}.", caption))
+            for prefix, elevation, state in _laws_of(run.response, name):
+                caption = f"What has become of the joint{whose}{_where(subject, elevation)}."
+                blocks.append(subject.known(labels_of(type(state)), f"{run.prefix}{prefix}{name}.", caption))
     return blocks
 
 
@@ -311,13 +244,15 @@ def _where(subject: Subject, elevation_m: float | None) -> str:
     return "" if elevation_m is None else written(" at {at_m:g m}", subject.units, at_m=elevation_m)
 
 
-def _laws_of(response: Response, block: str = "friction_law") -> list[tuple[str, Mapping[str, Any]]]:
-    """Return what says what a law or a bond has come to, of each of several cracks or of the only one, and where."""
-    if not response.several:
-        laws = [("", response.summary)]
-    else:
-        laws = [(f"cracks.{place}.", crack.to_json()) for place, crack in enumerate(response.cracks)]
-    return [(prefix, numbers) for prefix, numbers in laws if numbers.get(block) is not None]
+def _laws_of(response: Response, block: str = "friction_law") -> list[tuple[str, float | None, Any]]:
+    """Return what says what a law or a bond has come to, of each of several cracks or of the only one: the prefix of
+    its keys, the elevation of one of several, and its block."""
+    states = [
+        (f"cracks.{place}.", crack.elevation, crack.numbers) if response.several else ("", None, crack.numbers)
+        for place, crack in enumerate(response.cracks)
+    ]
+    found = [(prefix, at, getattr(numbers, block, None)) for prefix, at, numbers in states]
+    return [(prefix, at, state) for prefix, at, state in found if state is not None]
 
 
 def _sequence(subject: Subject) -> list[Block]:

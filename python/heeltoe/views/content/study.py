@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 from heeltoe.mechanics.references import cited
+from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.verdict import verdict
 from heeltoe.study.answers.study_results import StudyResults
@@ -309,7 +310,7 @@ def _fine(subject: StudySubject) -> Section | None:
         step = f", and a time step of {1e3 * pilot['time_step_s']:.3g} ms"
         text = f"Flexible runs have {mesh}{step}, as one run of the base case with its evidence asked for; "
         blocks.append(paragraph(text + "the single runs of the study have none of their own."))
-        slip_evidence = (pilot["evidence"] or {}).get("residual_slip_m")
+        slip_evidence = (pilot["evidence"] or {}).get(RESIDUAL_SLIP.key)
         if slip_evidence:
             worth = subject.numbers.text(slip_evidence["uncertainty"], "displacement")
             value = subject.numbers.text(slip_evidence["value"], "displacement")

@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 
 from heeltoe.errors.sanitize import plain
-from heeltoe.result.contract import HEADLINES
+from heeltoe.result.contract import HEADLINES, RESIDUAL_SLIP
 from heeltoe.result.crest import CREST_PEAKS
 from heeltoe.result.judge import LIMITS
 from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.answers import MODES
-from heeltoe.study.answers.hazard import FRACTILES
+from heeltoe.study.answers.fragility import Curve, Share
+from heeltoe.study.answers.hazard import FRACTILES, AnnualRate
 from heeltoe.units.sentences import counted
 from heeltoe.units.write import NOTHING, digits, measured, scaled
 from heeltoe.views.content.study_subject import StudySubject
@@ -24,14 +25,14 @@ from heeltoe.views.words.studies import ABOUT_CRACKS, TRAITS, ends_of, left_out,
 
 _SHARES = (("50%", "half stay below"), ("84%", "84 % stay below"), ("95%", "95 % stay below"), ("largest", "largest"))
 _NAMES = {"pga": "PGA", "pgv": "PGV", "sa": "SA", "arias": "Arias intensity", "housner intensity": "Housner intensity"}
-_SHOWN = ("residual_slip_m", "opening_upstream_m", "rocking_upstream_rad")
+_SHOWN = (RESIDUAL_SLIP.key, "opening_upstream_m", "rocking_upstream_rad")
 
 
 def answer(subject: StudySubject) -> list[Block]:
     """Return what the study says in a few sentences, model by model."""
     blocks: list[Block] = []
     for row in subject.results.summary:
-        slip = row["residual_slip_m"]
+        slip = row[RESIDUAL_SLIP.key]
         sentence = _sliding(row)
         if slip["50%"] is not None:
             (amounts,) = in_one_unit(
@@ -113,7 +114,7 @@ def _exceeded(subject: StudySubject, model: str) -> list[str]:
     return sentences
 
 
-def _without_curve(row: Mapping[str, Any], units: str) -> list[str]:
+def _without_curve(row: Curve, units: str) -> list[str]:
     """Say what is known of a limit that has no curve: the share of the runs, and between which strengths half of the
     dams come to exceed it."""
     scale, shares = strength_scale(row["measure"], units), row["shares"]
@@ -134,7 +135,7 @@ def _without_curve(row: Mapping[str, Any], units: str) -> list[str]:
     return [f"{between}, and half of the dams somewhere between; no curve: {row['why']}"]
 
 
-def _misfit(row: Mapping[str, Any], units: str) -> list[str]:
+def _misfit(row: Curve, units: str) -> list[str]:
     """Say where a curve does not fit the runs."""
     fit = row["fit"]
     if fit is None or fit["fits"]:
@@ -197,7 +198,7 @@ def results(subject: StudySubject) -> Section:
 
 
 _QUANTITIES = {
-    "residual_slip_m": "displacement",
+    RESIDUAL_SLIP.key: "displacement",
     "opening_upstream_m": "displacement",
     "rocking_upstream_rad": "rotation",
 }
@@ -244,7 +245,7 @@ def fragility(subject: StudySubject) -> Section | None:
     return Section("Fragility", (*blocks, *subject.figure("fragility")))
 
 
-def _about_curves(subject: StudySubject, curves: Sequence[Mapping[str, Any]]) -> str:
+def _about_curves(subject: StudySubject, curves: Sequence[Curve]) -> str:
     """Return what fragility curves are, and which of them is less than that."""
     asked, labels = subject.study["fragility"], _labels(subject, curves)
     text = " ".join(text for model in subject.results.walk.models for text in _do_not_stand(subject, model))
@@ -270,7 +271,7 @@ def _about_curves(subject: StudySubject, curves: Sequence[Mapping[str, Any]]) ->
     return text.strip()
 
 
-def _shares(subject: StudySubject, curves: Sequence[Mapping[str, Any]]) -> list[Block]:
+def _shares(subject: StudySubject, curves: Sequence[Curve]) -> list[Block]:
     """Return for each model which share of the runs exceeds each limit, strength by strength."""
     tables: list[Block] = []
     asked, labels = subject.study["fragility"], _labels(subject, curves)
@@ -294,7 +295,7 @@ def _shares(subject: StudySubject, curves: Sequence[Mapping[str, Any]]) -> list[
     return tables
 
 
-def _by_curve(share: Mapping[str, Any]) -> str:
+def _by_curve(share: Share) -> str:
     return "" if share["fitted"] is None else f"; {_percent(share['fitted'])}"
 
 
@@ -350,18 +351,18 @@ def hazard_section(subject: StudySubject) -> Section | None:
 _CLOSE = 0.1
 
 
-def _bounded(row: Mapping[str, Any]) -> bool:
+def _bounded(row: AnnualRate) -> bool:
     """Return whether what motions beyond the hazard curve add to a rate hardly matters."""
     low, high = row["annual_rate_bounds"]
     return high is not None and high <= (1.0 + _CLOSE) * low
 
 
-def _at_most(row: Mapping[str, Any]) -> str:
+def _at_most(row: AnnualRate) -> str:
     high = row["annual_rate_bounds"][1]
     return "no bound" if high is None else f"{high:.1e}"
 
 
-def _beyond(row: Mapping[str, Any]) -> str:
+def _beyond(row: AnnualRate) -> str:
     """Say what part of a rate would be made by motions beyond the ends of the hazard curve, and what to do."""
     bound = row["bounds_why"] or f"with motions beyond the hazard curve it is up to {_at_most(row)} a year"
     share = row["extrapolated"]
@@ -384,14 +385,14 @@ def _with_fallen(subject: StudySubject, model: str) -> list[str]:
     ]
 
 
-def _labels(subject: StudySubject, rows: Sequence[Mapping[str, Any]]) -> list[str]:
+def _labels(subject: StudySubject, rows: Sequence[Curve | AnnualRate]) -> list[str]:
     """Return the limits of rows in words, with the model where there are several."""
     limits = limits_of([(row["limit"], row["value"]) for row in rows], subject.units)
     several = len(subject.results.walk.models) > 1
     return [limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "") for row in rows]
 
 
-def _fractiles(annual: Sequence[Mapping[str, Any]], labels: Sequence[str]) -> tuple[Block, ...]:
+def _fractiles(annual: Sequence[AnnualRate], labels: Sequence[str]) -> tuple[Block, ...]:
     """Return the fractiles of the annual probabilities by the uncertainty of the fragility curves."""
     rows: list[tuple[Inline, ...]] = [
         (label, *(f"{row['annual_probability_fractiles'][name]:.2e}" for name in FRACTILES))
@@ -403,7 +404,7 @@ def _fractiles(annual: Sequence[Mapping[str, Any]], labels: Sequence[str]) -> tu
     return (Table(head, tuple(rows), caption, "l" + "r" * len(FRACTILES)),) if rows else ()
 
 
-def _by_event(subject: StudySubject, annual: Sequence[Mapping[str, Any]], labels: Sequence[str]) -> tuple[Block, ...]:
+def _by_event(subject: StudySubject, annual: Sequence[AnnualRate], labels: Sequence[str]) -> tuple[Block, ...]:
     """Return which events make the annual rates, those that make most of the first one above."""
     known = {label: row for row, label in zip(annual, labels, strict=True) if row["by_event"]}
     if not known:
@@ -426,9 +427,7 @@ def _by_event(subject: StudySubject, annual: Sequence[Mapping[str, Any]], labels
     return (Table(("event", *known), tuple(rows), caption, "l" + "r" * len(known)),)
 
 
-def _at_strengths(
-    subject: StudySubject, annual: Sequence[Mapping[str, Any]], labels: Sequence[str]
-) -> tuple[Block, ...]:
+def _at_strengths(subject: StudySubject, annual: Sequence[AnnualRate], labels: Sequence[str]) -> tuple[Block, ...]:
     """Return the probability of each limit in motions of the strengths of the hazard curve, with their return periods,
     and which share of its annual rate motions up to there make."""
     known = {label: row for row, label in zip(annual, labels, strict=True) if row["at"]}
@@ -451,7 +450,7 @@ def _at_strengths(
     return (Table(head, tuple(rows), caption, "l" + "r" * (1 + len(known))),)
 
 
-def _made_up_to(row: Mapping[str, Any], strength: float) -> float:
+def _made_up_to(row: AnnualRate, strength: float) -> float:
     """Return which share of an annual rate motions up to a strength make, of those within the hazard curve."""
     parts = row["contribution"]
     edges = [parts[0]["from"], *(part["to"] for part in parts)]
@@ -459,7 +458,7 @@ def _made_up_to(row: Mapping[str, Any], strength: float) -> float:
     return float(np.interp(math.log(strength), np.log(edges), made))
 
 
-def _years(row: dict[str, Any]) -> str:
+def _years(row: AnnualRate) -> str:
     years = row["return_period_years"]
     return NOTHING if years is None or years >= _ENDLESS else f"{digits(years, 2)} years"
 
@@ -648,7 +647,7 @@ def _article(name: str) -> str:
     return f"{'an' if name.startswith(('A', 'SA', 'o')) else 'a'} {name}"
 
 
-def _median(row: Mapping[str, Any], units: str) -> tuple[str, str]:
+def _median(row: Curve, units: str) -> tuple[str, str]:
     """Write the median strength of a curve, and what it lies within."""
     scale = strength_scale(row["measure"], units)
     return scaled(row["median"], scale), _ends(row["median_interval"], lambda value: scaled(value, scale))

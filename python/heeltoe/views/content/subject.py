@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from heeltoe.base.blocks import Block, numbers_in
 from heeltoe.case.model import Case
 from heeltoe.errors.sanitize import plain
 from heeltoe.result.response import Response
 from heeltoe.units.write import NOTHING
 from heeltoe.views.content.tree import FigureBlock, Inline, Table
-from heeltoe.views.words.numbers import Numbers
+from heeltoe.views.words.numbers import QUANTITIES, Numbers, Value
 
 if TYPE_CHECKING:
     from heeltoe.models.statics.joints import Joints
@@ -21,6 +22,13 @@ if TYPE_CHECKING:
 NAMES = {"rigid": "rigid block", "flexible": "flexible dam", "decoupled": "decoupled block"}
 #: Label, key in the JSON, and the quantity where the key does not say it.
 Labels = Sequence[tuple[str, str, str | None]]
+
+
+def labels_of(kind: type[Block], above: str = "") -> Labels:
+    """Return what the numbers of a block of results are called in tables; `above` stands before their keys."""
+    return [(label, key, QUANTITIES.get(unit, "number")) for label, key, unit in numbers_in(kind, above)]
+
+
 MODELS = {
     "rigid": "the rigid model",
     "flexible": "the flexible model",
@@ -121,6 +129,12 @@ class Subject:
     def row(self, label: Inline, key: str, quantity: str | None = None, *, sign: float = 1.0) -> tuple[Inline, ...]:
         """Return a row of a table: the same number of every run."""
         return (label, *(self.numbers(run.prefix + key, quantity, sign=sign) for run in self.runs))
+
+    def compared(self, labels: Labels, caption: str) -> Table:
+        """Return a table of such rows: those in which a run has anything but zero."""
+        rows = [self.row(*label) for label in labels]
+        moved = [row for row in rows if any(isinstance(cell, Value) and cell.number for cell in row[1:])]
+        return Table(self.head(), tuple(moved), caption, self.align())
 
     def values(self, labels: Labels, prefix: str, caption: str, present: Container[str] | None = None) -> Table:
         """Return a table of label and number; `prefix` stands before their keys. Those that are `present` alone, where

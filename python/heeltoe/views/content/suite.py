@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from heeltoe.result.judge import LIMITS
@@ -17,6 +17,20 @@ from heeltoe.views.words.studies import JUDGED, STATISTICS
 # The demands that are lengths people look for.
 _DEMANDS = {f"{name}_m": limit.label for name, limit in LIMITS.items() if limit.unit == "m"}
 _ACCELERATION = "crest_acceleration_g"
+
+
+def _about(key: str, form: str, of: float = 1.0) -> Callable[[Mapping[str, Any], str], str]:
+    """Return what writes a number of a record."""
+    return lambda record, units: NOTHING if record[key] is None else quantity(record[key] / of, form, units)
+
+
+# What is known of records beside their motion: headings, and how each is written.
+_ABOUT = {
+    "magnitude": ("M", _about("magnitude", ".3g")),
+    "distance_m": ("distance", _about("distance_m", ".3g km", 1e3)),
+    "vs30_m_s": ("Vs30", _about("vs30_m_s", ".3g m/s")),
+    "pulse_period_s": ("pulse", _about("pulse_period_s", ".3g s")),
+}
 
 
 def suite_answer(subject: StudySubject) -> list[Block]:
@@ -137,20 +151,22 @@ def _records(row: Mapping[str, Any], units: str) -> Table:
         for record in reversed(ranked)
     ]
     rows: list[tuple[Inline, ...]] = []
+    known = [column for key, column in _ABOUT.items() if any(record.get(key) is not None for record in ranked)]
     for record, (slip, other) in zip(reversed(ranked), in_one_unit(cells, units), strict=True):
         ended = "" if record["outcome"] == Outcome.OK else f" ({record['outcome']})"
         rows.append(
             (
                 Code(record["motion"]),
+                *(column[1](record, units) for column in known),
                 digits(record["pga_g"], 3),
                 record["sign"] + ended,
                 slip,
                 other,
             )
         )
-    head = ("record", "PGA [g]", "worse sign", "slip", "other sign")
+    head = ("record", *(column[0] for column in known), "PGA [g]", "worse sign", "slip", "other sign")
     caption = f"The records, {row['model']} model, the worst first: residual slips, either way."
-    return Table(head, tuple(rows), caption, "lrlrr")
+    return Table(head, tuple(rows), caption, f"l{'r' * len(known)}rlrr")
 
 
 def _statistics(row: Mapping[str, Any], units: str) -> Table:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from typing import Any, Literal, get_args, get_origin
@@ -17,6 +18,7 @@ from heeltoe.case.joints import JOINTS, JOINTS_MEANING, Joints
 from heeltoe.case.lists import CRACKS, CRACKS_MEANING
 from heeltoe.case.model import Case
 from heeltoe.case.paths import constraints, is_list, quantities_of
+from heeltoe.case.plausible import PLAUSIBLE
 from heeltoe.case.sentences import kinds_in
 from heeltoe.study.plan.file import Distribution, Study
 from heeltoe.units.parse import DIMENSIONS
@@ -98,7 +100,7 @@ def _leaf(path: str, field: FieldInfo, meaning: str, kind: str) -> Meaning:
         meaning,
         _holds(field),
         needed or default,
-        _limits(field),
+        "; ".join(filter(None, (_limits(field), _plausible(path) if kind == "field of a case" else ""))),
         _place(path, kind),
         _not_with(path, kind),
         page_of(path, kind),
@@ -172,6 +174,15 @@ def _limits(field: FieldInfo) -> str:
                 number = shown(f"{value:.10g} {unit}") if unit else f"{value:.10g}"
                 limits.append(words.format(number))
     return ", ".join(dict.fromkeys(limits))
+
+
+def _plausible(path: str) -> str:
+    """Return in which range a field is seldom a mistake."""
+    if path not in PLAUSIBLE:
+        return ""
+    rule = PLAUSIBLE[path]
+    low, high = (shown(f"{end:.10g} {rule.unit}") if rule.unit else f"{end:g}" for end in (rule.low, rule.high))
+    return f"warned of outside {low} to {high}" if math.isfinite(rule.high) else f"warned of below {low}"
 
 
 def _shown(value: object, unit: str) -> str:

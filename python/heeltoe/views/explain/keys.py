@@ -157,7 +157,7 @@ def unit_of(name: str) -> str:
     """Return the unit that the name of a key or a column ends in; empty where it says none."""
     parts = [part.removesuffix("[]") for part in name.split(".") if part != "*"]
     for part in (parts[-1], *parts[-2:-1]):
-        for ending, (_, unit) in ENDINGS.items():
+        for ending, unit in ENDINGS.items():
             if part.endswith(ending):
                 return unit
         if part not in _OF_A_NUMBER:

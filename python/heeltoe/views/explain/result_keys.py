@@ -5,6 +5,9 @@ Keys that are attributes of a class with a description are not here; :mod:`heelt
 
 from __future__ import annotations
 
+from heeltoe.base.blocks import entries
+from heeltoe.result.numbers import SlipByMode, TimeByMode
+
 #: Keys of ``heeltoe run --json``.
 OF_A_RUN: dict[str, str] = {
     "model": "Which model, or which checks, the numbers are from.",
@@ -71,13 +74,8 @@ OF_STUDIES: dict[str, str] = {
     "factor": "Factor on the record.",
     "outcome": "How the run ends; only ok has a result to trust.",
     "impacts": "Number of blows.",
-    "slip_sliding_m": "Slip made while sliding.",
-    "slip_slide_rocking_m": "Slip made while slide-rocking.",
-    "slip_drifting_m": "Slip made in the air.",
-    **{
-        f"time_{mode}_s": f"How long the mode {mode.replace('_', '-')} lasts in all."
-        for mode in ("rest", "sliding", "rocking", "slide_rocking", "drifting")
-    },
+    **{f"slip_{row.name}_m": row.number.meaning for row in entries(SlipByMode)},
+    **{f"time_{row.name}_s": row.number.meaning for row in entries(TimeByMode)},
     "energy_residual": "What is left of the balance of energies, over the turnover.",
     "cracked_length_m": "Length of a bonded joint that is cracked in the end; 0 of a crack without a bond.",
     "crest_acceleration_g": "Largest acceleration of the crest with that of the ground, where a limit is on the crest.",

@@ -26,13 +26,13 @@ _BELOW = 27.0
 def crack_level_figure(response: DecoupledResponse) -> Figure:
     """Draw the acceleration of ground and crack over time, their response spectra and the transfer function."""
     h, level, g = response.histories, response.crack_level, response.gravity
-    spectrum = level["spectrum"]
+    spectrum = level.spectrum
     figure = Figure(figsize=(WIDTH, 6.2), layout="constrained")
     parts: Any = figure.subfigures(2, 1, height_ratios=[1.0, 1.1])
     top, bottom = parts
-    factor = level["amplification"]
+    factor = level.amplification
     share = "" if factor is None else f", {factor:.3g} times the peak of the ground"
-    peak = f"{level['peak_horizontal_g']:.3g} g at the crack{share}"
+    peak = f"{level.peak_horizontal_g:.3g} g at the crack{share}"
     heading(figure, response.title or "Untitled case", f"{response.motion.name}: {peak}")
     histories = top.subplots(2, 1, sharex=True, sharey=True)
     for axes, key, colour, label in (
@@ -43,17 +43,17 @@ def crack_level_figure(response: DecoupledResponse) -> Figure:
         axes.set_ylabel(f"{label} [g]")
     time_axis(histories[1], response)
     spectra, transfer = bottom.subplots(1, 2)
-    periods = np.array(spectrum["periods_s"])
-    spectra.plot(periods, spectrum["ground_g"], color=COLOURS["ground"], linewidth=1.2, label="ground")
-    spectra.plot(periods, spectrum["crack_g"], color=_CRACK, linewidth=1.4, linestyle="--", label="crack")
-    spectra.set_ylabel(f"pseudo-acceleration [g]\n{100.0 * spectrum['damping_ratio']:g} % damping")
-    transfer.plot(periods, spectrum["transfer"], color=_CRACK, linewidth=1.4, linestyle="--", label="rigid part above")
-    bonded = spectrum["bonded_transfer"]
+    periods = np.array(spectrum.periods_s)
+    spectra.plot(periods, spectrum.ground_g, color=COLOURS["ground"], linewidth=1.2, label="ground")
+    spectra.plot(periods, spectrum.crack_g, color=_CRACK, linewidth=1.4, linestyle="--", label="crack")
+    spectra.set_ylabel(f"pseudo-acceleration [g]\n{100.0 * spectrum.damping_ratio:g} % damping")
+    transfer.plot(periods, spectrum.transfer, color=_CRACK, linewidth=1.4, linestyle="--", label="rigid part above")
+    bonded = spectrum.bonded_transfer
     transfer.plot(periods, bonded, color=COLOURS["rotation"], linewidth=1.2, label="all elastic, no crack")
     transfer.set_ylabel("amplification [-]")
     for axes in (spectra, transfer):
         _period_axis(axes)
-        mark_periods(axes, level["periods_s"][:_MARKED], "#555555")
+        mark_periods(axes, level.periods_s[:_MARKED], "#555555")
         axes.set_ylim(0.0, None)
         # Below the label of the axis, however high the panel is.
         below = axes.transAxes + ScaledTranslation(0.0, -_BELOW / 72.0, figure.dpi_scale_trans)

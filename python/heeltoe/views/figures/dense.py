@@ -19,7 +19,7 @@ def filled_in(response: Response) -> Response:
     straight lines.
     """
     h, log = response.histories, response.event_log
-    if not 2 <= len(h.time_s) < _ENOUGH or "time_s" not in log:
+    if not 2 <= len(h.time_s) < _ENOUGH or not log:
         return response
     time = np.unique(np.concatenate([h.time_s, log.time_s, np.linspace(0.0, h.time_s[-1], _ENOUGH)]))
     time = time[time <= h.time_s[-1]]

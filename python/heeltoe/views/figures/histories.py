@@ -142,7 +142,7 @@ def slip_by_mode_figure(response: Response, units: str = "si") -> Figure:
     Of an elastic dam only the sums at the end are known, and in which state each frame ends: its slip is one curve,
     drawn as the states look.
     """
-    exact = "time_s" in response.event_log
+    exact = bool(response.event_log)
     summed = slip_by_kind(response) if exact else {}
     named = {kind: key for kind, key in _SLIP_KEYS.items() if abs(response.slip_by_mode_m[key]) > NO_SLIP}
     scale = unit_system(units).scale("displacement", largest(*summed.values(), response.histories.slip_m))

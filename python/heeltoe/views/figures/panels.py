@@ -51,8 +51,8 @@ def beside(axes: Axes, text: str, *, colour: str = "#000000") -> None:
 def draw_slip(axes: Axes, response: Response, units: Units) -> None:
     """Draw the slip, with what remains of it, and its spread where that was asked for."""
     h = response.histories
-    spread = None if response.spread is None else response.spread["residual_slip_m"]
-    ends = np.array([] if spread is None else [spread["min"], spread["max"]])
+    spread = None if response.spread is None else response.spread.residual_slip_m
+    ends = np.array([] if spread is None else [spread.min, spread.max])
     converged = converged_slip(response)
     within = np.array([] if converged is None else [converged[0] - converged[1], converged[0] + converged[1]])
     scale = units.scale("displacement", largest(h.slip_m, ends, within))
@@ -123,7 +123,7 @@ def slip_in_the_end(response: Response, scale: Scale) -> str:
 def converged_slip(response: Response) -> tuple[float, float] | None:
     """Return the residual slip to trust and how uncertain it is [m]; None where nobody asked."""
     evidence = response.summary.get("evidence")
-    return None if not evidence else (evidence["residual_slip_m"]["value"], evidence["residual_slip_m"]["uncertainty"])
+    return None if not evidence else (evidence.residual_slip_m.value, evidence.residual_slip_m.uncertainty)
 
 
 def draw_rotation(axes: Axes, response: Response, units: Units) -> None:
@@ -217,7 +217,7 @@ def _spans(response: Response, kind: str) -> list[tuple[float, float]]:
 
 def pieces(response: Response) -> list[tuple[str, float, float]]:
     """Return kind, start and end; events give the exact changes, where there are any, else the frames."""
-    if "time_s" in response.event_log:
+    if response.event_log:
         times = np.concatenate([[0.0], response.event_log.time_s, [response.end_time_s]])
         modes = ("rest", *response.event_log.mode_after)
     else:

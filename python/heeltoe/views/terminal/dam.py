@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 
 from heeltoe.case.model import Case
+from heeltoe.case.warnings import drawing_notice
 from heeltoe.units.sentences import written
 from heeltoe.views.content.tree import Table
-from heeltoe.views.terminal.render import label_grid, print_more, print_table, print_title
+from heeltoe.views.terminal.render import label_grid, print_more, print_table, print_title, safe
 
 # Not at run time: neither waits for the other's parts.
 if TYPE_CHECKING:
@@ -45,6 +46,12 @@ def about_dam(case: Case, units: str = "si") -> str:
         text += "; water {depth:.4g m} deep"
         sizes["depth"] = case.reservoir.depth
     return written(text, units, **sizes)
+
+
+def print_drawing(case: Case, console: Console, units: str = "si") -> None:
+    """Print which outline of a drawing is the dam, if it is drawn."""
+    for notice in drawing_notice(case):
+        console.print(safe(notice.text(units)), style="dim")
 
 
 def print_periods(

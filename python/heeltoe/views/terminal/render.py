@@ -170,6 +170,10 @@ def label_lines(lines: Iterable[tuple[str, str]]) -> RichTable:
     return grid
 
 
+#: How the note on which outline of a drawing is the dam begins: it is never cut short.
+_DRAWN = "section from a drawing: "
+
+
 class Screen:
     """A console that counts the lines it is given, so that a short screen stays short."""
 
@@ -189,7 +193,10 @@ class Screen:
 
     def add_warnings(self, texts: Sequence[str], more: str) -> None:
         """Print warnings, the most important first, whole or a line each as there is room, and where the rest is."""
-        rows = [Text.assemble(("warning", "yellow"), "  ", text) for text in texts]
+        for text in texts:
+            if text.startswith(_DRAWN):
+                self.add(Text(text, style="dim"))
+        rows = [Text.assemble(("warning", "yellow"), "  ", text) for text in texts if not text.startswith(_DRAWN)]
         needed, rest = sum(map(self.lines, rows)), ""
         if needed > self.left:
             room = max(1, self.left)

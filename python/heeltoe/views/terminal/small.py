@@ -12,7 +12,8 @@ from rich.table import Table
 
 from heeltoe.errors.sanitize import plain
 from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.result.contract import CRACKED, HEADLINES
+from heeltoe.result.contract import CRACKED, HEADLINES, RESIDUAL_SLIP
+from heeltoe.result.numbers import SlipByMode
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
@@ -56,9 +57,7 @@ _HEADLINES = tuple(
 _SLIPS = sum(headline.kind == "slip" for headline in HEADLINES)
 _SLIP: tuple[_Column, ...] = (
     *_HEADLINES[:_SLIPS],
-    ("sliding", "slip_sliding_m", 1.0, _length),
-    ("slide-\nrocking", "slip_slide_rocking_m", 1.0, _length),
-    ("drifting", "slip_drifting_m", 1.0, _length),
+    *((mode.replace("_", "-\n"), f"slip_{mode}_m", 1.0, _length) for mode in SlipByMode.names()),
 )
 _ROCKING: tuple[_Column, ...] = (*_HEADLINES[_SLIPS:], ("impacts", "impacts", 1.0, _count))
 # What stands under --details alone: slips by mode, rotations, impacts.
@@ -121,7 +120,7 @@ def print_solved(solved: Solved, console: Console, units: str = "si", *, details
 
 
 def _of_crack(place: int) -> _Column:
-    return f"crack {place + 1},\nresidual", column_of(place, "residual_slip_m"), 1.0, _length
+    return f"crack {place + 1},\nresidual", column_of(place, RESIDUAL_SLIP.key), 1.0, _length
 
 
 def _judged(grid: SmallStudy) -> list[str]:
@@ -199,15 +198,15 @@ def _print_crack_level(grid: SmallStudy, console: Console) -> None:
         for response in grid.responses
         if isinstance(response, DecoupledResponse) and response.summary
     ]
-    factors = sorted(level["amplification"] for level in levels if level["amplification"] is not None)
+    factors = sorted(level.amplification for level in levels if level.amplification is not None)
     if not factors:
         return
-    peaks = sorted(level["peak_horizontal_g"] for level in levels)
+    peaks = sorted(level.peak_horizontal_g for level in levels)
 
     def span(values: list[float], unit: str = "") -> str:
         low, high = f"{values[0]:.3g}", f"{values[-1]:.3g}"
         return f"{low}{unit}" if low == high else f"{low} to {high}{unit}"
 
-    periods = span(sorted(level["periods_s"][0] for level in levels if level["periods_s"]) or [0.0], " s")
+    periods = span(sorted(level.periods_s[0] for level in levels if level.periods_s) or [0.0], " s")
     text = f"crack level: peak {span(peaks, ' g')}, {span(factors)} times the ground's; first period below {periods}"
     console.print(text, style="dim", soft_wrap=True)

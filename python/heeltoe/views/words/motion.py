@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 
 from heeltoe.errors.error import InputError
@@ -37,12 +37,12 @@ def about_motions(
         texts, unit = numbers(values, form, units)
         return [f"{text} {unit}" for text in texts]
 
-    def measured(name: str, form: str) -> list[str]:
-        return [quantity(row[name], form) if name in row else "" for row in table]
+    def measured(values: Iterable[float | None], form: str) -> list[str]:
+        return ["" if value is None else quantity(value, form) for value in values]
 
     ends = zip(
-        amounts([row["end_velocity_m_s"] for row in table], ".3g m/s"),
-        amounts([row["end_displacement_m"] for row in table], ".3g m"),
+        amounts([row.end_velocity_m_s for row in table], ".3g m/s"),
+        amounts([row.end_displacement_m for row in table], ".3g m"),
         strict=True,
     )
     samples = [f"{motion.time.size}, {sampling(motion)}, {motion.duration:.5g} s in all" for motion in motions]
@@ -58,10 +58,13 @@ def about_motions(
         ("PGA", [f"{motion.pga / gravity:.5g} g" for motion in motions]),
         ("PGV", amounts([motion.pgv for motion in motions], ".4g m/s")),
         ("PGD", amounts([motion.pgd for motion in motions], ".4g m")),
-        ("Arias intensity", amounts([row["arias_intensity_m_s"] for row in table], ".4g m/s")),
-        ("CAV", amounts([row["cav_m_s"] for row in table], ".4g m/s")),
-        ("significant duration", [text and f"{text} (5-95 %)" for text in measured("significant_duration_s", ".4g s")]),
-        ("mean period", measured("mean_period_s", ".4g s")),
+        ("Arias intensity", amounts([row.arias_intensity_m_s for row in table], ".4g m/s")),
+        ("CAV", amounts([row.cav_m_s for row in table], ".4g m/s")),
+        (
+            "significant duration",
+            [text and f"{text} (5-95 %)" for text in measured((row.significant_duration_s for row in table), ".4g s")],
+        ),
+        ("mean period", measured((row.mean_period_s for row in table), ".4g s")),
         ("at the end, from rest", [", ".join(end) for end in ends]),
         ("processing", [motion.all_processing for motion in motions]),
         ("motions", ["; then ".join(part_lines(motion, gravity)) for motion in motions]),
@@ -80,7 +83,7 @@ def suspicions(motion: GroundMotion, units: str = "si", gravity: float = STANDAR
             texts.append(str(error))
     try:
         # That a record is uncorrected stands among its own warnings.
-        check_moved(motion.corrected(), "motion")
+        check_moved(motion.corrected(), gravity, "motion")
     except InputError as error:
         texts.append(str(error))
     return tuple(dict.fromkeys(texts))

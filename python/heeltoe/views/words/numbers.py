@@ -7,29 +7,33 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from heeltoe.base.blocks import ending_of
 from heeltoe.units.systems import FOOT, POUND, unit_system
 from heeltoe.units.write import NOTHING, angle, digits, length, one_unit
 
-#: Endings of names, the longest first: the quantity, and its SI unit in words.
-ENDINGS = {
-    "_rad_s2": ("angular acceleration", "rad/s²"),
-    "_rad_s": ("angular velocity", "rad/s"),
-    "_m_s2": ("acceleration", "m/s²"),
-    "_m_s": ("velocity", "m/s"),
-    "_n_s": ("impulse", "N s per metre of dam"),
-    "_1_s": ("rate", "1/s"),
-    "_rad": ("rotation", "rad"),
-    "_nm": ("moment", "N m per metre of dam"),
-    "_m2": ("area", "m²"),
-    "_kg": ("mass", "kg per metre of dam"),
-    "_pa": ("pressure", "Pa"),
-    "_hz": ("frequency", "Hz"),
-    "_m": ("displacement", "m"),
-    "_s": ("time", "s"),
-    "_g": ("g", "g"),
-    "_j": ("energy", "J per metre of dam"),
-    "_n": ("force", "N per metre of dam"),
+#: What a number is, by its SI unit.
+QUANTITIES = {
+    "": "number",
+    "rad/s²": "angular acceleration",
+    "rad/s": "angular velocity",
+    "m/s²": "acceleration",
+    "m/s": "velocity",
+    "N s per metre of dam": "impulse",
+    "1/s": "rate",
+    "rad": "rotation",
+    "N m per metre of dam": "moment",
+    "m²": "area",
+    "kg per metre of dam": "mass",
+    "Pa": "pressure",
+    "Hz": "frequency",
+    "m": "displacement",
+    "s": "time",
+    "g": "g",
+    "J per metre of dam": "energy",
+    "N per metre of dam": "force",
 }
+#: Units by the endings of names, the longest first.
+ENDINGS = {ending_of(unit): unit for unit in sorted(QUANTITIES, key=lambda unit: -len(ending_of(unit))) if unit}
 # Less than this [Pa] is what rounding leaves of no stress.
 _NO_PRESSURE = 1e-3
 
@@ -148,7 +152,7 @@ def kind(key: str) -> str:
     last = key.rpartition(".")[2]
     if last.isdigit() or last in ("mean", "std", "min", "max"):
         last = key.split(".")[-2]
-    return next((quantity for ending, (quantity, _) in ENDINGS.items() if last.endswith(ending)), "number")
+    return QUANTITIES[next((unit for ending, unit in ENDINGS.items() if last.endswith(ending)), "")]
 
 
 @dataclass(frozen=True)

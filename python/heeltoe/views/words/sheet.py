@@ -133,7 +133,8 @@ def _decimals(largest: float) -> int:
 
 
 def _text(value: float, decimals: int) -> str:
-    return f"{value:z.{decimals}f}".replace("-", "−")
+    # With the minus of a keyboard: what is copied into a table of a checker must be a number there.
+    return f"{value:z.{decimals}f}"
 
 
 def _say(value: float, digits: int = _DIGITS) -> str:

@@ -101,7 +101,7 @@ def deformed_figure(response: FlexibleResponse, time: float | None = None, units
 def _chosen(response: FlexibleResponse, history: CrackHistory) -> tuple[int, str]:
     h = response.histories
     if response.tension is not None:
-        return history.frame_at(response.tension["time_s"]), ", the largest tension of the run"
+        return history.frame_at(response.tension.time_s), ", the largest tension of the run"
     if float(np.ptp(h.slip_m)) > _SLIDES:
         return int(np.argmax(np.abs(h.slip_velocity_m_s))), ", the fastest slip"
     frames = np.unique(np.linspace(0, len(history.time) - 1, _LOOKED_AT).astype(int))

@@ -43,21 +43,21 @@ def tension_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     figure = Figure(figsize=(WIDTH, float(np.clip(5.0 * tall / wide + 1.6, 3.4, 7.5))), layout="constrained")
     describe(figure, response, f"Largest: {tension_line(tension, units)}")
     axes = figure.subplots()
-    length, stress = system.scale("length"), system.scale("pressure", max(tension["stress_pa"], 1.0))
+    length, stress = system.scale("length"), system.scale("pressure", max(tension.stress_pa, 1.0))
     image = _tensions(axes, response, length, stress)
     bar = figure.colorbar(image, ax=axes, location="right", aspect=30, pad=0.02)
-    if tension["strength"] is not None:
+    if tension.strength is not None:
         # Beside the colours, so that one sees what there is over what the concrete bears.
-        bar.ax.axhline(stress(tension["strength"]["dynamic_pa"]), color=COLOURS["slip"], linewidth=1.8)
+        bar.ax.axhline(stress(tension.strength.dynamic_pa), color=COLOURS["slip"], linewidth=1.8)
     bar.set_label(f"largest tension [{stress.unit}]")
     for body in dam.bodies:
         outline = boundary_edges(body.mesh.elements)
         axes.add_collection(LineCollection(list(length(body.mesh.nodes)[outline]), colors="#000000", linewidths=1.0))
     for body in dam.bodies[: dam.free]:
         axes.plot(*length(body.mesh.nodes[body.mesh.faces[-1]]).T, color=COLOURS["crack"], linewidth=1.6)
-    place = length(np.array([tension["x_m"], tension["z_m"]]))
+    place = length(np.array([tension.x_m, tension.z_m]))
     axes.plot(*place, "o", markersize=9, markerfacecolor="none", markeredgecolor="#000000", markeredgewidth=1.6)
-    across = tension["direction_rad"] + np.pi / 2.0
+    across = tension.direction_rad + np.pi / 2.0
     reach = 0.06 * length(max(wide, tall)) * np.array([np.cos(across), np.sin(across)])
     axes.plot(*np.column_stack([place - reach, place + reach]), color="#000000", linewidth=1.6)
     room = 0.05 * length(max(wide, tall))
@@ -72,7 +72,7 @@ def _tensions(axes: Axes, response: FlexibleResponse, length: Scale, stress: Sca
     """Fill contours of the tension where it has a bound, and grey where it has none; draw where the strength is."""
     tension = response.tension
     assert tension is not None
-    most = stress(max(tension["stress_pa"], 1.0))
+    most = stress(max(tension.stress_pa, 1.0))
     levels = MaxNLocator(_LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, most)
     for body, part in zip(response.crack.dam.bodies, response.envelope, strict=True):
         places = length(body.mesh.nodes[part.nodes])
@@ -86,10 +86,8 @@ def _tensions(axes: Axes, response: FlexibleResponse, length: Scale, stress: Sca
             continue
         net = Triangulation(places[:, 0], places[:, 1], triangles, mask=unread)
         image = axes.tricontourf(net, values, levels=levels, cmap="Oranges")
-        if tension["strength"] is not None and _crosses(
-            values[part.bounded], stress(tension["strength"]["dynamic_pa"])
-        ):
-            beyond = [stress(tension["strength"]["dynamic_pa"])]
+        if tension.strength is not None and _crosses(values[part.bounded], stress(tension.strength.dynamic_pa)):
+            beyond = [stress(tension.strength.dynamic_pa)]
             axes.tricontour(net, values, levels=beyond, colors=COLOURS["slip"], linewidths=1.6)
     return image
 
@@ -108,6 +106,6 @@ def _key(response: FlexibleResponse) -> list[Line2D | Patch]:
         Patch(facecolor=_UNREAD, label="not read: no bound"),
         Line2D([], [], color=COLOURS["crack"], linewidth=1.6, label="the crack"),
     ]
-    if tension["strength"] is not None:
+    if tension.strength is not None:
         handles.append(Line2D([], [], color=COLOURS["slip"], linewidth=1.6, label="what the concrete bears"))
     return handles

@@ -7,6 +7,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.units.systems import INCH
 from heeltoe.views.figures.style import heading
@@ -61,7 +62,7 @@ def slip_scale(units: str) -> tuple[float, str]:
 
 def farthest(study: StudyResults) -> float:
     """Return the largest residual slip of all runs, either way [m]; zero where there is none."""
-    return max((abs(item["residual_slip_m"]["largest"] or 0.0) for item in study.summary), default=0.0)
+    return max((abs(item[RESIDUAL_SLIP.key]["largest"] or 0.0) for item in study.summary), default=0.0)
 
 
 def headed(figure: Figure, study: StudyResults, *lines: str) -> Figure:

@@ -11,7 +11,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from heeltoe.base.arrays import Floats
-from heeltoe.result.contract import JOINT_METER_M
+from heeltoe.result.contract import JOINT_METER_M, RESIDUAL_SLIP
 from heeltoe.study.answers.fragility import Curve
 from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.run.aggregate import SHAKEN
@@ -22,7 +22,7 @@ from heeltoe.views.words.studies import limits_of
 
 #: More curves than these are a cloud: evenly chosen ones stand for them.
 _CURVES = 200
-_SLIP = "residual_slip_m"
+_SLIP = RESIDUAL_SLIP.key
 
 
 @styled
@@ -107,19 +107,19 @@ def fragility_figure(study: StudyResults, units: str = "si") -> Figure | None:
     """Draw the shares of the runs that exceed each limit with their bounds, and the fragility curves with what they lie
     within; where there is no curve, the strengths between which half of the dams come to exceed. None without runs."""
     asked = study.manifest["study"]["fragility"]
-    known = [pair for pair in study.curves if pair[1].shares]
+    known = [curve for curve in study.fragility if curve.shares]
     if not known:
         return None
     strength = measured(asked["measure"], asked["period"], units)
-    models = list(dict.fromkeys(name for name, _ in known))
+    models = list(dict.fromkeys(curve.model for curve in known))
     limits = list(dict.fromkeys((limit, value) for _, limit, value in study.counted))
     labels = limits_of(limits, units)
     figure = Figure(figsize=(WIDTH, 4.4), layout="constrained")
     panels = figure.subplots(1, len(models), sharex=True, sharey=True, squeeze=False)[0]
-    strongest = max(curve.shares[-1].strength for _, curve in known) / strength.scale
+    strongest = max(curve.shares[-1].strength for curve in known) / strength.scale
     x = np.linspace(0.0, 1.03 * strongest, 241)[1:]
     for name, axes in zip(models, panels, strict=True):
-        for curve in (curve for of, curve in known if of == name):
+        for curve in (curve for curve in known if curve.model == name):
             look = LINES[limits.index((curve.limit, curve.value)) % len(LINES)]
             _curve(axes, curve, (x, strength.scale), (*look, labels[curve.limit, curve.value]))
         axes.set_title(f"{name} model", fontsize=9, loc="left")
@@ -128,7 +128,7 @@ def fragility_figure(study: StudyResults, units: str = "si") -> Figure | None:
     panels[0].set_ylim(0.0, 1.0)
     panels[0].set_xlim(0.0, 1.03 * strongest)
     panels[0].set_ylabel("probability that it is exceeded")
-    within = any(curve.knowledge is not None for _, curve in known)
+    within = any(curve.knowledge is not None for curve in known)
     sure = f"{asked['confidence']:.0%}"
     band = f"; shaded: {sure}, event by event" if within else ""
     return headed(figure, study, *_do_not_stand(study), f"points: shares of the runs with exact bounds, {sure}{band}")

@@ -4,8 +4,7 @@ motions and events make them."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter
 
 from heeltoe.errors.sanitize import plain
+from heeltoe.study.answers.hazard import AnnualRate
 from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.views.figures.studies.common import LINES, headed, measured
 from heeltoe.views.figures.style import WIDTH, styled
@@ -81,11 +81,11 @@ def hazard_figure(study: StudyResults, units: str = "si") -> Figure | None:
     return headed(figure, study, "fragility over hazard; dotted: at most, with motions beyond the hazard curve")
 
 
-def _least(row: Mapping[str, Any]) -> str:
+def _least(row: AnnualRate) -> str:
     return " (at least)" if row["annual_rate_bounds"][1] is None else ""
 
 
-def _events(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+def _events(rows: Sequence[AnnualRate]) -> list[str]:
     """Return the events that make most of the rates together."""
     made = Counter[str]()
     for row in rows:
@@ -93,7 +93,7 @@ def _events(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     return [event for event, _ in made.most_common(_SHOWN)]
 
 
-def _fractiles(axes: Axes, rows: Sequence[Mapping[str, Any]]) -> None:
+def _fractiles(axes: Axes, rows: Sequence[AnnualRate]) -> None:
     """Draw the fractiles of the annual probability of each limit: 5 to 95 % thin, 16 to 84 % thick."""
     for place, row in enumerate(rows):
         colour, known = LINES[place % len(LINES)][0], row["annual_probability_fractiles"]
@@ -112,7 +112,7 @@ def _fractiles(axes: Axes, rows: Sequence[Mapping[str, Any]]) -> None:
     axes.set_title("how well it is known", fontsize=9, loc="left")
 
 
-def _shares(axes: Axes, rows: Sequence[Mapping[str, Any]], events: Sequence[str]) -> None:
+def _shares(axes: Axes, rows: Sequence[AnnualRate], events: Sequence[str]) -> None:
     """Draw the share of each rate that some events make, the largest above."""
     height = 0.8 / len(rows)
     for place, row in enumerate(rows):
