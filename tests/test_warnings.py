@@ -18,6 +18,7 @@ ENDINGS = {
     "_m_s": "velocity",
     "_rad": None,
     "_pa": "pressure",
+    "_m2": "area",
     "_m": "length",
     "_s": None,
     "_g": None,

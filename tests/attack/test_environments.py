@@ -26,7 +26,6 @@ COMMANDS: dict[str, Sequence[str | Path]] = {
     "overturning": ["overturning", SLENDER, "--count=3"],
     "page": ["animate", "dam.toml", "--to=dam.html"],
     "video": ["animate", "dam.toml", "--to=dam.mp4", "--fps=5"],
-    "validate": ["validate", "impulse"],
     "new": ["new", "fresh"],
 }
 FURTHER: dict[str, Sequence[str | Path]] = {

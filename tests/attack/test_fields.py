@@ -41,6 +41,7 @@ def help_of(place: Path) -> dict[str, tuple[Fields, Any]]:
         file = {block: {"file": str(place / "record.txt")}}
         for name in ("file", "channel", "unit", "time_step"):
             beside[f"{block}.{name}"] = (file, "1")
+        beside |= {f"{block}.layout": (file, "columns"), f"{block}.factor": (file, 1.0)}
         beside |= {f"{block}.points": ({}, []), f"{block}.pga": ({}, "0.5 g")}
     return beside | {"motion.duration": ({}, "1 s"), "motion.allow_zero": ({}, True)}
 

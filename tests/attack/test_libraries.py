@@ -100,7 +100,7 @@ CALLS: dict[str, tuple[str, tuple[BaseException, ...], Prepared]] = {
     "StationXML": ("obspy.read_inventory", ANY, _seed),
     "mesh": ("meshio.read", (*ANY, SystemExit(1)), _mesh),
     "drawing": ("ezdxf.filemanagement.readfile", ANY, _drawing),
-    "polylines of a drawing": ("ezdxf.layouts.Modelspace.query", ANY, _drawing),
+    "polylines of a drawing": ("ezdxf.document.Drawing.modelspace", ANY, _drawing),
 }
 
 

@@ -27,7 +27,6 @@ USUAL: dict[str, list[str | Path]] = {
     "animate": [BLOCK, "--to=page.html"],
     "motion": ["record.txt"],
     "study": ["study.json", "--dry-run"],
-    "validate": [],
     "new": [],
     "examples": [],
     "app": ["--no-browser", "--public"],
@@ -54,8 +53,7 @@ def calls(name: str) -> Iterator[list[str | Path]]:
         if parameter.name == "help" or getattr(parameter, "is_flag", False):
             continue
         if parameter.param_type_name == "argument":
-            # A name that is none is looked for; all of them, and what is one, takes minutes.
-            yield from ([word, *usual[1:]] for word in WORDS if name != "validate" or word)
+            yield from ([word, *usual[1:]] for word in WORDS)
             continue
         option = max(parameter.opts, key=len)
         kept = [argument for argument in usual if not str(argument).startswith(f"{option}=")]

@@ -73,7 +73,10 @@ def dam(
         "tailwater" if mirrored else "reservoir": {
             "depth": f"{depth * size!r} m",
             "density": f"{1000.0 * dense} kg/m^3",
+            "compressible": False,
         },
+        # Rock and sound would have to be scaled, too.
+        "rock": "rigid",
         "motion": motion,
         "flexible": {"elements_across": 2, "evidence": "none"},
         "analysis": {"silence": f"{watched * slower} s"},

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import shutil
 import signal
 import stat
 import subprocess
@@ -20,6 +21,7 @@ from heeltoe.base.atomic_files import (
     check_directory,
     check_file,
     files,
+    mark,
     settle,
     temporary,
     write_text,
@@ -172,6 +174,7 @@ def test_a_link_in_a_folder_of_a_stranger_leads_nothing_out(tmp_path, left):
         (place / READY / "figures").mkdir(parents=True)
         (place / READY / "figures" / "file").write_text("theirs")
         (place / READY / LISTED).write_text("figures/file\n")
+        mark(place / READY)
         assert refusal(settle, place) == "cannot-write"
 
     def fill(fresh):
@@ -182,6 +185,43 @@ def test_a_link_in_a_folder_of_a_stranger_leads_nothing_out(tmp_path, left):
         write_whole(fill, place, ("*",))
     assert found(tmp_path / "far") == {"file": "mine"}
     assert (place / READY).exists() == left
+
+
+def test_a_left_over_of_a_stranger_is_not_completed(tmp_path):
+    """Out of an archive a directory comes back as another one, whatever its files say."""
+    (tmp_path / "made" / READY).mkdir(parents=True)
+    (tmp_path / "made" / READY / "file").write_text("theirs")
+    (tmp_path / "made" / READY / LISTED).write_text("file\n")
+    place = tmp_path / "out"
+    shutil.copytree(tmp_path / "made", place)
+    (place / "file").write_text("mine")
+    before = found(place)
+    for marked in (False, True):
+        if marked:
+            mark(tmp_path / "made" / READY)
+            shutil.copy(tmp_path / "made" / READY / ".heeltoe-mark", place / READY)
+            before = found(place)
+        for call in (lambda: settle(place), lambda: write_whole(filling(file="new"), place, ("*",))):
+            assert refusal(call) == "left-over"
+        assert found(place) == before
+    mark(place / READY)
+    settle(place)
+    assert found(place) == {"file": "theirs", LISTED: "file\n"}
+
+
+def test_what_a_removal_has_left_is_removed(tmp_path):
+    (tmp_path / READY / "figures").mkdir(parents=True)
+    settle(tmp_path)
+    assert not (tmp_path / READY).exists()
+
+
+@pytest.mark.skipif(os.name == "nt" or os.geteuid() != 0, reason="only the administrator gives files away")
+def test_a_left_over_of_another_user_is_not_completed(tmp_path):
+    (tmp_path / READY).mkdir()
+    (tmp_path / READY / LISTED).write_text("\n")
+    mark(tmp_path / READY)
+    os.chown(tmp_path / READY, 12345, 12345)
+    assert refusal(settle, tmp_path) == "left-over"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")

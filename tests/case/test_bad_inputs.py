@@ -128,7 +128,6 @@ ARGUMENTS = {
     "step beyond the run": (["run", "case.toml", "--output-step", "100s"], ["output_step", "100 s"]),
     "out is a file": (["run", "case.toml", "--out", "case.toml"], ["--out", "case.toml"]),
     "json nowhere": (["run", "case.toml", "--json", "no/where.json"], ["no", "is not there"]),
-    "unknown validation": (["validate", "zzz"], ["zzz", "impulse"]),
     "motion of nothing": (["motion"], ["--list"]),
     "flexible without a modulus": (
         ["run", "case.toml", "--model", "flexible", "--out", "o"],

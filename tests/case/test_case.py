@@ -2,15 +2,21 @@
 
 import copy
 import json
+import math
 import pickle
+import re
 from pathlib import Path
 
 import pytest
 
-from heeltoe.case.read import case_schema, read_case
+from heeltoe.case.paths import quantity_of
+from heeltoe.case.plausible import PLAUSIBLE
+from heeltoe.case.read import case_schema, read_case, read_fields
 from heeltoe.case.warnings import case_warnings
 from heeltoe.errors.error import InputError
-from heeltoe.units.parse import Acceleration
+from heeltoe.units.parse import STANDARD_GRAVITY, Acceleration, parse
+from heeltoe.views.explain.fields import fields_of_a_case
+from heeltoe.warnings.notice import CATALOGUE
 from shared.cases import DAM, dam, write
 from shared.dams import EXAMPLES as DIRECTORY
 from shared.dams import PULSE, TYPICAL
@@ -151,6 +157,12 @@ def test_case_cannot_be_changed():
         ({"uplift": {"intensity": 1.5}}, "uplift.intensity: 1.5"),
         ({"concrete": {"density": "150 kg/m^3"}}, "150 kg/m^3 is unusual"),
         ({"gravity": "32.2 m/s^2"}, "gravity: 32.2 m/s^2 is not that of the earth, 9.807 m/s^2: check its unit"),
+        ({"concrete": {"modulus": "100 GPa"}}, "concrete.modulus: 100 GPa is not that of concrete"),
+        ({"concrete": {"modulus": "20 MPa"}}, "concrete.modulus: 0.02 GPa is not that of concrete"),
+        ({"concrete": {"damping": 0.2}}, "concrete.damping: 20 % is more than a dam has"),
+        ({"concrete": {"damping": 0.99}}, "concrete.damping: 99 % is more than a dam has"),
+        ({"motion": {"file": "taft.txt", "pga": "0.4 m/s^2"}}, "motion.pga: 0.041 g is hardly felt"),
+        ({"motion": {"file": "taft.txt", "pga": "0.4 ft/s^2"}}, "motion.pga: 0.012 g is hardly felt"),
         ({"gravity": "9.81 ft/s^2"}, "gravity: 2.99 m/s^2 is not that of the earth"),
         (
             {"reservoir": {"depth": "95 m", "density": "700 kg/m^3"}},
@@ -215,3 +227,58 @@ def test_schema_describes_every_field():
     assert schema["required"] == ["section"]
     assert schema["oneOf"] == [{"required": [name]} for name in ("cracks", "crack", "joints")]
     assert schema["properties"]["cracks"]["items"]["$ref"] == schema["properties"]["crack"]["$ref"]
+
+
+def test_a_dam_of_a_metre_is_warned_of():
+    """A block without water may be one in a laboratory."""
+    small = {"section": {"polygon": [["0 m", "0 m"], ["0.8 m", "0 m"], ["0 m", "1 m"]]}}
+    wet = dam(**small, reservoir={"depth": "0.9 m"})
+    assert [notice.code for notice in case_warnings(read_case(wet))] == ["height-unusual"]
+    assert not case_warnings(read_case({**small, "crack": {"friction": 0.7}}))
+
+
+@pytest.mark.parametrize(("path", "rule"), PLAUSIBLE.items())
+def test_each_range_is_explained(path, rule):
+    """`heeltoe explain` shows the ends by which the warning is made."""
+    (meaning,) = [field for field in fields_of_a_case() if field.name == path]
+    assert "warned of" in meaning.limits
+    ends = re.findall(r"[\d.]+(?: [A-Za-z/³²]+)?", meaning.limits.partition("warned of")[2].replace(" to", ","))
+    dimension = quantity_of(path) or "number"
+    scale = STANDARD_GRAVITY if rule.unit == "g" else 1.0
+    expected = [end * scale for end in (rule.low, rule.high) if math.isfinite(end)]
+    numbers = [parse(end.translate({179: "^3", 178: "^2"}), dimension, path) for end in ends]
+    assert numbers == pytest.approx(expected)
+    assert CATALOGUE[rule.code][0] == "caution"
+
+
+@pytest.mark.parametrize(
+    ("line", "wrong"),
+    [
+        ("friction = 1_0", "1_0"),
+        ("friction = 1_00 # text", "1_00"),
+        ('x = ["1_0", 10_00]', "10_00"),
+        ("a = {b=1_0}", "1_0"),
+    ],
+)
+def test_underscores_part_thousands_alone(tmp_path, line, wrong):
+    (tmp_path / "case.toml").write_text(line)
+    with pytest.raises(InputError, match=f"{wrong} is no number") as refused:
+        read_fields(tmp_path / "case.toml")
+    assert refused.value.code == "case-file-syntax"
+
+
+def test_underscores_where_they_mean_something(tmp_path):
+    text = 'a = 1_000\nb = "1_0" # 1_0\nc_1_0 = \'1_0\'\nd = """\n1_0\n"""\ne = -12_345_678\n'
+    (tmp_path / "case.toml").write_text(text)
+    assert read_fields(tmp_path / "case.toml") == {"a": 1000, "b": "1_0", "c_1_0": "1_0", "d": "1_0\n", "e": -12345678}
+    with pytest.raises(InputError, match='"1_0" is not a number'):
+        read_case(DAM, ["crack.friction=1_0"])
+
+
+@pytest.mark.parametrize(
+    "text", ['title = "a\\u0000b"', '{"title": "a\\u0000b"}', '{"a\\u0000": 1}', 'a = ["\\u0000"]']
+)
+def test_a_text_holds_no_nul(tmp_path, text):
+    (tmp_path / "case").write_text(text)
+    with pytest.raises(InputError, match="U\\+0000"):
+        read_fields(tmp_path / "case")

@@ -133,7 +133,8 @@ REFUSED = [
     ),
     (
         dam(concrete={"density": "24 kN/m^3"}),
-        'concrete.density: "24 kN/m^3" is not a density; write for example "2400 kg/m^3"',
+        'concrete.density: "24 kN/m^3" is a weight for each volume, not a density; '
+        'divide it by one g, 9.80665 m/s^2: "2447.3 kg/m^3"',
     ),
     (
         dam(crack={"friction": float("inf")}),

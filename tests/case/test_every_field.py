@@ -22,6 +22,10 @@ Skip = Callable[[str, list[str]], bool]
 SILENT = {"fields-unused", "fields-idle", "restitution-unused", "rotation-unused"}
 
 
+def _in_threes(words: list[str]) -> list[str]:
+    return [" ".join(words[k : k + 3]) for k in range(0, len(words) - len(words) % 3, 3)]
+
+
 @pytest.fixture(scope="module")
 def records(tmp_path_factory) -> dict[str, tuple[Fields, Any]]:
     """What fields of records need: files."""
@@ -31,6 +35,8 @@ def records(tmp_path_factory) -> dict[str, tuple[Fields, Any]]:
         "three.V2": csmip({"90 DEG": GAL, "UP": -0.5 * GAL, "0 DEG": 0.8 * GAL}),
         "bare.txt": bare.replace(" ", "\n"),
         "stepless.txt": "# units: [g]\n" + bare.replace(" ", "\n"),
+        "rows.txt": "# time step: 0.01 s\n# units: [g]\n" + "\n".join(_in_threes(bare.split())),
+        "factor.txt": "# factor: 0.5\n# time step: 0.01 s\n# units: [g]\n" + bare.replace(" ", "\n"),
         "a.txt": "# time step: 0.01 s\n# units: [g]\n" + bare.replace(" ", "\n"),
         "b.txt": "# time step: 0.011 s\n# units: [g]\n" + bare.replace(" ", "\n"),
     }.items():
@@ -55,6 +61,11 @@ def records(tmp_path_factory) -> dict[str, tuple[Fields, Any]]:
                 {**source, f"{block}.file": str(place / "stepless.txt"), f"{block}.time_step": "0.01 s"},
                 "0.012 s",
             ),
+            f"{block}.layout": (
+                {**source, f"{block}.file": str(place / "rows.txt"), f"{block}.channel": 1, f"{block}.layout": "rows"},
+                "columns",
+            ),
+            f"{block}.factor": ({**source, f"{block}.file": str(place / "factor.txt"), f"{block}.factor": 1.0}, 0.5),
             f"{block}.points": ({}, [["0 s", "0 g"], ["0.2 s", "0.5 g"], ["0.4 s", "0 g"]]),
             f"{block}.pga": ({}, "0.5 g"),
         }

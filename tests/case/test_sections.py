@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import io
+import math
 import sys
+import tomllib
 from contextlib import suppress
 from itertools import pairwise
 
 import ezdxf
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from heeltoe import InputError, read_case
+from heeltoe import InputError, read_case, run, statics_of_sections
 from heeltoe.case.section_file import read_corners
+from heeltoe.case.toml_writer import case_text
+from shared.command import command
 from shared.dams import polygon
 
 CORNERS = [(-2.1, 0.0), (34.4, 0.0), (6.0, 38.0), (6.0, 45.0), (0.0, 45.0), (0.0, 21.0)]
@@ -121,41 +126,262 @@ def test_of_several_outlines_one_is_named(tmp_path):
         read(tmp_path / "a.dxf", content)
 
 
-def test_a_frame_around_a_dam_that_is_drawn_as_lines_is_not_taken_for_the_dam(tmp_path):
-    """The right answer is a question: a frame of 60 x 60 m would be a block that stands."""
+def saved(tmp_path, draw, *, frozen=(), **more):
+    """Read the section of a drawing that a function fills."""
     made = ezdxf.new("R2010", units=6)
-    made.layers.add("FRAME")
-    space = made.modelspace()
-    frame = [(-10.0, -5.0), (50.0, -5.0), (50.0, 55.0), (-10.0, 55.0)]
-    space.add_lwpolyline(frame, close=True, dxfattribs={"layer": "FRAME"})
-    for start, end in pairwise([*CORNERS, CORNERS[0]]):
-        space.add_line(start, end, dxfattribs={"layer": "DAM"})
-    space.add_text("Section A-A", dxfattribs={"layer": "TEXT"})
+    draw(made.modelspace())
+    for name in frozen:
+        (made.layers.get(name) if name in made.layers else made.layers.add(name)).freeze()
     path = tmp_path / "a.dxf"
     made.saveas(path)
-    with pytest.raises(InputError, match=r'section.layer: the only closed .*"FRAME", stands .*: 6 on "DAM"') as refused:
-        read(path, path.read_bytes())
-    assert refused.value.code == "drawing-beside"
-    with pytest.raises(InputError, match='"DAM" has no closed polyline'):
-        read(path, path.read_bytes(), layer="DAM")
-    assert read(path, path.read_bytes(), layer="FRAME").outline.area == pytest.approx(3600.0)
+    return read(path, path.read_bytes(), **more)
+
+
+def outline(space, corners, layer="DAM", **more):
+    return space.add_lwpolyline(corners, close=True, dxfattribs={"layer": layer}, **more)
+
+
+def by_lines(space, corners, layer="DAM", *, closed=True):
+    for number, (start, end) in enumerate(pairwise([*corners, corners[0]] if closed else corners)):
+        # As drawn by hand: some lines the other way round.
+        space.add_line(*((end, start) if number % 3 == 1 else (start, end)), dxfattribs={"layer": layer})
+
+
+FRAME = [(-10.0, -5.0), (50.0, -5.0), (50.0, 55.0), (-10.0, 55.0)]
+
+
+def test_a_frame_around_a_dam_that_is_drawn_as_lines_is_not_taken_for_the_dam(tmp_path):
+    """The right answer is a question: a frame of 60 x 60 m would be a block that stands."""
+
+    def draw(space):
+        outline(space, FRAME, "FRAME")
+        by_lines(space, CORNERS)
+        space.add_text("Section A-A", dxfattribs={"layer": "TEXT"})
+
+    with pytest.raises(
+        InputError, match=r'section.layer: there are 2 closed outlines; by layers: "FRAME" \(1\), "DAM"'
+    ):
+        saved(tmp_path, draw)
+    assert saved(tmp_path, draw, layer="FRAME").outline.area == pytest.approx(3600.0)
+    own = read_case(dam(**polygon(CORNERS))).outline
+    assert saved(tmp_path, draw, layer="DAM").outline.symmetric_difference(own).area == pytest.approx(0.0, abs=1e-9)
+
+
+def test_lines_that_join_are_the_dam_wherever_they_begin(tmp_path):
+    own = read_case(dam(**polygon(CORNERS))).outline
+    places = list(pairwise([*CORNERS, CORNERS[0]]))
+
+    def draw(space):
+        for number in (3, 0, 5, 1, 4, 2):
+            start, end = places[number]
+            layer = "UP" if number > 3 else "DOWN"
+            # Ends meet within 3 mm, as those of a dam of 45 m do that was drawn by hand.
+            space.add_line(end, (start[0] + 0.003, start[1]), dxfattribs={"layer": layer})
+
+    case = saved(tmp_path, draw)
+    assert case.outline.symmetric_difference(own).area < 0.003 * own.length
+    assert len(case.section.polygon) == len(CORNERS)
+
+
+OPEN = CORNERS[:3] + CORNERS[4:]
+
+
+@pytest.mark.parametrize(
+    ("draw", "words"),
+    [
+        (
+            lambda space: by_lines(space, CORNERS, closed=False),
+            "section.file: has no closed outline; a line ends alone",
+        ),
+        (lambda space: (outline(space, FRAME), by_lines(space, CORNERS, "X", closed=False)), '5 LINE on "X"'),
+        (lambda space: (outline(space, CORNERS), space.add_circle((5.0, 10.0), 1.0)), "there are 2 closed outlines"),
+        (lambda space: (outline(space, CORNERS), space.add_line((0.0, 20.0), (9.0, 20.0))), "has other lines inside"),
+        (lambda space: (outline(space, CORNERS), space.add_line((0.0, 60.0), (9.0, 60.0))), "stands beside other"),
+        (lambda space: (outline(space, FRAME), space.add_solid(CORNERS[:4])), '1 SOLID on "0"'),
+        (
+            lambda space: (
+                outline(space, OPEN),
+                space.add_spline([CORNERS[2], (5.0, 41.0), CORNERS[4]], dxfattribs={"layer": "CREST"}),
+            ),
+            'has a straight edge where another line has the same two ends: 1 SPLINE on "CREST"',
+        ),
+        (
+            lambda space: (
+                outline(space, OPEN),
+                space.add_arc((-10.0, 40.0), 16.12, 20.0, 40.0, dxfattribs={"layer": "CREST"}),
+            ),
+            'stands beside other lines: 1 ARC on "CREST"',
+        ),
+    ],
+)
+def test_a_lone_outline_is_the_dam_where_nothing_else_could_be(tmp_path, draw, words):
+    with pytest.raises(InputError) as refused:
+        saved(tmp_path, draw)
+    assert words in str(refused.value)
+
+
+def test_a_layer_is_the_dam_where_it_has_one_outline_alone(tmp_path):
+    def draw(space):
+        outline(space, CORNERS)
+        space.add_line((0.0, 20.0), (9.0, 20.0), dxfattribs={"layer": "JOINTS"})
+        outline(space, OPEN, "MIXED")
+        space.add_spline([CORNERS[2], (5.0, 41.0), CORNERS[4]], dxfattribs={"layer": "mixed"})
+
+    assert len(saved(tmp_path, draw, layer="dam").section.polygon) == len(CORNERS)
+    with pytest.raises(InputError, match='the layer "MIXED" has a straight edge where another line') as refused:
+        saved(tmp_path, draw, layer="MIXED")
+    assert refused.value.code == "drawing-mixed"
+    with pytest.raises(InputError, match='"JOINTS" has no closed outline; a line ends alone at'):
+        saved(tmp_path, draw, layer="JOINTS")
 
 
 def test_a_hidden_outline_is_not_taken_for_the_dam(tmp_path):
-    made = ezdxf.new("R2010", units=6)
-    layer = made.layers.add("OLD")
-    made.modelspace().add_lwpolyline(CORNERS, close=True, dxfattribs={"layer": "OLD"})
-    path = tmp_path / "a.dxf"
-    made.saveas(path)
-    assert read(path, path.read_bytes()).outline.is_valid
-    layer.freeze()
-    made.saveas(path)
+    def draw(space):
+        outline(space, CORNERS, "OLD")
+
+    assert saved(tmp_path, draw).outline.is_valid
     with pytest.raises(InputError, match='"OLD", is hidden'):
-        read(path, path.read_bytes())
+        saved(tmp_path, draw, frozen=["OLD"])
+    assert saved(tmp_path, draw, frozen=["OLD"], layer="OLD").outline.is_valid
+
+    def beside(space):
+        draw(space)
+        by_lines(space, FRAME, "NEW")
+
+    with pytest.raises(
+        InputError, match=r'by layers: "OLD, hidden" \(1\), "NEW" \(1\)|"OLD", hidden \(1\), "NEW" \(1\)'
+    ):
+        saved(tmp_path, beside, frozen=["OLD"])
+
+    def unseen(space):
+        outline(space, CORNERS).dxf.invisible = 1
+
+    with pytest.raises(InputError, match='"DAM", is hidden'):
+        saved(tmp_path, unseen)
+
+
+def test_curves_within_a_tolerance(tmp_path):
+    """Areas of circles, ellipses and parabolas in closed form: a dam of 40 m whose downstream face is each of them."""
+    height, out = 40.0, 30.0
+
+    def draw(kind):
+        def lines(space):
+            if kind == "bulge":
+                # A quarter of a circle about (40, 40): tan(90/4) to the right of the way down.
+                corners = [(0.0, 0.0), (0.0, 40.0, math.tan(math.pi / 8.0)), (40.0, 0.0)]
+                space.add_lwpolyline([(*corner, 0.0)[:3] for corner in corners], format="xyb", close=True)
+                return
+            by_lines(space, [(0.0, height), (0.0, 0.0), (out if kind != "arc" else height, 0.0)], "0", closed=False)
+            if kind == "arc":
+                space.add_arc((40.0, 40.0), 40.0, 180.0, 270.0)
+            elif kind == "ellipse":
+                space.add_ellipse((out, height), (0.0, -height), out / height, math.pi * 1.5, math.tau)
+            else:
+                # Of three control points: a parabola, which leaves a third of the triangle before it.
+                space.add_open_spline([(0.0, height), (0.0, 0.0), (out, 0.0)], degree=2)
+
+        return lines
+
+    quarter = 1.0 - math.pi / 4.0
+    for kind, area, length in (
+        ("arc", quarter * height**2, 20.0 * math.pi),
+        ("bulge", quarter * height**2, 20.0 * math.pi),
+        ("ellipse", quarter * height * out, 56.0),
+        ("spline", height * out / 6.0, 56.0),
+    ):
+        case = saved(tmp_path, draw(kind))
+        assert case.outline.area == pytest.approx(area, abs=1e-4 * 40.0 * length), kind
+        assert case.outline.bounds[3] == pytest.approx(height, rel=1e-12)
+        assert 10 < len(case.section.polygon) < 80, kind
+
+
+def test_blocks_stand_where_they_are_inserted(tmp_path):
+    def lying(corners):
+        return [(-0.5 * z, 0.5 * x) for x, z in corners]
+
+    def draw(space):
+        inner = space.doc.blocks.new("INNER")
+        inner.add_lwpolyline(lying(CORNERS[:4]))
+        inner.add_line(*lying(CORNERS[3:5]))
+        block = space.doc.blocks.new("SECTION")
+        block.add_blockref("INNER", (0.0, 0.0))
+        by_lines(block, lying([*CORNERS[4:], CORNERS[0]]), "0", closed=False)
+        there = {"xscale": 2.0, "yscale": 2.0, "rotation": -90.0}
+        space.add_blockref("SECTION", (100.0, 7.0), dxfattribs={**there, "layer": "DAM"})
+        space.add_blockref("SECTION", (300.0, 7.0), dxfattribs={**there, "yscale": -6.0, "layer": "MIRRORED"})
+
+    own = read_case(dam(**polygon(CORNERS))).outline
+    case = saved(tmp_path, draw, layer="DAM")
+    moved = shapely.affinity.translate(own, 100.0, 7.0)
+    assert case.outline.symmetric_difference(moved).area == pytest.approx(0.0, abs=1e-9)
+    mirrored = saved(tmp_path, draw, layer="MIRRORED").outline
+    assert mirrored.area == pytest.approx(3.0 * own.area)
+    assert mirrored.bounds == pytest.approx((300.0 - 3.0 * 34.4, 7.0, 300.0 + 3.0 * 2.1, 52.0))
+
+
+def test_blocks_without_end_are_refused(tmp_path):
+    """Nine times itself, sixteen deep, and a million copies of nothing."""
+
+    def within_itself(space):
+        block = space.doc.blocks.new("SELF")
+        for place in range(9):
+            block.add_blockref("SELF", (float(place), 0.0))
+        space.add_blockref("SELF", (0.0, 0.0))
+
+    def copies(space):
+        space.doc.blocks.new("NONE")
+        grid = {"row_count": 1000, "column_count": 1000, "row_spacing": 1.0, "column_spacing": 1.0}
+        space.add_blockref("NONE", (0.0, 0.0), dxfattribs=grid)
+        space.add_line((0.0, 0.0), (1.0, 0.0))
+
+    for draw in (within_itself, copies):
+        with pytest.raises(InputError) as refused:
+            saved(tmp_path, draw)
+        assert refused.value.code == "section-file-large"
+
+
+def test_every_answer_says_which_outline_is_the_dam(tmp_path):
+    """40 m high, 30 m at its base and 2 m at its crest: 640 m² by hand."""
+
+    def draw(space):
+        outline(space, [(0.0, 0.0), (30.0, 0.0), (2.0, 40.0), (0.0, 40.0)], "PIER 3")
+        outline(space, FRAME, "FRAME")
+
+    case = saved(tmp_path, draw, layer="pier 3")
+    shaken = case.with_({"motion": {"points": [["0 s", "0 g"], ["0.2 s", "0.3 g"], ["0.4 s", "0 g"]]}})
+    again = read_case(tomllib.loads(case_text(shaken.model_dump(mode="json", exclude_unset=True))))
+    for answer in (run(shaken), run(again), statics_of_sections(case)):
+        (note,) = [warning for warning in answer.warnings if warning.code == "section-drawn"]
+        said = 'section from a drawing: 40 m high, 30 m wide at its base, 640 m², on the layer "PIER 3"; read to 4 mm'
+        assert str(note) == said
+    # Other corners are of no drawing.
+    assert case.with_({"section.polygon": [["0 m", "0 m"], ["9 m", "0 m"], ["0 m", "9 m"]]}).section.layer is None
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["statics"],
+        ["run", "--model", "rigid"],
+        pytest.param(["run", "--model", "rigid", "--vary", "motion.pga=0.1g,0.2g"], marks=pytest.mark.slow),
+        pytest.param(["periods", "--set", "concrete.modulus=30 GPa"], marks=pytest.mark.slow),
+        pytest.param(["overturning", "--count", "2"], marks=pytest.mark.slow),
+        pytest.param(["solve", "crack.friction", "--until", "residual_slip=10mm"], marks=pytest.mark.slow),
+    ],
+)
+def test_every_command_says_which_outline_is_the_dam(tmp_path, arguments):
+    saved(tmp_path, lambda space: outline(space, [(0.0, 0.0), (30.0, 0.0), (2.0, 40.0), (0.0, 40.0)]))
+    (tmp_path / "a.toml").write_text(
+        'section.file = "a.dxf"\ncrack.friction = 1.0\nlimits.residual_slip = "1 m"\nanalysis.silence = "0 s"\n'
+        'motion = { file = "synthetic:M6.5,20km,seed=3", pga = "0.3 g", duration = "5 s" }\n'
+    )
+    name, *others = arguments
+    words = " ".join(command(name, "a.toml", *others, cwd=tmp_path).stdout.split())
+    assert 'section from a drawing: 40 m high, 30 m wide at its base, 640 m², on the layer "DAM"' in words
 
 
 TRIANGLE = CORNERS[:3]
-ARCS, TWICE = drawing(CORNERS, bulge=0.3), drawing(CORNERS, CORNERS, layer="")
+TWICE = drawing(CORNERS, CORNERS, layer="")
 REFUSED = [
     ("section-unit-missing", table(CORNERS, ""), {}),
     ("section-unit-missing", drawing(CORNERS, unit=0), {}),
@@ -177,7 +403,6 @@ REFUSED = [
     ("needs-other", table(CORNERS), {"layer": "DAM"}),
     ("drawing-empty", drawing(CORNERS, closed=False), {}),
     ("drawing-layer", drawing(CORNERS), {"layer": "DIKE"}),
-    ("drawing-arcs", ARCS, {}),
     ("drawing-several", TWICE.replace(b"DAM1", b"DAM"), {}),
     ("drawing-unreadable", drawing(CORNERS)[:2000], {}),
     ("drawing-unreadable", b"0\nSECTION\n2\nENTITIES\nx\ny\n", {}),

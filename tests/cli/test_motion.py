@@ -126,3 +126,15 @@ def test_one_file_for_several_motions_is_refused(records, option):
 def test_a_record_of_counts_is_still_read(records):
     (records / "k.NS").write_text(knet())
     assert command("motion", "k.NS", cwd=records).returncode == 0
+
+
+def test_how_values_run_and_what_they_are_multiplied_by_can_be_said(records):
+    rows = "\n".join(" ".join(f"{v:.5f}" for v in GAL[k : k + 5]) for k in range(0, GAL.size, 5))
+    (records / "rows.txt").write_text(f"scale factor: 0.5\nunits: gal\ndt: 0.01 s\n{rows}\n")
+    refused = command("motion", "rows.txt", cwd=records)
+    assert refused.returncode == 2
+    assert 'motion.layout = "rows"' in " ".join(refused.stderr.split())
+    assert command("motion", "rows.txt", "--layout", "sideways", cwd=records).returncode == 2
+    run = command("motion", "rows.txt", "--layout", "rows", "--factor", "0.5", "--json", "-", cwd=records)
+    (motion,) = json.loads(run.stdout)["motions"]
+    assert motion["pga_g"] == pytest.approx(0.5 * np.abs(GAL).max() / 100.0 / G, rel=1e-5)

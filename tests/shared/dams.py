@@ -45,8 +45,24 @@ SHORT = ["flexible.elements_across=3", "motion.duration=4s", ENDS]
 
 
 def example(name: str, *changes: str) -> Case:
-    """Return an example with changes as on the command line."""
-    return read_case(EXAMPLES / f"{name}.toml", list(changes))
+    """Return an example with changes as on the command line, on a rigid plane and before water without sound where it
+    says nothing of them: the simplest dam that has what is tested."""
+    return plane_case(EXAMPLES / f"{name}.toml", list(changes))
+
+
+def plane_case(source: Any, changes: Any = ()) -> Case:
+    """Return a case on a rigid plane and before water without sound where it says nothing of them."""
+    return on_rigid_plane(read_case(source, changes))
+
+
+def on_rigid_plane(case: Case) -> Case:
+    """Return a case on a rigid plane and before water without sound where it says nothing of them."""
+    update: dict[str, Any] = {"rock": "rigid"} if case.rock is None else {}
+    for side in ("reservoir", "tailwater"):
+        water = getattr(case, side)
+        if water is not None and water.compressible is None:
+            update[side] = water.model_copy(update={"compressible": False})
+    return case.model_copy(update=update)
 
 
 def polygon(corners: Iterable[tuple[Any, Any]]) -> dict[str, Any]:

@@ -12,7 +12,8 @@ from typing import Any, Literal
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from heeltoe import Case, read_case
+from heeltoe import Case
+from shared.dams import plane_case
 
 Fields = dict[str, Any]
 
@@ -321,7 +322,7 @@ def pair(path: str, field: FieldInfo, records: dict[str, tuple[Fields, Any]]) ->
         put(before, step[1], [{"step": step[2], **STEPS[step[2]]}])
         path = f"{step[1]}[0].{step[3]}"
     after = copy.deepcopy(before)
-    put(after, path, other(path, field, read_case(before)) if value is None else value)
+    put(after, path, other(path, field, plane_case(before)) if value is None else value)
     return before, after, path
 
 

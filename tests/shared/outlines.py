@@ -6,13 +6,13 @@ import numpy as np
 from hypothesis import strategies as st
 
 from heeltoe.case.model import Case
-from shared.dams import polygon
+from shared.dams import on_rigid_plane, polygon
 
 
 def make(corners, elevation=0.0, **more):
     """Return a case that has been through no check of the geometry yet."""
     crack = {"elevation": f"{elevation!r} m", "friction": 1.0}
-    return Case.model_validate({"section": polygon(corners), "crack": crack} | more)
+    return on_rigid_plane(Case.model_validate({"section": polygon(corners), "crack": crack} | more))
 
 
 def by_strips(corners, level):

@@ -11,13 +11,14 @@ from typing import Any
 
 from pydantic.fields import FieldInfo
 
-from heeltoe import InputError, read_case
+from heeltoe import InputError
+from shared.dams import plane_case
 from shared.every_field import GONE, Fields, leaves, pair, put
 
 #: Fields whose value is the place of a file, and those that the attack sets itself.
 _NOT_DRAWN = re.compile(
     r"title|.*\.(file|layer|channel|unit|mesh_above|mesh_below|criteria_file|event_limit|time_limit|memory_limit)"
-    r"|section\..*|motion\.(vertical\.)?(points|pga|time_step|allow_zero|duration)"
+    r"|section\..*|motion\.(vertical\.)?(points|pga|time_step|layout|factor|allow_zero|duration)"
 )
 _NUMBER = re.compile(r"-?\d+(?:\.\d*)?(?:e[+-]?\d+)?")
 LAWS: tuple[Fields, ...] = (
@@ -59,7 +60,7 @@ def _with(fields: Fields, careful: bool, change: Callable[[Fields], None]) -> Fi
     change(tried)
     if careful:
         try:
-            read_case(tried)
+            plane_case(tried)
         except InputError:
             return fields
     return tried

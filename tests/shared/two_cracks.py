@@ -75,5 +75,5 @@ def bonded(case: Case, elevation: float) -> Case:
 def same(one, other, width: float, within: float = 1e-6) -> None:
     """Compare what a crack does, to a millionth of how far it moves or `within` another part."""
     largest = np.abs(other.slip).max()
-    for name, arm in (("slip", 1.0), ("rotation", width), ("opening_heel", 1.0), ("opening_toe", 1.0)):
+    for name, arm in (("slip", 1.0), ("rotation", width), ("gap_heel", 1.0), ("gap_toe", 1.0)):
         assert arm * getattr(one, name) == pytest.approx(arm * getattr(other, name), abs=within * largest), name

@@ -44,6 +44,8 @@ from heeltoe.units.parse import (
         ("0.15 kcf", "density", 150 * 0.45359237 / 0.3048**3),
         ("2000 psf", "pressure", 2000 * 4.4482216152605 / 0.3048**2),
         ("2 ksf", "pressure", 2000 * 4.4482216152605 / 0.3048**2),
+        ("2 tsf", "pressure", 2 * 2000 * 4.4482216152605 / 0.3048**2),
+        ("35 % g", "acceleration", 0.35 * STANDARD_GRAVITY),
         ("3 ksi", "pressure", 3000 * 4.4482216152605 / 0.0254**2),
         ("3000 lb/in^2", "pressure", 3000 * 4.4482216152605 / 0.0254**2),
         ("5 kips/ft", "line force", 5e3 * 4.4482216152605 / 0.3048),
@@ -84,7 +86,7 @@ def test_read(text, dimension, expected):
         (
             "24 kN/m^3",
             "density",
-            'crack.elevation: "24 kN/m^3" is not a density; write for example "2400 kg/m^3"',
+            'crack.elevation: "24 kN/m^3" is a weight for each volume, not a density',
         ),
         # pint alone reads the next two as 15 m and 1000 m.
         ("1,5 m", "length", 'crack.elevation: "1,5 m" is not a length; write for example "100 m"'),
@@ -188,3 +190,24 @@ def test_usual_units_are_those_of_pint(target, units):
 def test_the_minus_of_printed_tables_is_a_minus():
     assert parse("\u22127 m", "length", "here") == -7.0
     assert parse_acceleration("\u22120.2 g", "here").si(9.81) == pytest.approx(-1.962)
+
+
+@pytest.mark.parametrize(
+    ("text", "density"), [("24 kN/m^3", "2447.3"), ("150 lbf/ft^3", "2402.8"), ("0.15 kip/ft^3", "2402.8")]
+)
+def test_a_weight_for_each_volume_is_refused_with_its_density(text, density):
+    """24,000 N over 9.80665 m/s2 are 2447.3 kg; a pound of force for each cubic foot is 16.0185 kg/m3."""
+    with pytest.raises(InputError) as refused:
+        parse(text, "density", "concrete.density")
+    assert refused.value.code == "density-weight"
+    assert refused.value.remedy == f'divide it by one g, 9.80665 m/s^2: "{density} kg/m^3"'
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["2**3 m", "2 (m*2**2**2)", "2 m*2**300", "2 m^2^2", "2 m**(2**2)", "2 m^300", f"{'1' * 400} m"],
+)
+def test_a_unit_is_no_sum_that_is_worked_out(text):
+    """A power of a number, of a power or of three digits is no unit, and is not worked out to find that."""
+    with pytest.raises(InputError):
+        parse(text, "length", "crack.elevation")
