@@ -1,4 +1,5 @@
-"""Print the table of docs/friction.md, the effect of each law on the typical dam: `python docs/friction_laws.py`."""
+"""Print the table of docs/friction.md, the effect of each law on the typical dam on a rigid plane:
+`python docs/friction_laws.py`."""
 
 from __future__ import annotations
 
@@ -41,13 +42,14 @@ LAWS: dict[str, dict[str, Any]] = {
     },
 }
 CASE = Path(__file__).parent.parent / "examples" / "typical-base.toml"
+PLAIN: dict[str, Any] = {"rock": "rigid", "reservoir.compressible": False}
 
 
 def main() -> None:
     """Print a row for each law."""
     print("| law | friction before, after | rigid block | flexible dam |\n| --- | --- | --- | --- |")
     for name, change in LAWS.items():
-        case = read_case(CASE, change)
+        case = read_case(CASE, PLAIN | change)
         block, dam = rigid(case), flexible(case)
         law = block.friction_law
         mu = case.crack.mu_static

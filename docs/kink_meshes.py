@@ -1,4 +1,5 @@
-"""Print the table of docs/kinks.md on the convergence of cracks with a step: `python docs/kink_meshes.py`."""
+"""Print the table of docs/kinks.md on cracks with a step, on a rigid plane before water without sound:
+`python docs/kink_meshes.py`."""
 
 from __future__ import annotations
 
@@ -46,7 +47,13 @@ def slips(slope: float, friction: float, across: int, step: float) -> tuple[floa
 
 
 def _case(slope: float, friction: float, across: int) -> Case:
-    changes = {"crack.friction": friction, "flexible.elements_across": across, "analysis.silence": "0 s"}
+    changes = {
+        "crack.friction": friction,
+        "flexible.elements_across": across,
+        "analysis.silence": "0 s",
+        "rock": "rigid",
+        "reservoir.compressible": False,
+    }
     case = read_case(CASE, changes)
     if not slope:
         return case.with_({"crack.kinks": []})

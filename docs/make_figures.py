@@ -1,4 +1,4 @@
-"""Make the figures of the documentation from the examples, from any directory: `python docs/make_figures.py`."""
+"""Make the figures of the documentation from the examples: `python -m docs.make_figures`, at the root."""
 
 from pathlib import Path
 
@@ -8,12 +8,12 @@ from matplotlib.figure import Figure
 from heeltoe import decoupled, read_case, rigid
 from heeltoe.study.small.overturning import overturning_map
 from heeltoe.study.small.run_table import parse_axes, run_small
-from heeltoe.validation.blocks.joints import BEAM_ENERGY, FIRST_PART, MEASURED, TAKEN_ENERGY, bend_beam
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.histories import response_figure
 from heeltoe.views.figures.runs import overturning_figure, slips_figure
 from heeltoe.views.figures.style import STYLE
 from heeltoe.views.figures.write import save
+from validation.blocks.joints import BEAM_ENERGY, FIRST_PART, MEASURED, TAKEN_ENERGY, bend_beam
 
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parent / "examples"

@@ -41,7 +41,8 @@ def random_case(number: int) -> heeltoe.Case:
         {
             "section": {"polygon": [[f"{x} m", f"{z} m"] for x, z in corners]},
             "concrete": {"density": "2400 kg/m^3", "modulus": f"{rng.uniform(18.0, 35.0)} GPa", "poisson": 0.2},
-            "reservoir": {"depth": f"{height * rng.uniform(0.6, 0.98)} m"},
+            "rock": "rigid",
+            "reservoir": {"depth": f"{height * rng.uniform(0.6, 0.98)} m", "compressible": False},
             "crack": {"friction": 1.0, "elevation": f"{0.0 if number % 2 else height * rng.uniform(0.3, 0.8)} m"},
             "flexible": {"elements_across": 4},
         }

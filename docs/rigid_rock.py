@@ -51,7 +51,8 @@ def dam(number: int, values: np.ndarray) -> heeltoe.Case:
             },
             "concrete": {"modulus": f"{modulus:.4g} GPa"},
             "crack": {"friction": float(f"{friction:.4g}")},
-            "reservoir": {"depth": f"{depth * height:.4g} m"},
+            "rock": "rigid",
+            "reservoir": {"depth": f"{depth * height:.4g} m", "compressible": False},
             "uplift": {"pattern": "triangular" if is_recorded(number) and number % 4 < 2 else "none"},
             "motion": motion | {"pga": f"{peak:.4g} g", "sign": "recorded"},
             # A coarse mesh with few modes: single slips change by some per cent, and their ratio by less.

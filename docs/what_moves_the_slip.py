@@ -53,7 +53,7 @@ VARIANTS: dict[str, tuple[tuple[str, ...], _Motion]] = {
     "modulus of the rock / 2": (("rock.modulus=10 GPa",), _as_recorded),
     "floor reflects 0.5 instead of 0.9": (("reservoir.floor_reflection=0.5",), _as_recorded),
     "water without sound": (("reservoir.compressible=false",), _as_recorded),
-    "rigid rock, water without sound": (("rock=none", "reservoir.compressible=false"), _as_recorded),
+    "rigid rock, water without sound": (("rock=rigid", "reservoir.compressible=false"), _as_recorded),
     "the other sign": ((), _changed(factor=-1.0)),
     "shaking x 1.1": ((), _changed(factor=1.1)),
     "time stretched by 1.2": ((), _changed(stretch=1.2)),
