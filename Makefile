@@ -31,7 +31,7 @@ help:
 	@echo "make browser    install the browser that the tests of the app need; Debian's, needs a network"
 	@echo "make lint       formatting, lints, types and directions of imports"
 	@echo "make sizes      what is large: a report, never an error"
-	@echo "make validate   the reference cases as tables"
+	@echo "make validate   the reference cases as tables (CASE=table-7.1 for one)"
 	@echo "make book       the validation book, docs/validation, from the reference cases (CASE=table-7.1 for one)"
 	@echo "make peers      independent codes on problems of known answer; their page of the book (PEER=MuJoCo for one)"
 	@echo "make docs       the documentation as pages, in docs/_build/html"
@@ -130,10 +130,10 @@ sizes: check $(VENV)/.packages
 	@$(BIN)/python .ci/spine.py
 
 validate: check $(VENV)/.built
-	$(BIN)/heeltoe validate
+	$(BIN)/python -m validation $(CASE)
 
 book: check $(VENV)/.built
-	$(BIN)/python -m heeltoe.validation.book docs/validation $(CASE)
+	$(BIN)/python -m validation.book docs/validation $(CASE)
 	$(BIN)/python benchmarks/peers.py --page
 	@$(ELAPSED)
 

@@ -27,8 +27,8 @@ UNITS = ("_m", "_s", "_rad", "_n", "_pa", "_j", "_g", "_m_s", "_m_s2")
 
 
 def modules() -> dict[str, ast.Module]:
-    """Return the modules of the package but the reference cases, by path."""
-    paths = (path for path in sorted(PACKAGE.rglob("*.py")) if "validation" not in path.parts)
+    """Return the modules of the package, by path."""
+    paths = sorted(PACKAGE.rglob("*.py"))
     return {str(path.relative_to(PACKAGE)): ast.parse(path.read_text(encoding="utf-8")) for path in paths}
 
 

@@ -28,6 +28,8 @@ BASE_STEP, HEIGHT_STEP = 2e-4, 1e-4
 # With the program's own damping, and friction that slides a while.
 DAM = ("crack.friction=1.2", "flexible.damping=relative", "flexible.virtual_mass=complete")
 ALL = "flexible.modes=5000"
+# Where rock and water are not the subject.
+PLANE = ("rock=rigid", "reservoir.compressible=false")
 ABREAST = 8
 EXAMPLES = Path(__file__).parent.parent / "examples"
 COLUMNS = [
@@ -125,7 +127,7 @@ def row(problem: Problem, peak: float) -> list[str]:
 
 def several_cracks(name: str, changes: tuple[str, ...]) -> list[str]:
     """Measure a dam with two cracks beside those that have one of them, in turn and at the same step."""
-    case = read_case(EXAMPLES / "two-cracks.toml", ("motion.duration=12s", "analysis.silence=0s", *changes))
+    case = read_case(EXAMPLES / "two-cracks.toml", (*PLANE, "motion.duration=12s", "analysis.silence=0s", *changes))
     cases = (case, *case.single_crack_cases)
     dams = [ShakenDam(item, flexible_parts.build_flexible_dam(item), earthquake(item).shaking) for item in cases]
     slips = [[crack.slip for crack in dam.run(HEIGHT_STEP).summaries] for dam in dams]
@@ -148,7 +150,7 @@ LAWS: dict[str, dict[str, Any]] = {
 
 def with_laws() -> dict[str, Case]:
     """Return the typical dam with each friction law."""
-    case = read_case(EXAMPLES / "typical-base.toml", ("motion.duration=12s", "analysis.silence=0s"))
+    case = read_case(EXAMPLES / "typical-base.toml", (*PLANE, "motion.duration=12s", "analysis.silence=0s"))
     return {
         name: case.with_({"crack.friction": None, "crack.law": law} if law else {"crack.friction": 1.0})
         for name, law in LAWS.items()
@@ -157,7 +159,7 @@ def with_laws() -> dict[str, Case]:
 
 def with_kinks() -> dict[str, Case]:
     """Return a dam with a straight crack and with one that has a step."""
-    changes = ("motion.duration=12s", "analysis.silence=0s", "flexible.elements_across=16")
+    changes = (*PLANE, "motion.duration=12s", "analysis.silence=0s", "flexible.elements_across=16")
     case = read_case(EXAMPLES / "stepped-crack.toml", changes)
     return {"straight, 16 across": case.with_({"crack.kinks": []}), "with a step, 16 across": case}
 
@@ -166,7 +168,7 @@ def with_surroundings() -> dict[str, Case]:
     """Return the typical dam before water with sound, on rock, and with a joint that cracks through."""
     changes = ("motion.duration=12s", "analysis.silence=0s")
     both = read_case(EXAMPLES / "on-rock.toml", changes)
-    bare = both.with_({"rock": None, "reservoir.compressible": False})
+    bare = both.with_({"rock": "rigid", "reservoir.compressible": False})
     bond = {
         "tensile_strength": "1 MPa",
         "cohesion": "1.5 MPa",
@@ -176,7 +178,7 @@ def with_surroundings() -> dict[str, Case]:
     return {
         "neither": bare,
         "a bond": bare.with_({"crack.bond": bond}),
-        "water with sound": both.with_({"rock": None}),
+        "water with sound": both.with_({"rock": "rigid"}),
         "rock": both.with_({"reservoir.compressible": False}),
         "rock and water": both,
     }

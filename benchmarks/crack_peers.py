@@ -55,6 +55,7 @@ def our_block(across: int) -> ShakenDam:
                 "damping": 0.0,
             },
             "crack": {"friction": FRICTION},
+            "rock": "rigid",
             "uplift": {"pattern": "none"},
             "flexible": {"elements_across": across},
         }

@@ -86,6 +86,7 @@ def our_block(across: int) -> ShakenDam:
             },
             # RockingBC's foot does not slide; ours slips by some 0.02 mm.
             "crack": {"friction": 2.0},
+            "rock": "rigid",
             "uplift": {"pattern": "none"},
             "flexible": {"elements_across": across, "damping": "stiffness"},
         }
