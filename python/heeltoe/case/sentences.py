@@ -26,6 +26,8 @@ M = typing.TypeVar("M", bound=BaseModel)
 # Nobody reads more problems at a time, and each takes a search for the name that was meant.
 _MOST = 100
 _BOUNDS = {"gt": "above", "ge": "of at least", "lt": "below", "le": "of at most"}
+# How pydantic calls the words of a field that holds one of them or a block.
+_WORDS = "literal["
 # Types that pydantic names in its error codes, as people call them.
 _EXPECTED = {
     "bool": "true or false",
@@ -95,7 +97,7 @@ def all_errors(complaint: ValidationError, model: type[BaseModel]) -> list[Input
 
     Of a field that may be of several types there is one problem, and none of a list for what is wrong inside it.
     """
-    details = complaint.errors(include_url=False)
+    details = _of_what_was_meant(complaint.errors(include_url=False))
     details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
     wrong: dict[str, InputError] = {}
     for detail in details[:_MOST]:
@@ -108,6 +110,18 @@ def all_errors(complaint: ValidationError, model: type[BaseModel]) -> list[Input
     ]
     more = len(details) - _MOST
     return [*errors, InputError("problems-more", "the file", f"{more:,}")] if more > 0 else errors
+
+
+def _of_what_was_meant(details: list[ErrorDetails]) -> list[ErrorDetails]:
+    """Return the complaints without those of the other kind where a field holds a block or a word: a word that is none
+    of those known is no block, and a block is no word."""
+    words = {detail["loc"][:-1] for detail in details if _is_word(detail) and isinstance(detail["input"], str)}
+    return [detail for detail in details if (detail["loc"][:-1] in words) == _is_word(detail)]
+
+
+def _is_word(detail: ErrorDetails) -> bool:
+    """Whether a complaint is that of a field that holds a block or one of a few words, of its words."""
+    return str(detail["loc"][-1]).startswith(_WORDS) if detail["loc"] else False
 
 
 def _all_translated(detail: ErrorDetails, model: type[BaseModel]) -> list[InputError]:
@@ -140,6 +154,10 @@ def _translated(detail: ErrorDetails, model: type[BaseModel]) -> InputError:
         return InputError("wrong-length", _path(place, model), shown(value), length=2)
     if kind == "missing":
         return InputError("missing-field", path, example=_example(location, model))
+    if _is_word(detail):
+        return InputError(
+            "not-a-choice", path, shown(value), choices=f"{_quoted(context['expected'])} or a block of fields"
+        )
     if kind == "literal_error":
         return InputError("not-a-choice", path, shown(value), choices=_quoted(context["expected"]))
     if kind in ("union_tag_not_found", "union_tag_invalid"):
@@ -200,6 +218,7 @@ def _steps(location: Sequence[int | str], model: type[BaseModel]) -> Iterator[tu
     named = False
     for place, part in enumerate(location):
         tells = isinstance(part, str) and place > 0 and isinstance(location[place - 1], int) and len(kinds) > 1
+        tells = tells or part == model.__name__ or str(part).startswith(_WORDS)
         yield part, model, tells
         field = model.model_fields.get(str(part))
         if (isinstance(part, int) or named) and len(kinds) == 1:

@@ -196,3 +196,19 @@ def test_static_checks_and_studies_name_it_too(tmp_path):
         study.write_text('case = "case.json"\nmodel = "flexible"\n[vary]\n"crack.friction" = [0.8, 0.9]\n')
         plan = plan_of(read_study(study))
         assert any("rock as stiff as the concrete (25 GPa)" in text for text in plan.warnings()) is named
+
+
+@pytest.mark.parametrize(
+    ("rock", "words"),
+    [
+        ("soft", 'rock: "soft" is not a choice; choose "rigid" or a block of fields'),
+        (True, "rock: true is of the wrong type; give a block of fields"),
+        ({"damping": 0.05}, "rock.modulus: is required but missing"),
+        ({"modulus": "10 GPa", "dampng": 0.05}, 'rock.dampng: no such field; did you mean "damping"?'),
+    ],
+)
+def test_rock_that_is_neither_word_nor_block_is_one_sentence(rock, words):
+    with pytest.raises(InputError) as refused:
+        read_case(SMALL | {"rock": rock})
+    assert str(refused.value).startswith(words)
+    assert not refused.value.others
