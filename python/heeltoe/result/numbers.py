@@ -213,13 +213,13 @@ class Penetration(Block):
 class Mesh(Block):
     """The meshes of the elastic parts."""
 
-    elements: Annotated[list[int], Number("Number of elements of each part, the upper one first.")]
-    nodes: Annotated[list[int], Number("Number of nodes of each part.")]
-    modes: Annotated[
-        list[int], Number("Vibration modes kept of each part, those of static shapes of the crack included.")
-    ]
+    elements: Annotated[list[int], Number("Elements of each part: the upper one first.")]
+    nodes: Annotated[list[int], Number("Nodes of each part.")]
+    modes: Annotated[list[int], Number("Modes kept of each part: those of static shapes of the crack included.")]
     crack_nodes: Annotated[int, Number("Nodes along the crack.")]
-    basis_error: Annotated[float, Number("What the modes left out miss of the flexibility of the crack, as a share.")]
+    basis_error: Annotated[
+        float, Number("Error of the kept modes: the share of the crack's flexibility that they miss.")
+    ]
 
 
 class CrackNumbers(Block):
@@ -374,7 +374,7 @@ class CrackSpectrum(Block):
 class BondedMotion(Block):
     """The motion of the same place of the intact dam."""
 
-    periods_s: Annotated[list[float], Number("Longest periods of the intact dam.", "s")]
+    periods_s: Annotated[list[float], Number("Period of the intact dam: the longest ones first.", "s")]
     peak_horizontal_g: Annotated[float, Number("Peak horizontal acceleration of the same place of it.", "g")]
     amplification: Annotated[
         float | None, Number("How many times as strong that shakes as the ground; null without a motion.")
@@ -404,7 +404,9 @@ class CrackLevel(Block):
     ]
     felt: Annotated[list[str], Number("Which of these the block feels.")]
     upper_part: Annotated[str, Number("How the part above is attached to the part below, as the case says.")]
-    periods_s: Annotated[list[float], Number("Longest periods of the part below with the block on it.", "s")]
+    periods_s: Annotated[
+        list[float], Number("Period of the part below with the block on it: the longest ones first.", "s")
+    ]
     damping_ratio: Annotated[float, Number("Damping ratio of its modes.")]
     modes: Annotated[int, Number("How many modes.")]
     spectrum: Annotated[CrackSpectrum, Number("Response spectra of ground and crack, and how one follows the other.")]
@@ -433,7 +435,7 @@ class SelfExcitation(Block):
 
 
 class RockTrial(Block):
-    """What a dam does on other rock than is assumed."""
+    """A run on other rock than is assumed."""
 
     modulus_pa: Annotated[
         float | None, Number("Modulus of the rock; null on a rigid plane, before water without sound.", "Pa")
@@ -502,7 +504,7 @@ class Tension(StressPlace):
 
 
 class RotationWorth(Block):
-    """What a headline number is worth, in its unit; of a rotation [rad] with a bound only where there is one."""
+    """Worth of a headline number, in its unit; of a rotation [rad] with a bound only where there is one."""
 
     value: Annotated[float, Number("The number to trust: that of the run, or the mean where single runs scatter.")]
     run: Annotated[float, Number("The number of the run itself.")]
@@ -517,7 +519,7 @@ class RotationWorth(Block):
     mesh: Annotated[
         float | None,
         Number(
-            "By how much another mesh moves it, more where the mesh lowers the strength of a joint; null without "
+            "By how much another mesh moves it: more where the mesh lowers the strength of a joint, and null without "
             "another mesh."
         ),
     ]
@@ -528,14 +530,14 @@ class RotationWorth(Block):
     surroundings: Annotated[
         float | None,
         Number(
-            "By how much rock and water with sound that reach 1.5 times as far, and answer well up to 1.5 times the "
-            "frequency, move it; null where there are none."
+            "By how much rock and water that reach farther move it: 1.5 times as far, and up to 1.5 times the "
+            "frequency; null where there are none."
         ),
     ] = None
 
 
 class HeadlineWorth(RotationWorth):
-    """What any other headline number is worth: there is always a bound."""
+    """Worth of any other headline number: there is always a bound."""
 
     uncertainty: Annotated[
         float, Number("How far it may be off: what step, mesh, shaking and surroundings move it by, together.")
@@ -555,7 +557,7 @@ class EvidenceNumbers(Block):
         str, Number("Whether the numbers to trust are those of the run, or means over runs that scatter.")
     ]
     moved_most_by: Annotated[str, Number("What moves the residual slip most: step, mesh, shaking or surroundings.")]
-    allowed_m: Annotated[float, Number("How uncertain a slip may be that is said to be converged.", "m")]
+    allowed_m: Annotated[float, Number("Uncertainty that is allowed of a converged slip.", "m")]
     time_step_s: Annotated[float, Number("Time step of the run.", "s")]
     other_time_step_s: Annotated[float, Number("Time step of the run beside it.", "s")]
     elements_across: Annotated[int, Number("Elements along the crack of the run.")]
@@ -633,11 +635,11 @@ class ElasticDam(Block):
     """What an elastic dam did as a whole."""
 
     end_time_s: Annotated[float, Number("When the run ended.", "s")]
-    periods_s: Annotated[list[float], Number("Periods of the intact dam with its water, longest first.", "s")]
+    periods_s: Annotated[list[float], Number("Period of the intact dam with its water: the longest ones first.", "s")]
     mesh: Annotated[Mesh, Number("Elements, nodes and modes of each part, nodes along the crack, error of the basis.")]
     damping: Annotated[str, Number("How the concrete is damped, as the case says.")]
     damping_ratio: Annotated[float, Number("Damping ratio of the concrete.")]
-    damping_ratios: Annotated[list[float], Number("Damping ratios of modes 1 to 5 of the intact dam.")]
+    damping_ratios: Annotated[list[float], Number("Damping of a mode of the intact dam: the ratios of modes 1 to 5.")]
     rayleigh_mass_1_s: Annotated[float | None, Number("Rayleigh coefficient of mass.", "1/s")]
     rayleigh_stiffness_s: Annotated[float | None, Number("Rayleigh coefficient of stiffness.", "s")]
     contact: Annotated[str, Number("How contact is solved, as the case says.")]

@@ -98,7 +98,7 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
         stands = _NO_LIMIT if result["no_limit"] else _STANDS[result["converged"]]
         movers = _MOVERS["step" if result["asked"] == "step" else "full"]
         said = paragraph(stands.format(movers) + _MEAN[result["value_is"] == "mean"])
-    # Of the evidence what the number that is judged first is worth.
+    # Worth of the number that is judged first.
     labels = (
         *labels_of(ElasticDam),
         *labels_of(SelfExcitation, "self_excitation."),

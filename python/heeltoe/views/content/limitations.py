@@ -54,4 +54,6 @@ def _water(subject: Subject, model: str) -> str:
             "The rock is an even, linear elastic half-plane whose level surface moves as the record says where no dam "
             "stands; it has settled under its own weight, and neither slides nor cracks."
         )
+        if subject.case.surroundings.assumed:
+            rock += " Its modulus is not of the site: it is assumed to be that of the concrete."
     return f"{water} {rock}".strip()

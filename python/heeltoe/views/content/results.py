@@ -234,7 +234,7 @@ def _joint(subject: Subject) -> list[Block]:
         for name in ("joint", "bond"):
             whose = " below the block" if name == "bond" else ""
             for prefix, elevation, state in _laws_of(run.response, name):
-                caption = f"What has become of the joint{whose}{_where(subject, elevation)}."
+                caption = f"State of the joint{whose}{_where(subject, elevation)}."
                 blocks.append(subject.known(labels_of(type(state)), f"{run.prefix}{prefix}{name}.", caption))
     return blocks
 

@@ -24,7 +24,7 @@ def _about(key: str, form: str, of: float = 1.0) -> Callable[[Mapping[str, Any],
     return lambda record, units: NOTHING if record[key] is None else quantity(record[key] / of, form, units)
 
 
-# What is known of records beside their motion: headings, and how each is written.
+# Traits of records beside their motion: headings, and how each is written.
 _ABOUT = {
     "magnitude": ("M", _about("magnitude", ".3g")),
     "distance_m": ("distance", _about("distance_m", ".3g km", 1e3)),

@@ -102,7 +102,7 @@ OF_OTHERS: dict[str, dict[str, str]] = {
         "suite.models[].records[].crest_displacement_m": "Largest displacement of the crest, where a limit is on it.",
         "suite.models[].records[].crest_acceleration_g": "Largest acceleration of the crest, likewise.",
         "suite.models[].records[].other_sign_residual_slip_m": "Residual slip with the other sign; null without it.",
-        "suite.models[].records[].magnitude": "Of its earthquake, as the list of records or the event has it; or null.",
+        "suite.models[].records[].magnitude": "Magnitude by the list of records or the event; null without one.",
         "suite.models[].records[].distance_m": "From the fault to where it was recorded, likewise.",
         "suite.models[].records[].vs30_m_s": "Velocity of shear waves in the upper 30 m there, likewise.",
         "suite.models[].records[].pulse_period_s": "Period of the pulse in its velocity, likewise.",

@@ -11,7 +11,7 @@ from heeltoe.base.blocks import ending_of
 from heeltoe.units.systems import FOOT, POUND, unit_system
 from heeltoe.units.write import NOTHING, angle, digits, length, one_unit
 
-#: What a number is, by its SI unit.
+#: Kind of a number, by its SI unit.
 QUANTITIES = {
     "": "number",
     "rad/s²": "angular acceleration",
