@@ -4,7 +4,7 @@ Unless a case says otherwise: eight elements across, damping `thesis`, virtual w
 record taft-1952-s69e-caltech as stored, whole, scaled; steps of 0.2 ms for a crack at the base, 0.1 ms for one at a
 height and 0.05 ms for a dam of 2000 GPa or more, whose vibrations are as much faster; no check of the step, which is
 the business of :func:`halving`. The prototype is an independent program with four elements across and is compared with
-runs that have as many. What each source is good for stands in :mod:`validation.sources`.
+runs that have as many. The worth of each source stands in :mod:`validation.sources`.
 """
 
 from __future__ import annotations

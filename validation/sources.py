@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from heeltoe.case.changes import Changes
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
 from validation.row import Kind, Row
@@ -85,8 +87,17 @@ PROTOTYPE_HIGH = Source(
 )
 
 
-def plane_case(fields: Mapping[str, Any]) -> Case:
-    """Return a case on a rigid plane and before water without sound where its fields say nothing of them, as the
-    programs and tables have it that elastic dams are compared with."""
-    sides = {side: {"compressible": False} | fields[side] for side in ("reservoir", "tailwater") if side in fields}
-    return read_case({"rock": "rigid"} | dict(fields) | sides)
+def plane_case(source: str | os.PathLike[str] | Mapping[str, Any], changes: Changes = ()) -> Case:
+    """Return a case on a rigid plane and before water without sound where it says nothing of them, as the programs and
+    tables have it that elastic dams are compared with; read as :func:`heeltoe.read_case` does."""
+    return on_rigid_plane(read_case(source, changes))
+
+
+def on_rigid_plane(case: Case) -> Case:
+    """Return a case on a rigid plane and before water without sound where it says nothing of them."""
+    update: dict[str, Any] = {"rock": "rigid"} if case.rock is None else {}
+    for side in ("reservoir", "tailwater"):
+        water = getattr(case, side)
+        if water is not None and water.compressible is None:
+            update[side] = water.model_copy(update={"compressible": False})
+    return case.model_copy(update=update)

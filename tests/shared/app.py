@@ -17,7 +17,7 @@ from heeltoe.app.settings import Settings
 
 PORT = 8642
 HOME = f"http://127.0.0.1:{PORT}"
-#: Of a websocket that a page of the app opens.
+#: Address of a websocket that a page of the app opens.
 HEADERS = {"host": f"127.0.0.1:{PORT}", "origin": HOME}
 
 

@@ -6,7 +6,9 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from heeltoe import Case, read_case
+from heeltoe import Case
+from validation.sources import on_rigid_plane as on_rigid_plane
+from validation.sources import plane_case as plane_case
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
@@ -48,21 +50,6 @@ def example(name: str, *changes: str) -> Case:
     """Return an example with changes as on the command line, on a rigid plane and before water without sound where it
     says nothing of them: the simplest dam that has what is tested."""
     return plane_case(EXAMPLES / f"{name}.toml", list(changes))
-
-
-def plane_case(source: Any, changes: Any = ()) -> Case:
-    """Return a case on a rigid plane and before water without sound where it says nothing of them."""
-    return on_rigid_plane(read_case(source, changes))
-
-
-def on_rigid_plane(case: Case) -> Case:
-    """Return a case on a rigid plane and before water without sound where it says nothing of them."""
-    update: dict[str, Any] = {"rock": "rigid"} if case.rock is None else {}
-    for side in ("reservoir", "tailwater"):
-        water = getattr(case, side)
-        if water is not None and water.compressible is None:
-            update[side] = water.model_copy(update={"compressible": False})
-    return case.model_copy(update=update)
 
 
 def polygon(corners: Iterable[tuple[Any, Any]]) -> dict[str, Any]:

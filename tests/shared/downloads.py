@@ -140,7 +140,7 @@ def of_both(make: Callable[[], str], ending: str, said: str) -> Callable[[], Fil
     return lambda: {f"19800101_{station}.{ending}": make().replace(said, station) for station in STATIONS}
 
 
-#: What each producer's folder is, by name, and how many horizontal components it has; KiK-net measures in the ground,
+#: Folder of each producer, by name, and how many horizontal components it has; KiK-net measures in the ground,
 #: too.
 DOWNLOADS: dict[str, tuple[Callable[[], Files], int]] = {
     "PEER": (peer, 4),

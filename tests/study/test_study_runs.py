@@ -300,6 +300,22 @@ def test_a_lost_scheduler_is_no_fault_of_the_input(tmp_path, monkeypatch):
     assert "--resume" in str(lost.value)
 
 
+class IdleScheduler(LostScheduler):
+    """A client of a scheduler to which no worker comes."""
+
+    def wait_for_workers(self, count, timeout):
+        raise TimeoutError(f"{count} worker in {timeout} s")
+
+
+def test_a_scheduler_without_workers_is_refused_before_anything_is_written(tmp_path, monkeypatch):
+    monkeypatch.setattr("heeltoe.study.run.schedule._reached", lambda address: IdleScheduler())
+    file = study_file(tmp_path, GRID)
+    with pytest.raises(InputError) as refused:
+        run_study(file, tmp_path / "out", scheduler="tcp://idle:1")
+    assert refused.value.code == "study-no-workers"
+    assert not (tmp_path / "out").exists()
+
+
 def test_the_store_knows_its_stretches(tmp_path):
     store = Store(tmp_path, 10, 4, "", {}, {})
     assert [store.stretch(part) for part in range(store.parts)] == [(0, 4), (4, 8), (8, 10)]

@@ -76,7 +76,7 @@ def flexible_laws() -> Iterator[Row]:
     yield Row(what, plain.residual_slip_m, weak.residual_slip_m, 1e-10, kind="own run")
 
 
-def _sawtooth(rise: float, friction: float, push: float) -> Case:
+def sawtooth(rise: float, friction: float, push: float) -> Case:
     """Return a block of 8 m x 3 m on four teeth with flanks of a slope [rad], pushed downstream [m/s2]."""
     height = math.tan(rise)
     kinks = [[f"{place} m", f"{height * (place % 2)} m"] for place in range(1, 8)]
@@ -105,10 +105,10 @@ def kinked_crack() -> Iterator[Row]:
         rise = math.radians(degrees)
         strength = _G * math.tan(math.atan(friction) + rise)
         kind = f"teeth of {degrees:g} degrees, friction {friction}"
-        held = float(np.abs(flexible(_sawtooth(rise, friction, 0.95 * strength)).histories["slip_m"]).max())
+        held = float(np.abs(flexible(sawtooth(rise, friction, 0.95 * strength)).histories["slip_m"]).max())
         yield Row(f"{kind}, 95 % of what it bears: largest slip [m]", 0.0, held, 1e-3, relative=False, kind="condition")
         push = 1.4 * strength
-        ours = float(flexible(_sawtooth(rise, friction, push)).histories["slip_m"][-1])
+        ours = float(flexible(sawtooth(rise, friction, push)).histories["slip_m"][-1])
         uphill = push * math.cos(rise) - _G * math.sin(rise)
         uphill -= friction * (_G * math.cos(rise) + push * math.sin(rise))
         slip = 0.5 * uphill * 0.25**2 * math.cos(rise)
@@ -148,7 +148,7 @@ def _weakening_teeth() -> Row:
     rise, peak, residual, over = math.radians(10.0), 0.4, 0.2, 0.2
     push = 1.5 * _G * math.tan(math.atan(peak) + rise)
     law = {"name": "slip weakening", "peak_friction": peak, "residual_friction": residual, "slip": f"{over} m"}
-    ours = float(flexible(_sawtooth(rise, peak, push).with_({"crack.law": law})).histories["slip_m"][-1])
+    ours = float(flexible(sawtooth(rise, peak, push).with_({"crack.law": law})).histories["slip_m"][-1])
     pressed = _G * math.cos(rise) + push * math.sin(rise)
     uphill, grows = push * math.cos(rise) - _G * math.sin(rise) - peak * pressed, (peak - residual) / over * pressed
     slip = uphill / grows * (math.cosh(math.sqrt(grows) * 0.25) - 1.0) * math.cos(rise)

@@ -17,6 +17,7 @@ from heeltoe.models.flexible.mesh.kinks import angles
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake, flexible
 from shared.dams import plane_case
+from validation.blocks.elastic_cracks import sawtooth
 
 GRAVITY = 9.80665
 PULSES = [["0 s", "0 g"], ["0.15 s", "-0.6 g"], ["0.4 s", "0.5 g"], ["0.65 s", "-0.5 g"], ["0.8 s", "0 g"]]
@@ -68,23 +69,6 @@ def test_both_faces_follow_the_line():
     assert max(angles(upper, upper.crack, case)) == pytest.approx(math.atan2(1.5, 4.0))
     total = sum(body.loads["weight"].sum() for body in built.bodies)
     assert total == pytest.approx(-case.concrete.density * GRAVITY * case.outline.area, rel=1e-9)
-
-
-def sawtooth(rise: float, friction: float, push: float) -> Case:
-    """Return a block of 8 m x 3 m on four teeth with flanks of a slope [rad], pushed downstream [m/s2]."""
-    height = math.tan(rise)
-    kinks = [[f"{place} m", f"{height * (place % 2)} m"] for place in range(1, 8)]
-    return plane_case(
-        {
-            "section": {"polygon": [["0 m", "0 m"], ["8 m", "0 m"], ["8 m", "6 m"], ["0 m", "6 m"]]},
-            "concrete": {"modulus": "1000 GPa"},
-            "crack": {"elevation": "3 m", "kinks": kinks, "friction": friction},
-            "uplift": {"pattern": "none"},
-            "motion": {"points": [["0 s", f"{-push} m/s^2"], ["0.25 s", f"{-push} m/s^2"]], "duration": "0.25 s"},
-            "analysis": {"silence": "0 s"},
-            "flexible": {"elements_across": 8, "evidence": "none", "time_step": "0.1 ms"},
-        }
-    )
 
 
 @pytest.mark.parametrize(("degrees", "friction"), [(10.0, 0.3), (20.0, 0.2)])
