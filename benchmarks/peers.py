@@ -55,7 +55,7 @@ class Peer:
     solve
         Solves each of the `PROBLEMS` that it is given.
     limits
-        What of heeltoe's work it cannot do, or not by default.
+        The part of heeltoe's work that it cannot do, or not by default.
     """
 
     name: str

@@ -110,7 +110,7 @@ def test_a_case_and_its_record(server):
 
 
 def test_sliders_of_a_page_that_does_not_know_the_case_yet_move_nothing(server):
-    """What they say is of the case before, in the units before; the page asks again with the new state."""
+    """They speak of the case before, in the units before; the page asks again with the new state."""
     with enter(server) as tab:
         known = heard(tab, "state")["state"]
 

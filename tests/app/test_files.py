@@ -94,7 +94,7 @@ def test_all_tabs_together_send_so_much(folder):
 
 
 def test_what_is_made_takes_the_same_room(folder):
-    """What a tab has made leaves no room for what another one sends or makes, and gives it back."""
+    """The files that a tab has made leave no room for what another one sends or makes, and give it back."""
     with client_in(folder, largest_total=100_000) as client, enter(client) as one, enter(client) as other:
         first, second = Tab(client, one), Tab(client, other)
         made = folder / "made"

@@ -1,4 +1,4 @@
-"""An app that is killed leaves nobody who computes, and its folder to the next one, which removes it."""
+"""An app that is killed leaves no process that computes, and its folder to the next one, which removes it."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def place(tmp_path, monkeypatch):
 @contextmanager
 def served(place: Path):
     words = [sys.executable, "-m", "heeltoe", "app", "--no-browser", "--port", "0"]
-    # Of a killed process nothing is left that would count what it shares.
+    # A killed process leaves nothing that would count what it shares.
     with subprocess.Popen(
         words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env={**os.environ, "TMPDIR": str(place)}
     ) as app:

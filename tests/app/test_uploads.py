@@ -39,7 +39,7 @@ def test_a_file_that_is_too_large_is_answered(browser):
     with browser.tab() as tab:
         hello = json.loads(tab.recv())
         assert send(browser, hello["session"], 60) == (413, TOO_LARGE)
-        # What the page says before it sends anything is the same.
+        # The page says the same before it sends anything.
         assert hello["upload"] == {"largest": 20_000_000, "refusal": TOO_LARGE}
 
 

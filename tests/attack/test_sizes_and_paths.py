@@ -106,8 +106,8 @@ def test_halves_of_letters_are_refused():
 def test_names_longer_than_a_file_may_have(arguments, tmp_path):
     reply = process(*arguments, cwd=tmp_path)
     assert reply.returncode == 2
-    told = [line for line in reply.stderr.splitlines() if "takes about" not in line]
-    assert len(told) == 1
+    complaints = [line for line in reply.stderr.splitlines() if "takes about" not in line]
+    assert len(complaints) == 1
     assert "standard output" not in reply.stderr
     assert not list(tmp_path.iterdir())
 

@@ -277,7 +277,7 @@ def test_curves_within_a_tolerance(tmp_path):
             elif kind == "ellipse":
                 space.add_ellipse((out, height), (0.0, -height), out / height, math.pi * 1.5, math.tau)
             else:
-                # Of three control points: a parabola, which leaves a third of the triangle before it.
+                # Three control points: a parabola, which leaves a third of the triangle before it.
                 space.add_open_spline([(0.0, height), (0.0, 0.0), (out, 0.0)], degree=2)
 
         return lines

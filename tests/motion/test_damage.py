@@ -121,12 +121,12 @@ def test_a_step_is_judged_by_the_period_of_an_elastic_dam(tmp_path, height, step
         "analysis": {"silence": "0 s"},
     }
     case = heeltoe.read_case(fields)
-    told = [notice for notice in heeltoe.run(case, "flexible").warnings if notice.code == "motion-coarse-for-dam"]
-    shares = [dict(notice.quantities)["share"] for notice in told]
+    named = [notice for notice in heeltoe.run(case, "flexible").warnings if notice.code == "motion-coarse-for-dam"]
+    shares = [dict(notice.quantities)["share"] for notice in named]
     assert shares == ([] if left_out is None else [pytest.approx(left_out, abs=0.05)])
-    if told:
+    if named:
         first = heeltoe.dam_periods(case, 1).intact[0]
-        assert dict(told[0].quantities)["period_s"] == pytest.approx(first, rel=0.12)
+        assert dict(named[0].quantities)["period_s"] == pytest.approx(first, rel=0.12)
         assert shares[0] == pytest.approx(1.0 - np.sinc(step / first) ** 2, rel=0.25)
     # A block swings in no period.
     assert "motion-coarse-for-dam" not in {notice.code for notice in heeltoe.run(case, "rigid").warnings}

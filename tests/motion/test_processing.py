@@ -188,7 +188,7 @@ def shaking():
 
 @pytest.mark.parametrize(("level", "trend"), [(9.80665, 0.0), (-0.3, 0.0), (0.0, 0.02), (1.0, -0.05)])
 def test_a_band_pass_makes_no_shock_of_the_edges_of_an_offset(level, trend):
-    """What the record is without offset and trend is the right value; padded with zeros, an offset makes it another."""
+    """The record without offset and trend is the right value; padded with zeros, an offset makes it another."""
     clean = shaking()
     lifted = GroundMotion("lifted", clean.time, clean.acceleration + level + trend * (clean.time - 15.0))
     right, passed = band_pass(clean, 0.1, 25.0), band_pass(lifted, 0.1, 25.0)

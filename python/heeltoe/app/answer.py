@@ -108,7 +108,7 @@ async def flexible(desk: Desk, request: Request) -> dict[str, Any]:
 def start(
     desk: Desk, what: str, work: Work, *arguments: Any, parent: bool = False, unless_done: Path | None = None
 ) -> dict[str, Any]:
-    """Start a long run of this tab, and return what is told of it; see :class:`heeltoe.app.jobs.Job`. A folder is
+    """Start a long run of this tab, and return its state; see :class:`heeltoe.app.jobs.Job`. A folder is
     removed `unless_done`: where it does not come to its end."""
     session = desk.session
     if len(_RUNNING) >= desk.settings.most_jobs:

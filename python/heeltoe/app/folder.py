@@ -32,7 +32,7 @@ def folder_of_app() -> Iterator[Path]:
 
 def _held(folder: Path) -> IO[bytes]:
     if sys.platform == "win32":
-        # What is open there cannot be removed.
+        # Files that are open there cannot be removed.
         return (folder / _HELD).open("xb")
     # It has its name, by which others look for it, when it is held.
     fresh = folder / f"{_HELD}-soon"

@@ -23,7 +23,7 @@ class Settings:
     folder
         Where uploads and results go; nothing is written anywhere else, and nothing in it outlives the app.
     token
-        What a browser must show: other users of this machine reach the app, too.
+        The word that a browser must show: other users of this machine reach the app, too.
     most_sessions
         Tabs that are remembered; the one unused for longest goes first.
     most_open
@@ -37,9 +37,9 @@ class Settings:
     longest_reading_s
         That a file may take to be read [s].
     largest_total
-        Of the files of all tabs together, sent or made [bytes].
+        Size of the files of all tabs together, sent or made [bytes].
     most_unread
-        Of a file that is refused, taken so that its sender hears why [bytes].
+        Size of a file that is refused, taken so that its sender hears why [bytes].
     most_jobs
         Long runs at once, of all tabs.
     most_studies, most_runs
@@ -65,7 +65,7 @@ class Settings:
 
     @property
     def cookie(self) -> str:
-        """What the cookie of the token is called: browsers keep those of one machine together, whatever the port."""
+        """Name of the cookie of the token: browsers keep those of one machine together, whatever the port."""
         return f"heeltoe-{self.port}"
 
     @property

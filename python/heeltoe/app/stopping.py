@@ -22,7 +22,7 @@ _AGAIN = 1.0
 
 def end_with_parent() -> None:
     """End this process, with all of its group if it leads one, as soon as the process that began it has ended, however
-    that ended: nobody would hear what it finds."""
+    that ended: no one would hear what it finds."""
     parent = parent_process()
     if parent is not None:
         Thread(target=_end_after, args=(parent.sentinel,), daemon=True).start()

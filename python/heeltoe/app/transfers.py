@@ -57,7 +57,7 @@ async def take(request: Request, session: Session | None, settings: Settings) ->
     path = session.folder / f"upload-{secrets.token_hex(8)}"
     size, looked, refusal = 0, 0, ""
     try:
-        # What has come is on the disk, where the other tabs see it.
+        # The part that has come is on the disk, where the other tabs see it.
         with path.open("xb", buffering=0) as file:
             async for piece in request.stream():
                 size += len(piece)

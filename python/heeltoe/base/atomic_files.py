@@ -5,7 +5,7 @@ cannot be renamed in one moment: they are written into one directory aside, whic
 one moment, and from then on the new result is the one that counts. Its files then move to their places, the last of
 them the list of all files of ours, ``.heeltoe-files``. A process that is killed before leaves the old result; one that
 is killed after leaves the new one, some of it still in ``.heeltoe-ready``, and the next run into this directory moves
-that, too (:func:`settle`), if it was written here by this user: a folder of a stranger may hold one as well. What is on
+that, too (:func:`settle`), if it was written here by this user: a folder of a stranger may hold one as well. Files on
 that list may be replaced or removed by later runs, nothing else.
 
 Every directory aside is locked as long as the process that fills it is alive: the next one removes what is not.

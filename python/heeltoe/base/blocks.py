@@ -45,7 +45,7 @@ class Number:
 
     @property
     def full(self) -> str:
-        """What a row of it in a table is called: its meaning up to a colon or semicolon."""
+        """Name of its row in a table: its meaning up to a colon or semicolon."""
         return re.split("[:;] ", self.meaning)[0].removesuffix(".")
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 
 class ReadOnlyArrays:
-    """Holds arrays that nobody writes to, nor to those of its copies."""
+    """Holds arrays that cannot be written to, nor can those of its copies."""
 
     def __post_init__(self) -> None:
         """Take the arrays as views that are read-only."""

@@ -15,7 +15,7 @@ from heeltoe.errors.error import InputError
 
 Point = tuple[float, float]
 
-# What is written beside lines, and is none. Whatever else a drawing has may be a part of the dam.
+# Texts and signs beside lines. Whatever else a drawing has may be a part of the dam.
 _TEXTS = frozenset(
     {
         *("TEXT", "MTEXT", "RTEXT", "ARCALIGNEDTEXT", "ATTDEF", "ATTRIB", "LEADER", "MULTILEADER", "TOLERANCE"),
@@ -31,9 +31,9 @@ _COARSE, _COARSE_ARC = 1e-3, 0.05
 # Pieces between two knots of a spline, and around an ellipse, before any of them is halved: a bend in an S has its
 # middle on its chord.
 _LEAST_PIECES = 16
-# Of a tolerance: what halving may use; the rest goes to leaving out points.
+# Share of a tolerance that halving may use; the rest goes to leaving out points.
 _HALVED = 0.1
-# Of a polyline: vertices that are no corners, but control its curve.
+# Vertices of a polyline that are no corners, but control its curve.
 _SPLINE_FIT = 4
 
 
@@ -48,7 +48,7 @@ class Line:
     is_hidden
         Whether its layer is frozen or off, or it is invisible itself.
     kind
-        What DXF calls it.
+        Its name in DXF.
     points
         From one end to the other, curves coarsely; none where it cannot be read.
     is_read

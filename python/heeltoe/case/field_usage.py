@@ -107,7 +107,7 @@ READ_BY: dict[str, frozenset[str]] = {
     "analysis.memory_limit": _ELASTIC,
 }
 
-# What these say holds for every block.
+# Values that hold for every block.
 _AS_BLOCKS = {"rock": ("rigid",), "reservoir.compressible": (False,), "tailwater.compressible": (False,)}
 # What a reader would expect to matter to the flexible model has a sentence of its own.
 _EXPECTED = {

@@ -181,7 +181,7 @@ class Case(Shown, Fields):
 
     @cached_property
     def surroundings(self) -> Surroundings:
-        """What an elastic dam stands on and before: that of the case, or what is assumed where it says nothing."""
+        """Rock and water around an elastic dam: those of the case, or what is assumed where it says nothing."""
         return surroundings_of(self)
 
     @property

@@ -14,7 +14,7 @@ from heeltoe.case.sentences import collected
 from heeltoe.errors.error import InputError, shown
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
 
-#: What belongs to a motion from a file.
+#: Fields that belong to a motion from a file.
 FILE_OPTIONS = ("channel", "unit", "time_step", "layout", "factor")
 NO_MOTION = "none"
 """What leaves out the vertical motion, in a case or on the command line."""

@@ -33,6 +33,6 @@ PLAUSIBLE = {
     # From fresh water to a flood full of silt.
     "reservoir.density": _WATER,
     "tailwater.density": _WATER,
-    # What peaks above 3 g is warned of whether or not its peak is stated.
+    # A peak above 3 g is warned of whether or not its peak is stated.
     "motion.pga": Plausible(0.05, math.inf, "g", "peak-unusual", "peak_g"),
 }

@@ -32,7 +32,7 @@ _OF_KEYS = re.compile(
 )
 
 
-#: What a case is read from: a file, or its fields.
+#: Source of a case: a file, or its fields.
 Source = str | os.PathLike[str] | Mapping[str, Any]
 
 

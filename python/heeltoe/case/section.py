@@ -49,7 +49,7 @@ class Section(Fields):
     file: str | None = Field(default=None, strict=True, min_length=1)
     """A drawing (DXF) or a table of corners (CSV), relative to the case file; read once, into `polygon`."""
     layer: str | None = Field(default=None, strict=True, min_length=1)
-    """Of a drawing: where the closed outline of the section is; needed where there are several, or other lines. Beside
+    """Layer of a drawing with the closed outline of the section; needed where there are several, or other lines. Beside
     `polygon`: where this was drawn, which answers name."""
     unit: str | None = Field(default=None, strict=True, min_length=1)
     """Unit of the numbers in the file, in place of the one that it states."""

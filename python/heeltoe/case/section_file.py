@@ -66,7 +66,7 @@ def read_corners(path: Path, layer: str | None = None, unit: str | None = None) 
     path
         Of the file.
     layer
-        Of a drawing: where its closed outline is; needed where there are several, or other lines.
+        Layer of a drawing with its closed outline; needed where there are several, or other lines.
     unit
         Of the numbers, in place of the one that the file states.
 

@@ -1,4 +1,4 @@
-"""What is around an elastic dam: the rock and the water of a case, and what is assumed where it says nothing.
+"""Rock and water around an elastic dam: those of the case, or what is assumed where it says nothing.
 
 A rigid plane below and water without sound carry nothing away of the vibration that sliding feeds, so that both have to
 be chosen (docs/sliding-that-feeds-itself.md)."""
@@ -22,7 +22,7 @@ LEVEL = 1e-6
 
 
 class Cracked(Protocol):
-    """What is asked of a case with one crack."""
+    """A case with one crack."""
 
     @property
     def cut(self) -> CutSection: ...
@@ -31,7 +31,7 @@ class Cracked(Protocol):
 
 
 class Standing(Featured, Protocol):
-    """What is asked of a case that stands on rock."""
+    """A case that stands on rock."""
 
     @property
     def concrete(self) -> Concrete: ...
@@ -49,7 +49,7 @@ class Standing(Featured, Protocol):
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What is around an elastic dam.
+    """Rock and water around an elastic dam.
 
     Attributes
     ----------

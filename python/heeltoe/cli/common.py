@@ -81,7 +81,7 @@ BUG = 1
 BAD_INPUT = 2
 INTERRUPTED = 130
 LONGEST_PATH = 5000
-# What takes longer says so before it starts [s].
+# Runs that take longer say so before they start [s].
 _A_WAIT = 5.0
 
 CasePath = Annotated[str, typer.Argument(metavar="CASE.toml", help="The case file (TOML or JSON).")]

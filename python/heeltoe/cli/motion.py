@@ -155,7 +155,7 @@ def _matched(motions: list[GroundMotion], text: str) -> tuple[list[GroundMotion]
     target = target_of(text, "--match")
     pairs = [match_known_band(motion, target) for motion in motions]
     records = [motion.scaled(misfit.scale) for motion, (_, misfit) in zip(motions, pairs, strict=True)]
-    # What is said of its peak is said of any motion that is shown.
+    # Every motion that is shown gets the same warnings of its peak.
     looked_at = [
         matched.with_warnings(*check_scaling(motion, misfit.scale, "--match"))
         for motion, (matched, misfit) in zip(motions, pairs, strict=True)

@@ -1,4 +1,4 @@
-"""What ends a process that does not hear of an interruption; not on Windows."""
+"""The end of a process that does not hear of an interruption; not on Windows."""
 
 from __future__ import annotations
 

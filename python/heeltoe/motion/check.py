@@ -42,7 +42,7 @@ _LEVEL = re.compile(
 )
 
 
-#: Of a component: vertical, horizontal, or not known.
+#: Direction of a component: vertical, horizontal, or not known.
 Way = Literal["up", "level", ""]
 
 

@@ -23,7 +23,7 @@ UNCORRECTED = "record-uncorrected"
 _CUT = "cut to "
 # Of a refined motion: days of shaking at a thousandth of a second, and still within memory.
 _MOST_SAMPLES = 5e7
-# What arrays hold that are no numbers, by NumPy's letters.
+# Kinds of arrays without numbers, by NumPy's letters.
 _KINDS = {"M": "dates", "m": "NumPy's durations", "c": "complex numbers", "b": "truth values", "U": "words"}
 #: No acceleration of a record is larger [m/s2], nor any time [s]; numbers of several runs multiply them.
 LARGEST_VALUE = 1e12

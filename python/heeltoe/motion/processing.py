@@ -125,7 +125,7 @@ def band_pass(
     change of sign and out from its last one, a twentieth of it at most, where Converse and Brady (1992) begin and end
     it.
 
-    Before and after the record stand 1.5 `order` / `low` seconds of zeros, their rule. What the filter puts there
+    Before and after the record stand 1.5 `order` / `low` seconds of zeros, their rule. The filter's motion there
     belongs to the motion: cut off, it leaves a velocity behind that makes displacements several times too large. So it
     stays, up to where it falls below a millionth of the peak, and `lead` of the motion says how much of it stands
     before the record. The two passes together have twice the order; each corner is down by half (6 dB).
@@ -192,7 +192,7 @@ def band_pass(
     )
 
 
-# Of a record, what may fade at either end before it is filtered.
+# Share of a record that may fade at either end before it is filtered.
 _FADES = 0.05
 
 

@@ -36,7 +36,7 @@ _SHORT = {
     "kcf": "(kilopound/ft^3)",
     "psf": "(lbf/ft^2)",
     "ksf": "(kip/ft^2)",
-    # Of the United States alone, where a ton is 2,000 pounds.
+    # In the United States alone, where a ton is 2,000 pounds.
     "tsf": "(force_ton/ft^2)",
     "plf": "(lbf/ft)",
     "klf": "(kip/ft)",

@@ -284,7 +284,7 @@ def test_a_bracket_says_the_unit_whatever_the_word(header, unit):
     text = f"{header}\n{along(1, form='.5f')}"
     motion = read(text, time_step=0.005)
     assert motion.units_as_read == unit
-    # What contradicts it is refused, and what says the same is not.
+    # A contradiction is refused, agreement is not.
     other = "m/s^2" if unit != "m/s^2" else "cm/s^2"
     with pytest.raises(InputError, match=r"is not what a\.V2 states"):
         read(text, time_step=0.005, unit=other)

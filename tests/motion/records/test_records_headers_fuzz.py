@@ -17,7 +17,7 @@ from heeltoe.motion.records import read_text_channels
 from heeltoe.motion.records.to_motion import Options
 
 G = 9.80665
-#: What one of each unit is [m/s2].
+#: Size of each unit [m/s2].
 UNITS = {
     "g": G,
     "G": G,

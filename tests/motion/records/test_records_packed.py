@@ -288,7 +288,7 @@ def test_what_the_reader_warns_of_reaches_the_result():
     (notice,) = motion.warnings
     assert notice.code == "record-reader-warns"
     assert "2-digit year" in str(notice).lower()
-    # What the reader says of a step that is not its own is not so.
+    # The reader's word on a step that is not its own is not so.
     data = bytearray(sac())
     data[0:4] = struct.pack(f"{order}f", 1.0 / 128.0)
     assert read_text(bytes(data), "a.sac", options=Options(unit="m/s^2")).warnings == ()

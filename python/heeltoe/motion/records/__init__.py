@@ -104,7 +104,7 @@ def read_record(
     layout
         Whether the values of a plain table run along its rows or down its columns, where its header does not say so.
     factor
-        What the values are multiplied by where the header has a factor: that one, or 1 where they contain it.
+        Factor of the values where the header has one: that one, or 1 where they contain it.
 
     Returns
     -------

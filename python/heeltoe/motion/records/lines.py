@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 # Columns that touch, or an exponent of Fortran's.
 _GLUED = re.compile(r"[\d.][-+dD]")
 _WORD, _NO_NUMBER = re.compile(r"[^\W\d_]{2}"), re.compile(r"[-+]?(?:nan|inf(?:inity)?)", re.IGNORECASE)
-# Of a line; longer ones are data or damage.
+# Length of a line; longer ones are data or damage.
 _MOST = 40
 _SEPARATORS = str.maketrans({",": " ", ";": " ", "\t": " ", '"': None})
 

@@ -52,7 +52,7 @@ _BRACKETED = re.compile(r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?")
 _TIME_IN_WORDS = re.compile(TIME_IN_WORDS)
 _TIME, _ACCELERATION, _PEAK, _UNIT = (re.compile(word) for word in (TIME, ACCELERATION, PEAK, UNIT))
 _INDEX, _OTHER_AXIS, _SPECTRAL = re.compile(INDEX), re.compile(OTHER_AXES), re.compile(SPECTRAL)
-# Of spectra; in small letters alone they may be directions (SE, SD).
+# Names of spectra; in small letters alone they may be directions (SE, SD).
 _SHORT_SPECTRAL = re.compile(r"\s*(?:P?SA|S[aedv]|PSa|PSV|RSA|Se)(?=$|[\s\[(_,])(?!\w)")
 _RATES = re.compile(r"[^\W_]*\s*[\[(]\s*(?:hz|1/s|rad/s|1/yr|1/a|km)\s*[\])]")
 _RUNS_OVER = re.compile(rf"(?:{OTHER_AXES})\s*[\[(]\s*(?:s|secs?|seconds?|ms|hz|km|g|sn|с|сек|秒)\s*[\])]")
@@ -64,7 +64,7 @@ _NUMBERED = re.compile(r"(?<![\w.])\d+(?:[.,]\d+)?(?![\w%])(?!\s*%)")
 # A value with its unit, not the unit of the data.
 _VALUED = re.compile(r"[\[(][^\])]*[\])]\s*[:=]?\s*[-+]?\d")
 _LABEL = re.compile(r"\s*(?:columns?|fields|spalten|colonnes|columnas|colonne|colunas|sutunlar)\s*[:=]\s*")
-# What is no word of a name.
+# Signs that are no word of a name.
 _LONGEST_NAME, _LAST_LINES = 4, 6
 
 
@@ -188,7 +188,7 @@ def table_in(header: list[str], width: int) -> str | None:
                 continue
             if len(names) == width and any(_is_heading(name, width) for name in names):
                 return line.strip()
-            # Of more or fewer names than columns, the first one with its unit says what the table runs over.
+            # Where names are more or fewer than columns, the first one with its unit says what the table runs over.
             if width > 1 and len(names) > 1 and _RUNS_OVER.fullmatch(folded(names[0]).strip()):
                 return line.strip()
     return None

@@ -49,11 +49,11 @@ class RawRecord:
     format
         Of the file.
     peaks, durations
-        What the file states of them, to be held against what was read; the durations in s.
+        Numbers that the file states of them, to be held against what was read; the durations in s.
     named_units
         Units the file names where it does not say which one is that of the values.
     factor
-        What the header has as a factor without saying whether the values contain it.
+        Factor of the header, without saying whether the values contain it.
     """
 
     values: Floats

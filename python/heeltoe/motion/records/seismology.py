@@ -25,7 +25,7 @@ _VERSION, _VERSIONS, _HEADER = 304, (6, 7), 632
 _NO_NUMBER = -12345.0
 _OTHERS = {6: "displacement", 7: "velocity", 50: "velocity in volts"}
 _LARGEST_XML, _MOST_XML = 20_000_000, 500
-# Of miniSEED: where its header has the code of the station.
+# Place of the station's code in the header of miniSEED.
 _STATION = slice(8, 13)
 # A sensor within so much of upright, or of level, is that [deg].
 _UPRIGHT, _LEVEL = 80.0, 10.0

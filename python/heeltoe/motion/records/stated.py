@@ -1,4 +1,4 @@
-"""What the header of a table states in words: how many values there are, how far apart, how long and how strong."""
+"""Numbers that a header states in words: how many values there are, how far apart, how long and how strong."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ _SPACED = re.compile(
 _SAMPLES_A_SECOND = re.compile(
     rf"({_NUMBER})\s*(?:samples?|points|muestras|campioni|amostras|werte|ornek)\s*(?:/|per\s+|por\s+|pro\s+)\s*s"
 )
-# What lasts or peaks there is a part of the motion, or another one.
+# Words beside a length or a peak of a part of the motion, or of another one.
 _OTHER_TIMES = re.compile(r"signif|5\s*-\s*95|5-75|d5|bracket|strong|pre-?event|husid|rise|rupture|fault|source")
 _RAW = re.compile(r"\braw\b|uncor|before|original|unscaled|vertical|brut|roh|crudo|target|hedef|ziel|cible|objetivo")
 # Two statements of one step: 0.008 s and 128 Hz.
 _NEAR = 0.05
-# What stands right before a word that makes it one of another thing.
+# Words right before another that make it one of another thing.
 _OF_ANOTHER = re.compile(r"(?:-|\b(?:original|raw|old|former|uncorrected|before)\s*)$")
 _SECONDS = {
     r"s|secs?|seconds?|sn|saniye|seg|segundos?|sek(?:unden?)?|secondi|secondes?|с|сек|δευτ?|δ|秒|сек": 1.0,
@@ -75,7 +75,7 @@ class Written:
 
 @dataclass(frozen=True)
 class Stated:
-    """What a header states; empty where it does not.
+    """Numbers that a header states; empty where it does not.
 
     Attributes
     ----------
@@ -112,7 +112,7 @@ class Stated:
         for other in self.steps[1:]:
             if abs(first - other.value) > _NEAR * max(first, other.value):
                 raise InputError("record-steps-stated", name, f"{first:g} s", other=f"{other.value:g} s")
-        # What has more digits is nearer to what was meant.
+        # A number with more digits is nearer to what was meant.
         return min(self.steps, key=lambda written: written.rounding).value
 
 
@@ -145,7 +145,7 @@ def number(text: str) -> Written | None:
         decimal = "." if mantissa.rindex(".") > mantissa.rindex(",") else ","
         mantissa = mantissa.replace("," if decimal == "." else ".", "").replace(",", ".")
     elif points > 1 or commas > 1:
-        # What parts thousands has three digits behind it.
+        # A sign that parts thousands has three digits behind it.
         if not re.fullmatch(r"[-+]?\d{1,3}(?:[.,]\d{3})+", mantissa):
             return None
         mantissa = mantissa.replace(".", "").replace(",", "")

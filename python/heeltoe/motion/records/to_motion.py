@@ -33,12 +33,12 @@ _LIKELY_STEP = 0.01
 _ROUNDED = 0.52
 # Digits that times are printed with: decimals, or significant ones.
 _DECIMALS, _SIGNIFICANT = range(0, 8), range(3, 8)
-# Of repeated moments, the share beyond which they are no jumps.
+# Share of repeated moments beyond which they are no jumps.
 _REPEATED = 0.02
 # Peaks in g of strong motion, and the units in which records are written, with what one g is in them.
 _WEAKEST, _STRONGEST = 0.005, 3.0
 _IN_ONE_G = {"g": 1.0, "m/s^2": 9.80665, "cm/s^2": 980.665, "mm/s^2": 9806.65}
-# What a stated peak or length may differ by beyond its rounding: up to the first it is the same, up to the second the
+# Differences of a stated peak or length beyond its rounding: up to the first it is the same, up to the second the
 # file is said to contradict itself, beyond it is not what was read.
 _SAME, _FAR_PEAK, _FAR_DURATION = 1e-3, 0.05, 0.01
 
@@ -88,7 +88,7 @@ def to_motion(raw: RawRecord, name: str, channels: int, options: Options) -> Gro
     unit, read_as, unsure_too = _unit(raw, name, peak * abs(within), options)
     factor = within * _si(unit, f"{options.field}.unit" if raw.unit is None else name, options)
     # A peak that was stated without its unit may be in any.
-    held = _held_peak(raw.peaks, peak, factor, name, options, told=raw.unit is None)
+    held = _held_peak(raw.peaks, peak, factor, name, options, assumed=raw.unit is None)
     if peak * factor > _LARGEST_VALUE:
         raise InputError("motion-peak", name, f"{peak:.4g} {unit}", name="it")
     # K-NET and KiK-net tell the components of a station apart by the endings of their names alone.
@@ -156,9 +156,9 @@ def _check_duration(durations: tuple[Written, ...], time: Floats, name: str) -> 
 
 
 def _held_peak(
-    peaks: tuple[Written, ...], peak: float, factor: float, name: str, options: Options, *, told: bool
+    peaks: tuple[Written, ...], peak: float, factor: float, name: str, options: Options, *, assumed: bool
 ) -> tuple[Notice, ...]:
-    """Return a warning where no stated peak is that of the values, in the unit of the file or one that it was `told`.
+    """Return a warning where no stated peak is that of the values, in the unit of the file or one that was `assumed`.
 
     Raises
     ------
@@ -169,7 +169,7 @@ def _held_peak(
         return ()
     shares = {}
     for written in peaks:
-        # What is stated without its unit may be in that of the values, or in any.
+        # A peak that is stated without its unit may be in that of the values, or in any.
         scales = [1.0, *(_si(unit, name, options) / factor for unit in _IN_ONE_G)]
         if written.unit:
             scales = [_si(written.unit, name, options) / factor]
@@ -177,8 +177,8 @@ def _held_peak(
     stated = min(shares, key=shares.__getitem__)
     if shares[stated] <= _SAME:
         return ()
-    # A look takes a unit that it is told, or assumes, and says what does not fit.
-    if shares[stated] > _FAR_PEAK and not (told and options.assume):
+    # A look takes a unit that the user gives or it assumes, and says what does not fit.
+    if shares[stated] > _FAR_PEAK and not (assumed and options.assume):
         raise InputError("record-peak-far", name, f"{peak:.4g}", stated=f"{stated.value:g} {stated.unit}".strip())
     return (Notice("record-peak", name=name, stated=stated.value, found=peak),)
 

@@ -121,7 +121,7 @@ UNIT = _one_of(
     "unit|units|Einheit|Einheiten|unité|unités|unidad|unidades|unità|unidade|birim|birimi|μονάδα|μονάδες|единица"
     "|единицы|ед. изм.|ед|単位|单位"
 )
-#: What the first column of a table is that is no record, or what one of its columns is.
+#: Names of the first column of a table that is no record, or of one of its columns.
 OTHER_AXES = _one_of(
     "period|periods|periode|période|periodo|periyot|periyod|περίοδος|период|周期|freq|frequency|frequenz|fréquence"
     "|frecuencia|frequenza|frequência|frekans|συχνότητα|частота|周波数|振動数|频率|omega"

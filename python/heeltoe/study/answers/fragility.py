@@ -59,7 +59,7 @@ class NotStanding(Block):
 class Curve(Block):
     """A fragility curve with what it rests on; `knowledge` says how well it is known, None of a single event."""
 
-    model: Annotated[str, Number("Of which model.")] = ""
+    model: Annotated[str, Number("The model.")] = ""
     limit: Annotated[str, Number("Name of the limit.")]
     value: Annotated[float, Number("The limit, in SI.")]
     measure: Annotated[str, Number("How strong the motion is by.")]

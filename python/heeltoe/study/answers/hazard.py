@@ -146,7 +146,7 @@ class RateAt(Block):
 class AnnualRate(Block):
     """How often a year a limit is exceeded; without a fragility curve nothing but why."""
 
-    model: Annotated[str, Number("Of which model.")] = ""
+    model: Annotated[str, Number("The model.")] = ""
     limit: Annotated[str, Number("Name of the limit.")]
     value: Annotated[float, Number("The limit, in SI.")]
     measure: Annotated[str, Number("Strength of the motions by which the curves go.")]

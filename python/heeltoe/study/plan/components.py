@@ -17,7 +17,7 @@ from heeltoe.motion.records import read_channels
 from heeltoe.motion.records.catalog import PREFIX, find
 from heeltoe.study.plan.search_results import Listed, listed_records
 
-# What the last part of a vertical component's name is.
+# Last parts of the names of vertical components.
 _VERTICAL = re.compile(r"up|ud\d?|v\d?|ver|vert|vertical|vrt|z|[bceghs][dghln]z|dwn|down", re.IGNORECASE)
 # The last part of a name, which tells the components of an event apart: behind a dash, an underscore or a blank.
 _LAST = re.compile(r"(.+)[-_ .]([^-_ .]+)")
@@ -25,7 +25,7 @@ _LAST = re.compile(r"(.+)[-_ .]([^-_ .]+)")
 _ENDING = re.compile(r"\.(EW|NS|UD)[12]?", re.IGNORECASE)
 # How many things a record says of its earthquake.
 _SAID = 5
-#: What comes between a file and the number of one of its channels.
+#: Sign between a file and the number of one of its channels.
 CHANNEL = "#"
 
 
@@ -42,9 +42,9 @@ class Component:
     is_vertical
         Whether it is.
     earthquake
-        What the record, or the list that came with it, says of where it belongs; empty where neither does.
+        Earthquake and station by the record, or by the list that came with it; empty where neither does.
     listed
-        What that list says of it.
+        Its row of that list.
     """
 
     given: str
@@ -61,7 +61,7 @@ class Group:
     Attributes
     ----------
     name
-        What they have in common.
+        Their common name.
     horizontal, vertical
         In the order of their files.
     """
@@ -80,11 +80,11 @@ def components_of(
     Parameters
     ----------
     names
-        Of files, relative to `directory`, of records of the catalogue, or of motions made to order.
+        Names of files, relative to `directory`, of records of the catalogue, or of motions made to order.
     directory
         Where paths start.
     unit, time_step
-        Of files that do not state them.
+        Those of files that do not state them.
     """
     listed = {
         name: row
@@ -155,7 +155,7 @@ def grouped(components: Sequence[Component]) -> list[Group]:
         if len(levels) <= 2 and len(members) - len(levels) <= 1:
             kept.setdefault(key, []).extend(members)
             continue
-        # What they say of themselves is true of several earthquakes.
+        # Their own words are true of several earthquakes.
         for part in members:
             kept.setdefault((*key, _common(part.file)), []).append(part)
     for key in list(kept):

@@ -151,7 +151,7 @@ class Motions(Fields):
     """The earthquakes; without them all runs meet that of the case."""
 
     folder: str | None = Field(default=None, strict=True, min_length=1)
-    """Every record in it; which of them are components of one event, and which are vertical, is told by what they say
+    """Every record in it; which of them are components of one event, and which are vertical, follows from what they say
     of themselves (station, time, direction), and where they say nothing by their names, which differ in their last part
     alone."""
     files: Annotated[tuple[str, ...], Field(min_length=1)] | None = None

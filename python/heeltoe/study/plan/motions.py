@@ -188,7 +188,7 @@ def _read(
 
 
 def _events(motions: Motions, directory: Path) -> Iterator[Event]:
-    """Walk the events; components of files without a word of which belong together are told by what they say."""
+    """Walk the events; components of files without a word of which belong together are found by what they say."""
     if motions.events is not None:
         for event in motions.events:
             yield event if event.name else event.model_copy(update={"name": Path(event.horizontal[0]).stem})
@@ -229,7 +229,7 @@ def suite_events(
 ) -> tuple[list[Event], list[str]]:
     """Return each horizontal record of a suite as an event by itself, with the entry of the case that it comes from.
 
-    A vertical component, told by what its record says and else by its name, goes with each horizontal one of its
+    A vertical component, known by what its record says and else by its name, goes with each horizontal one of its
     earthquake where `vertical` is asked for, and is left out otherwise.
 
     Raises

@@ -56,7 +56,7 @@ _WORDS = {"title", "units", "project"}
 _WARNED = 2000
 #: At which the spectra of a suite are drawn [s].
 SUITE_PERIODS: Floats = np.geomspace(0.05, 4.0, 90)
-# Of what is drawn without a bound.
+# Share of a distribution without a bound.
 _NEARLY_ALL = 0.99
 # No strength of an earthquake comes near, whatever its measure.
 _STRONGEST = 1e12

@@ -22,7 +22,7 @@ _FILES: dict[str, Way] = {
 
 @dataclass(frozen=True)
 class Listed:
-    """What a list says of a record.
+    """A row of a list of records.
 
     Attributes
     ----------
@@ -31,13 +31,13 @@ class Listed:
     earthquake
         Its number in the data base, which the components of one record share; empty without it.
     magnitude
-        Of the earthquake.
+        Magnitude of the earthquake.
     distance_m
         To the rupture [m].
     vs30_m_s
         Velocity of shear waves in the upper 30 m below the instrument [m/s].
     pulse_period_s
-        Of the pulse in the velocity [s]; None where there is none, or it is not known.
+        Period of the pulse in the velocity [s]; None where there is none, or it is not known.
     """
 
     way: Way = ""

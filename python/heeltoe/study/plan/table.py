@@ -39,7 +39,7 @@ class DamTable:
     axes
         The fields, each with a value for every dam.
     units
-        Of the header, by fields that hold no quantity; none should be there.
+        Units of the header, by fields that hold no quantity; none should be there.
     """
 
     names: tuple[str, ...]

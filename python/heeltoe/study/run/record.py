@@ -1,4 +1,4 @@
-"""What ``study.json`` says of a study: one schema for all of it, and a checksum, as it may come from a stranger or a
+"""Content of ``study.json``: one schema for all of it, and a checksum, as it may come from a stranger or a
 bad disk."""
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from heeltoe.study.plan.file import Distribution, Study
 from heeltoe.study.plan.plan import MOST
 
 STUDY = "study.json"
-#: Of the layout of a directory; another one cannot be read.
+#: Version of the layout of a directory; another one cannot be read.
 VERSION = 6
 #: Runs of a part at most, so that memory stays small.
 MOST_OF_PART = 32_768

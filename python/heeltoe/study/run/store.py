@@ -3,7 +3,7 @@
 ``study.json`` says which study it is, by a fingerprint of all that its results depend on, and
 ``runs/part-N-DIGEST.parquet`` holds a stretch of its runs. A part is there whole or not at all: what was killed, or ran
 out of disk, goes on where it stopped. Its digest is that of the study, of the stretch and of all that is in the file: a
-part that is damaged, in another's place or of another study is read by nobody.
+part that is damaged, in another's place or of another study is never read.
 """
 
 from __future__ import annotations
@@ -45,11 +45,11 @@ class Store:
     size
         How many of them a part has.
     fingerprint
-        Of the study.
+        Fingerprint of the study.
     columns
         The types of the columns of its runs, by name.
     words
-        What stands in columns of words, by name.
+        Words that columns may hold, by name.
     """
 
     directory: Path

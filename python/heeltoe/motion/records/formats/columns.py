@@ -56,7 +56,7 @@ _FACTOR = re.compile(
     re.IGNORECASE,
 )
 _HEADER_LINES, _HEADER_WIDTH = 100, 400
-# More moments than this that are 1 s apart count samples: no record is so slow. Of fewer, steps tell nothing.
+# More moments than this that are 1 s apart count samples: no record is so slow. Fewer steps show nothing.
 _FEW = 20
 # A column of times has this share of steps within so much of their median.
 _MOSTLY, _EVEN = 0.9, 0.02
@@ -127,8 +127,8 @@ def read(lines: list[str], name: str, layout: str | None = None) -> list[RawReco
     clock = _clock(table.time, table.time_name, said, stated, name)
     series = _series(table, said, name)
     # One series by itself is one over time where somebody says its step.
-    told = table.time is None or any(map(is_direction, names or ())) or surely_time_in(bare)
-    _check_sides(series, told or bool(stated.steps) or clock.counts, name)
+    stands = table.time is None or any(map(is_direction, names or ())) or surely_time_in(bare)
+    _check_sides(series, stands or bool(stated.steps) or clock.counts, name)
     about, processing = _about(bare)
     done = (*processing, *(("decimal commas read",) if commas else ()), *clock.processing)
     largest = max(range(len(series)), key=lambda k: float(np.abs(series[k][0]).max(initial=0.0)))
@@ -254,7 +254,7 @@ def _table(
         raise InputError("record-ragged", name, f"{values.size} numbers", line=first + 1, width=width)
     columns = np.ascontiguousarray(values.reshape(-1, width).T)
     if names is None:
-        # Of columns that the user says there are, the first one is a time if it can be one.
+        # The first of the columns that the user names is a time if it can be one.
         timed = width == 2 or (
             width > 2 and layout == "columns" and columns.shape[1] > _FEW and _is_time(columns[0], named)
         )
@@ -285,7 +285,7 @@ def _warnings(stated: Stated, column: Floats, name: str) -> tuple[Notice, ...]:
     labelled = {count.value for count in stated.counts if count.unit != IN_A_SENTENCE}
     if labelled and not stated.is_count(column.size):
         return counted(column, min(labelled, key=lambda count: abs(count - column.size)), name)
-    # Of several, the ones that are not right are said; small numbers of points in sentences are of something else.
+    # The wrong ones of several are named; small numbers of points in sentences are of something else.
     in_sentences = {count.value for count in stated.counts} if not stated.is_count(column.size) else set()
     others = sorted(labelled | {count for count in in_sentences if count > _FEW})
     return tuple(
@@ -304,7 +304,7 @@ def _about(header: list[str]) -> tuple[dict[str, str], tuple[str, ...]]:
 
 
 def _factor(header: list[str], name: str) -> float | None:
-    """Return the factor other than 1 that a header has: whether the values contain it nobody can tell."""
+    """Return the factor other than 1 that a header has: whether the values contain it is unknown."""
     for line in header:
         for match in () if _ABOUT.match(line) else _FACTOR.finditer(line):
             value = match[1] or match[2]

@@ -1,7 +1,7 @@
 """USGS SMC: one accelerogram in cm/s2, corrected or as the instrument gave it.
 
 11 lines of text, 48 integers on six lines, 50 reals on ten, comments behind ``|``, then the data, eight to a line in
-columns of ten that may touch (``-1.2518E+1 1.5642E+0-8.8063E+0``). What is unknown is -32768, or 1.7e38. Data without a
+columns of ten that may touch (``-1.2518E+1 1.5642E+0-8.8063E+0``). Unknown ones are -32768, or 1.7e38. Data without a
 rate are pairs of time and value.
 """
 
@@ -61,7 +61,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     values = values[: values.size - left]
     pairs = values[: values.size // 2 * 2].reshape(-1, 2)
     flagged = (Notice("record-flagged", name=name),) if integers[17] == 1 else ()
-    # Of pairs, both numbers count.
+    # Both numbers of a pair count.
     counts = check_series(values, name, count)
     accelerations = np.ascontiguousarray(pairs[:, 1]) if timed else values
     warnings = (*counts, *flagged, *check_series(accelerations, name, None, find_text(_PEAK, text)))
