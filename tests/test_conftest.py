@@ -19,7 +19,7 @@ def pytest_run(place: Path, *options: str) -> tuple[int, list[str]]:
     run = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-p", "conftest", *options],
         cwd=place,
-        env={**os.environ, "PYTHONPATH": str(ROOT / "tests")},
+        env={**os.environ, "PYTHONPATH": os.pathsep.join((str(ROOT), str(ROOT / "tests")))},
         capture_output=True,
         text=True,
         timeout=120,

@@ -41,7 +41,7 @@ def test_figures_in_us_units(tmp_path):
     assert command(*run, "--units", "us").returncode == 0
     assert "slip [in]" in (tmp_path / "response.svg").read_text(encoding="utf-8")
     assert "kip/ft" in (tmp_path / "section.svg").read_text(encoding="utf-8")
-    screen = command("run", *RIGID, "--units", "us", "--set", "title=Dam of 100 m", "--duration", "5s")
+    screen = command("run", *RIGID, "--units", "us", "--set", "title=Dam of 100 m", "--duration", "5s", "--details")
     for words in ("Dam of 100 m", "ft/s", "residual slip", " in "):
         assert words in screen.stdout
     assert not re.search(r"\d\s(mm|m/s|m)\b", screen.stdout.replace("Dam of 100 m", ""))
