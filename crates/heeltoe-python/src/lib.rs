@@ -35,11 +35,11 @@ mod _kernel {
     use crate::law::FrictionLaw;
     #[pymodule_export]
     use crate::results::{
-        AtRest, BlockEvents, BlockHistories, BlockRun, BlockSummary, DamFrames, DamRun, DamSummary,
-        Roughness, StackRun, StressExtremes, Worn, WornContacts,
+        AtRest, BlockEvents, BlockHistories, BlockRun, BlockSummary, Crossing, CrossingSummary, DamFrames,
+        DamRun, DamSummary, Roughness, StackRun, StressExtremes, Worn, WornContacts,
     };
     #[pymodule_export]
-    use crate::rigid::{run_rigid, run_rigid_many, run_rigid_varying};
+    use crate::rigid::{run_rigid, run_rigid_many, run_rigid_plane, run_rigid_varying};
     #[pymodule_export]
     use crate::stack::run_rigid_stack;
     #[pymodule_export]

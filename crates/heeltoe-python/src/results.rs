@@ -3,7 +3,7 @@
 use heeltoe::flexible::{self as elastic, Frames};
 use heeltoe::inside::Borne;
 use heeltoe::rigid::stack::StackRun as TwoBlocks;
-use heeltoe::rigid::{Event, EventKind, Mode, Moment, Outcome, Run, Summary};
+use heeltoe::rigid::{Crossing as Crossed, Event, EventKind, Mode, Moment, Outcome, Run, Summary};
 use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -241,6 +241,15 @@ pub struct Roughness {
     highest: f64,
 }
 
+numbers!(CrossingSummary of Crossed { slip slip_velocity slip_min slip_max path side_impulse time_at_side side_strikes });
+
+/// See `_kernel.pyi`.
+#[pyclass(frozen, get_all, module = "heeltoe.kernel._kernel")]
+pub struct Crossing {
+    kept: Table,
+    summary: Py<CrossingSummary>,
+}
+
 /// See `_kernel.pyi`.
 #[pyclass(frozen, get_all, module = "heeltoe.kernel._kernel")]
 pub struct BlockRun {
@@ -251,6 +260,7 @@ pub struct BlockRun {
     anchors: Option<Table>,
     worn: Option<Py<Worn>>,
     rough: Option<Py<Roughness>>,
+    crossing: Option<Py<Crossing>>,
 }
 
 impl BlockRun {
@@ -270,6 +280,13 @@ impl BlockRun {
             end: rough.end.into(),
             highest: rough.highest,
         });
+        let crossing = match run.crossing {
+            Some(crossing) => Some(Crossing {
+                summary: Py::new(py, CrossingSummary::of(crossing.row()))?,
+                kept: table(py, crossing.kept.into_iter()).unbind(),
+            }),
+            None => None,
+        };
         Ok(BlockRun {
             summary: Py::new(py, BlockSummary::of(run.summary.row()))?,
             histories: Py::new(py, BlockHistories::of(py, run.moments.iter().map(Moment::row))?)?,
@@ -278,6 +295,7 @@ impl BlockRun {
             anchors: (!exact).then(|| table(py, run.anchors.iter().map(Borne::row)).unbind()),
             worn: worn.map(|worn| Py::new(py, worn)).transpose()?,
             rough: rough.map(|rough| Py::new(py, rough)).transpose()?,
+            crossing: crossing.map(|crossing| Py::new(py, crossing)).transpose()?,
         })
     }
 }
@@ -366,6 +384,8 @@ impl BlockRun {
             anchors,
             worn: worn.map(|worn| Py::new(py, worn)).transpose()?,
             rough: rough.map(|rough| Py::new(py, rough)).transpose()?,
+            // No run across the valley is made of several.
+            crossing: None,
         })
     }
 }

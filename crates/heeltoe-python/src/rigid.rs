@@ -3,6 +3,7 @@
 use heeltoe::asperity::{Asperities, AsperityNumbers};
 use heeltoe::friction::Worn as BeenThrough;
 use heeltoe::inside::{Anchor, Law};
+use heeltoe::rigid::plane::{self, Across, CrossShaking};
 use heeltoe::rigid::varying::{self, Rotation, Surface, TurningBlock, TurningShaking, VaryingNumbers};
 use heeltoe::rigid::{
     exact, many, Block, BlockNumbers, Crest, Options, Outcome, Run, Shaking, Summary, Wanted,
@@ -83,6 +84,49 @@ pub fn run_rigid<'py>(
     };
     let walk =
         |options: Options, wanted: Wanted<'_>| exact::simulate(&block, &shaking, start, options, wanted);
+    let run = walked(py, time.len()?, &output_times, options, walk)?;
+    BlockRun::of(py, run, true)
+}
+
+/// Run one block whose ground shakes across the valley, too; see `_kernel.pyi`.
+#[pyfunction]
+#[pyo3(signature = (block, across, time, horizontal, vertical, cross, output_times, start, settle, event_limit, jam))]
+#[allow(clippy::too_many_arguments)]
+pub fn run_rigid_plane<'py>(
+    py: Python<'py>,
+    block: Numbers<'py>,
+    across: [f64; 3],
+    time: Numbers<'py>,
+    horizontal: Numbers<'py>,
+    vertical: Option<Numbers<'py>>,
+    cross: Numbers<'py>,
+    output_times: Numbers<'py>,
+    start: Option<[[f64; 3]; 2]>,
+    settle: f64,
+    event_limit: u64,
+    jam: bool,
+) -> PyResult<BlockRun> {
+    let block = self::block(&block)?;
+    let level = Shaking::new(time.as_slice()?, horizontal.as_slice()?, slice(&vertical)?).map_err(wrong)?;
+    let shaking = CrossShaking {
+        level: &level,
+        cross: cross.as_slice()?,
+    };
+    let [mass, left, right] = across;
+    let across = Across {
+        mass,
+        gap: [left, right],
+        start: [0.0; 2],
+    };
+    across.check(&block, &shaking).map_err(wrong)?;
+    let options = Options {
+        settle,
+        event_limit,
+        jam,
+    };
+    let walk = |options: Options, wanted: Wanted<'_>| {
+        plane::simulate(&block, &across, &shaking, start, options, wanted)
+    };
     let run = walked(py, time.len()?, &output_times, options, walk)?;
     BlockRun::of(py, run, true)
 }

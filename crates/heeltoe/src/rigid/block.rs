@@ -38,6 +38,15 @@ impl Affine {
         })
     }
 
+    /// So many times this.
+    pub fn times(&self, factor: f64) -> Self {
+        Affine {
+            constant: factor * self.constant,
+            horizontal: factor * self.horizontal,
+            vertical: factor * self.vertical,
+        }
+    }
+
     /// Value under the ground acceleration (`horizontal`, `vertical`).
     #[inline]
     pub fn at(&self, ground: [f64; 2]) -> f64 {
@@ -107,6 +116,8 @@ numbers! {
         coupling_horizontal_rotation,
         /// Coupling of the motion across the crack with the rotation.
         coupling_vertical_rotation,
+        /// Part of the velocities of the corners that an impact takes beyond its law, where both corners touch.
+        rocking_loss,
     }
 }
 
@@ -157,6 +168,7 @@ pub struct Block {
     /// Slope of what the gaps count from, over the slip.
     slope: f64,
     pub(super) restitution: f64,
+    pub(super) rocking_loss: f64,
     /// A force of the size of the loads: ties are told from rounding relative to it.
     pub(super) force_scale: f64,
 }
@@ -208,6 +220,7 @@ impl Block {
             lean: [0.0; 2],
             slope: 0.0,
             restitution: p.restitution,
+            rocking_loss: p.rocking_loss,
             force_scale: p.static_horizontal.abs() + p.static_vertical.abs() + p.static_moment.abs() / width,
         }
     }
@@ -268,6 +281,18 @@ impl Block {
             constant: self.cohesion,
             lean: self.lean,
         }
+    }
+
+    /// Whether friction changes the whole normal force of a block that slides.
+    pub(super) fn couples(&self) -> bool {
+        self.coupling[0] != 0.0
+    }
+
+    /// Inertia of a slip on both corners in the directions of slip, heel gap and toe gap: `M_w (1, 0, 0)`, where nothing
+    /// couples the motion along the crack with that across it.
+    pub(super) fn masses_of_slip(&self) -> Vector {
+        let turning = (self.mass_horizontal * self.height - self.coupling[1]) * self.inverse_width;
+        [self.mass_horizontal, turning, -turning]
     }
 
     /// Mass that moves vertically (concrete alone).

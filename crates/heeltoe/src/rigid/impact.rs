@@ -6,6 +6,8 @@
 //!
 //! Newton's restitution with friction can create energy. Where it would, the restitution of this impact is lowered
 //! to the largest that does not; with none at all energy cannot grow, since then `p . w2 <= 0`.
+//!
+//! A block that rocks over may lose more than that, by a measured part of the velocities of its corners.
 
 use super::block::{Block, Vector, HEEL, SLIP, TOE};
 
@@ -229,12 +231,35 @@ pub(super) fn impact(block: &Block, before: &Vector, touching: [bool; 2], settle
         }
         Some(best)
     })?;
-    Some(Impact {
+    let blow = Impact {
         velocity,
         impulse,
         energy_lost: -energy_gain(before, &velocity, &impulse).0,
         energy_limited: limited,
+    };
+    Some(if touching == [true, true] {
+        dampened(block, blow)
+    } else {
+        blow
     })
+}
+
+/// A block that rocks from corner to corner with the loss that was measured beyond the law: the velocities of both
+/// corners are less by it. Where friction would make energy of that, the law stays.
+fn dampened(block: &Block, blow: Impact) -> Impact {
+    let mut velocity = blow.velocity;
+    for gap in [HEEL, TOE] {
+        velocity[gap] *= 1.0 - block.rocking_loss;
+    }
+    let lost = block.kinetic_energy(&blow.velocity) - block.kinetic_energy(&velocity);
+    if block.rocking_loss == 0.0 || lost < 0.0 {
+        return blow;
+    }
+    Impact {
+        velocity,
+        energy_lost: blow.energy_lost + lost,
+        ..blow
+    }
 }
 
 /// Work of the impulses, `p . (w1 + w2) / 2`, and the rounding to be expected in it. The difference of the two kinetic

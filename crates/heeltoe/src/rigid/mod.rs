@@ -5,7 +5,7 @@
 //!
 //! `w'' = b + A (T, N_h, N_t)`.
 //!
-//! [`stack`] has two such blocks, one on the other.
+//! [`stack`] has two such blocks, one on the other; [`plane`] a block that slides across the valley, too.
 
 mod block;
 mod choice;
@@ -17,6 +17,7 @@ mod impact;
 mod ledger;
 pub mod many;
 mod mode;
+pub mod plane;
 mod reaction;
 mod result;
 mod shaking;
@@ -28,6 +29,6 @@ pub use block::{Block, BlockNumbers, Vector};
 pub use crest::Crest;
 pub use ledger::Ledger;
 pub use mode::{Corner, Mode, Slip};
-pub use result::{Event, EventKind, Moment, Outcome, Roughness, Run, Summary, Wear};
+pub use result::{Crossing, Event, EventKind, Moment, Outcome, Roughness, Run, Summary, Wear};
 pub use shaking::Shaking;
 pub use walk::{Options, Wanted};

@@ -22,6 +22,8 @@ named! {
         Cycling = "cycling",
         /// The block lies on its side.
         Overturned = "overturned",
+        /// A corner lifts while the ground shakes across the valley, which nothing here follows.
+        LiftsAcross = "lifts across",
     }
 }
 
@@ -46,6 +48,8 @@ named! {
         Jams = "jams",
         /// The block slides over a peak of a rough crack, or passes a valley or a peak in the air.
         AsperityPassed = "asperity passed",
+        /// The block comes to rest against a neighbour, across the valley.
+        SideStrikes = "side strikes",
         /// None of these, but the mode is another.
         ModeChanges = "mode changes",
     }
@@ -139,7 +143,41 @@ pub struct Run {
     pub worn: Option<Wear>,
     /// What the asperities have been through, where the crack is rough.
     pub rough: Option<Roughness>,
+    /// What the block has done across the valley, where the ground shakes that way.
+    pub crossing: Option<Crossing>,
 }
+
+/// What a block has done across the valley; positive to the left bank.
+#[derive(Clone, Debug, Default)]
+pub struct Crossing {
+    /// At the moments asked for: place (m), velocity (m/s), friction (N/m).
+    pub kept: Vec<[f64; 3]>,
+    /// Place at the end (m).
+    pub position: f64,
+    /// Velocity at the end (m/s).
+    pub velocity: f64,
+    /// Least and largest place (m).
+    pub range: [f64; 2],
+    /// Length of the path of the slip, along and across together (m).
+    pub path: f64,
+    /// What the neighbours have taken (N s/m).
+    pub side_impulse: f64,
+    /// How long one of them held the block (s).
+    pub time_at_side: f64,
+    /// How often it came to one.
+    pub side_strikes: u64,
+}
+
+columns!(Crossing, c => {
+    "slip": c.position,
+    "slip_velocity": c.velocity,
+    "slip_min": c.range[0],
+    "slip_max": c.range[1],
+    "path": c.path,
+    "side_impulse": c.side_impulse,
+    "time_at_side": c.time_at_side,
+    "side_strikes": c.side_strikes as f64,
+});
 
 /// What the asperities of a rough crack have been through.
 #[derive(Clone, Debug)]

@@ -127,6 +127,7 @@ impl<'a> Walk<'a> {
             anchors,
             worn: None,
             rough: None,
+            crossing: None,
         }
     }
 
@@ -153,6 +154,13 @@ impl<'a> Walk<'a> {
 
     pub(super) fn keep(&mut self, moment: Moment) {
         self.moments.push(moment);
+    }
+
+    /// Tell of an event, where they are wanted.
+    pub(super) fn tell(&mut self, event: Event) {
+        if self.wanted.events {
+            self.events.push(event);
+        }
     }
 
     /// Whether somebody has stopped the run.
@@ -259,19 +267,17 @@ pub(super) trait Carried<'a, const N: usize> {
             walk.summary.events += u64::from(N > 1 || cause.is_none());
             let kind = struck.unwrap_or_else(|| describe(before, after, own));
             walk.summary.slip_stops += u64::from(kind == EventKind::SlipStops);
-            if walk.wanted.events {
-                walk.events.push(Event {
-                    time: walk.summary.end_time,
-                    kind,
-                    before,
-                    after,
-                    position: walk.summary.position,
-                    velocity: walk.summary.velocity,
-                    approach: approach[crack],
-                    impulse: blow.as_ref().map_or([0.0; 3], |blow| blow.impulse[crack]),
-                    energy_lost: blow.as_ref().map_or(0.0, |blow| blow.energy_lost[crack]),
-                });
-            }
+            walk.tell(Event {
+                time: walk.summary.end_time,
+                kind,
+                before,
+                after,
+                position: walk.summary.position,
+                velocity: walk.summary.velocity,
+                approach: approach[crack],
+                impulse: blow.as_ref().map_or([0.0; 3], |blow| blow.impulse[crack]),
+                energy_lost: blow.as_ref().map_or(0.0, |blow| blow.energy_lost[crack]),
+            });
         }
         true
     }

@@ -7,6 +7,7 @@ mod flexible;
 mod flight;
 mod friction_laws;
 mod numbers;
+mod plane;
 mod rigid;
 mod rocking;
 mod stack;

@@ -13,5 +13,5 @@ mod keep;
 mod pass;
 mod walk;
 
-pub(super) use walk::go_on;
 pub use walk::simulate;
+pub(super) use walk::{go_on, simulate_with_path};

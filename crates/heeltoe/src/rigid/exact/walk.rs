@@ -10,6 +10,7 @@ use super::super::reaction::{Felt, Reactions};
 use super::super::result::{Outcome, Run, Wear};
 use super::super::shaking::{Piece, Shaking};
 use super::super::walk::{Ended, Exactly, Options, Single, Walk, Wanted};
+use crate::friction::Worn;
 
 /// A block that is carried exactly; its state is in the summary.
 pub(super) struct Exact<'a> {
@@ -34,6 +35,34 @@ pub fn simulate(
     options: Options,
     wanted: Wanted,
 ) -> Run {
+    walk(block, shaking, start, options, wanted, None)
+}
+
+/// The same with the length of the path of its slip kept.
+pub(in super::super) fn simulate_with_path(
+    block: &Block,
+    shaking: &Shaking,
+    start: Option<[Vector; 2]>,
+    options: Options,
+    wanted: Wanted,
+) -> Run {
+    let wear = Wear {
+        kept: Vec::new(),
+        end: Worn::FRESH,
+        error: 0.0,
+        integrated: 0.0,
+    };
+    walk(block, shaking, start, options, wanted, Some(wear))
+}
+
+fn walk(
+    block: &Block,
+    shaking: &Shaking,
+    start: Option<[Vector; 2]>,
+    options: Options,
+    wanted: Wanted,
+    wear: Option<Wear>,
+) -> Run {
     let block = &block.under(block.inertia_force(shaking.peaks()));
     let reactions = Reactions::new(block);
     let from = start.unwrap_or([[0.0; 3]; 2]);
@@ -42,7 +71,7 @@ pub fn simulate(
         reactions: &reactions,
         felt: Felt::default(),
         touching: [false; 2],
-        wear: None,
+        wear,
     };
     if start.is_none() && !exact.rests(&Piece::still(1.0)) {
         exact.walk.summary.outcome = Outcome::Unstable;
