@@ -5,6 +5,7 @@
 #![deny(missing_docs)]
 
 pub mod asperity;
+mod defaults;
 pub mod flexible;
 pub mod friction;
 pub mod inside;
