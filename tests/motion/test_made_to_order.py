@@ -188,9 +188,9 @@ def test_names():
         ("synthetic:M6.5,20km,seed=1,seed=2", "seed is there twice"),
         ("synthetic:M6.5,20km,seed=1.5", "seed is no number"),
         ("synthetic:M6.5,20km,seed=1,fault=normal", "fault is strike-slip or reverse"),
-        ("synthetic:M6.5,20km,seed=1,corner=3", "motion.file: 3 Hz is out of range; give 0.01 to 2 Hz"),
-        ("synthetic:M9.5,20km,seed=1", "motion.file: 9.5 is out of range; give 5 to 8.5"),
-        ("synthetic:M6.5,2km,seed=1", "motion.file: 2 km is out of range; give 5 to 200 km"),
+        ("synthetic:M6.5,20km,seed=1,corner=3", "motion.file: 3 Hz is out of range; give a value from 0.01 to 2 Hz"),
+        ("synthetic:M9.5,20km,seed=1", "motion.file: 9.5 is out of range; give a value from 5 to 8.5"),
+        ("synthetic:M6.5,2km,seed=1", "motion.file: 2 km is out of range; give a value from 5 to 200 km"),
     ],
 )
 def test_names_that_order_nothing(name, said):
@@ -200,7 +200,7 @@ def test_names_that_order_nothing(name, said):
 
 
 def test_parameters_out_of_range():
-    with pytest.raises(InputError, match=r"bandwidth: 1 is out of range; give 0\.01 to 0\.99"):
+    with pytest.raises(InputError, match=r"bandwidth: 1 is out of range; give a value from 0\.01 to 0\.99"):
         Parameters(1.0, 10.0, 5.0, 5.0, bandwidth=1.0)
     with pytest.raises(InputError) as caught:
         modulation(Parameters(1.0, 30.0, 5.0, 5.0))

@@ -63,7 +63,7 @@ def test_its_own_spectrum_leaves_a_motion_alone():
         ({"shortest": 0.01}, "match-band"),
         ({"shortest": 3.0}, "match-band"),
         ({"longest": 20.0}, "match-band"),
-        ({"count": 2}, "match-count"),
+        ({"count": 2}, "out-of-range"),
     ],
 )
 def test_refused(change, code):

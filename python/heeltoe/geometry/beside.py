@@ -1,4 +1,4 @@
-"""What stands beside a section up to a level: water, silt."""
+"""Bodies beside a section up to a level: water, silt."""
 
 from __future__ import annotations
 

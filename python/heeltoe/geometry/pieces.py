@@ -26,8 +26,8 @@ class Piece(Block):
     width_m: Annotated[float, Number("Horizontal side.", "m")]
     height_m: Annotated[float, Number("Upright side; of a quadrilateral its mean height.", "m")]
     area_m2: Annotated[float, Number("Its area.", "m²")]
-    x_m: Annotated[float, Number("Of its centroid, downstream.", "m")]
-    z_m: Annotated[float, Number("Of its centroid, up.", "m")]
+    x_m: Annotated[float, Number("x of its centroid, downstream.", "m")]
+    z_m: Annotated[float, Number("z of its centroid, upwards.", "m")]
 
 
 def pieces(polygon: Floats) -> tuple[Piece, ...]:
@@ -40,7 +40,7 @@ def pieces(polygon: Floats) -> tuple[Piece, ...]:
 
 def _strips(polygon: Floats, little: float) -> Iterator[tuple[_Corner, _Corner, _Corner, _Corner]]:
     """Cut a polygon upright at each corner; return the lower left, lower right, upper right and upper left corners of
-    what is between."""
+    each piece."""
     places = np.sort(polygon[:, 0])
     places = places[np.concatenate([[True], np.diff(places) > little])]
     sides = [(a, b) if a[0] < b[0] else (b, a) for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True)]

@@ -225,7 +225,7 @@ def _cut_inclined(whole: shapely.Polygon, level: float, inclination: float, slac
 
 
 def _cut_level(whole: shapely.Polygon, level: float, slack: float, elevation: float) -> Floats:
-    """Return the corners of what is above a level crack, from the heel round; `elevation` is what the case says."""
+    """Return the corners of the part above a level crack, from the heel round; `elevation` is that of the case."""
     left, base, right, crest = whole.bounds
     size = max(right - left, crest - base)
     whole = _snapped(whole, level, slack)

@@ -134,46 +134,50 @@ def _reach(motion: GroundMotion, width: int) -> float:
     return float(size[place]) / largest if largest else 1.0 if size[place] == 0.0 else np.inf
 
 
-def check_moved(motion: GroundMotion, gravity: float, field: str) -> None:
+def check_moved(motion: GroundMotion, gravity: float, field: str, block: str = "motion") -> None:
     """Refuse a record, as it was processed and before it is scaled, that is uncorrected, has gravity in it, or goes
     where no ground goes.
 
     Raises
     ------
     InputError
-        With the value and its limit; a motion drawn by points may go anywhere.
+        With the value, its limit, and the processing in `block` that helps; a motion drawn by points may go anywhere.
     """
+    helps = f"{block}.processing"
     for notice in motion.warnings:
         if notice.code == UNCORRECTED:
-            raise InputError(UNCORRECTED, field, name=motion.name, why=dict(notice.quantities)["why"])
+            raise InputError(
+                UNCORRECTED, field, name=motion.name, why=dict(notice.quantities)["why"], processing_field=helps
+            )
     level, _ = level_of(motion)
     if _has_gravity(level, gravity):
-        raise InputError("motion-gravity", field, f"{level / gravity:.3g} g", name=motion.name)
+        raise InputError("motion-gravity", field, f"{level / gravity:.3g} g", name=motion.name, processing_field=helps)
     if motion.format != "points" and (motion.pgv > _FASTEST or motion.pgd > _FARTHEST):
         quantities = {
             "displacement": f"{motion.pgd:.3g} m",
             "limit": f"{_FASTEST:g} m/s",
             "farthest": f"{_FARTHEST:g} m",
+            "processing_field": helps,
         }
         raise InputError("motion-fast", field, f"{motion.pgv:.3g} m/s", name=motion.name, **quantities)
 
 
-def check_pair(horizontal: GroundMotion, vertical: GroundMotion) -> tuple[Notice, ...]:
+def check_pair(horizontal: GroundMotion, vertical: GroundMotion, field: str | None = None) -> tuple[Notice, ...]:
     """Return a warning where the files of two components are of different earthquakes or stations, or where they do not
-    tell and the lengths or steps differ."""
+    tell and the lengths or steps differ. `field` is that of the second, where it is not the vertical one."""
     if not {horizontal.format, vertical.format}.isdisjoint({"points", "synthetic"}):
         return ()
     texts = {name: (getattr(horizontal, name), getattr(vertical, name)) for name in ("date", "event", "station")}
     years = [_YEAR.findall(f"{motion.date} {motion.event}") for motion in (horizontal, vertical)]
     if all(years) and set(years[0]).isdisjoint(years[1]):
         one, other = (f"{motion.event} {motion.date}".strip() for motion in (horizontal, vertical))
-        return (Notice("components-differ", horizontal=one, vertical=other),)
+        return (Notice("components-differ", horizontal=one, vertical=other, field=field),)
     compared = 0
     for one, other in texts.values():
         # Formats differ in their words.
         if one and other and horizontal.format == vertical.format:
             if _bare(one) != _bare(other):
-                return (Notice("components-differ", horizontal=one, vertical=other),)
+                return (Notice("components-differ", horizontal=one, vertical=other, field=field),)
             compared += 1
     if compared or all(years) or _alike(horizontal, vertical):
         return ()
@@ -184,6 +188,7 @@ def check_pair(horizontal: GroundMotion, vertical: GroundMotion) -> tuple[Notice
             missing=", ".join(missing),
             lengths_s=(horizontal.duration, vertical.duration),
             steps_s=(horizontal.dt, vertical.dt),
+            field=field,
         ),
     )
 

@@ -29,6 +29,8 @@ class Earthquake:
         About the middle of the crack, counter-clockwise [rad/s2]; None where there is none. Only blocks feel one.
     silence
         How long the run goes on after that, the ground standing still [s].
+    cross
+        Across the valley, to the left bank [m/s2]; None where there is none. Only blocks feel one.
     drainage
         What the slip of a run has left of the drains of an elastic dam, see :class:`heeltoe.kernel.shaking.Shaking`.
     """
@@ -39,6 +41,7 @@ class Earthquake:
     rotation: GroundMotion | None = None
     silence: float = 0.0
     drainage: tuple[tuple[float, float, float], ...] = ()
+    cross: GroundMotion | None = None
 
     @property
     def run_end(self) -> float:
@@ -50,7 +53,8 @@ class Earthquake:
         return self if seconds == self.silence else replace(self, silence=seconds)
 
     def reversed(self) -> Earthquake:
-        """Return the same with the other sign of its horizontal motion, and of its rotation."""
+        """Return the same with the other sign of its horizontal motion, and of its rotation; that of the motion across
+        the valley mirrors the motion that way and changes nothing else."""
         rotation = None if self.rotation is None else self.rotation.reversed()
         return replace(self, motion=self.motion.reversed(), rotation=rotation)
 
@@ -58,15 +62,15 @@ class Earthquake:
         """Return the same, weaker or stronger in all its directions."""
         if factor == 1.0:
             return self
-        vertical, rotation = (
-            None if motion is None else motion.scaled(factor) for motion in (self.vertical, self.rotation)
+        vertical, rotation, cross = (
+            None if motion is None else motion.scaled(factor) for motion in (self.vertical, self.rotation, self.cross)
         )
-        return replace(self, motion=self.motion.scaled(factor), vertical=vertical, rotation=rotation)
+        return replace(self, motion=self.motion.scaled(factor), vertical=vertical, rotation=rotation, cross=cross)
 
     @cached_property
     def shaking(self) -> Shaking:
         """The same on common moments, from zero to the end of the run, as the kernels take it."""
-        components = [motion for motion in (self.vertical, self.rotation) if motion is not None]
+        components = [motion for motion in (self.vertical, self.rotation, self.cross) if motion is not None]
         if not components and self.motion.duration == self.end:
             time, horizontal, others = self.motion.time, self.motion.acceleration, []
         else:
@@ -76,8 +80,10 @@ class Earthquake:
             before = replace(self, silence=0.0).shaking
             time, (horizontal, *others) = _and_silence(time, [horizontal, *others], self.run_end)
         up = None if self.vertical is None else others.pop(0)
+        turning = None if self.rotation is None else others.pop(0)
+        cross = None if self.cross is None else others.pop(0)
         begins = tuple(part.begins for part in self.motion.parts[1:] if part.begins < self.end)
-        return Shaking(time, horizontal, up, others[0] if others else None, begins, self.drainage, before)
+        return Shaking(time, horizontal, up, turning, cross, begins=begins, drainage=self.drainage, before=before)
 
 
 def _and_silence(time: Floats, series: list[Floats], end: float) -> tuple[Floats, list[Floats]]:

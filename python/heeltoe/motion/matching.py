@@ -117,7 +117,7 @@ def match(
     if not 0.02 <= shortest < longest <= motion.duration:
         raise InputError("match-band", "shortest", f"{shortest:g} s to {longest:g} s")
     if not 5 <= count <= 200:
-        raise InputError("match-count", "count", count)
+        raise InputError("out-of-range", "count", count, bound="from 5 to 200")
     if motion.pga == 0.0:
         raise InputError("order-zero", "", motion.name)
     judged = np.geomspace(shortest, longest, 2 * count - 1)

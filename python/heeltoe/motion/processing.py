@@ -78,7 +78,7 @@ def baseline(motion: GroundMotion, order: int = 2, *, displacement: bool = False
         Hold the end displacement to zero too; `order` is at least 2 then.
     """
     if order < 1 + displacement or order > 10:
-        raise InputError("order-baseline", "order", order, least=1 + displacement)
+        raise InputError("out-of-range", "order", order, bound=f"from {1 + displacement} to 10")
     share = motion.time / motion.duration
     # Legendre polynomials as accelerations: they span the same space as powers and do not become alike.
     powers = [np.polynomial.Legendre.basis(k)(2.0 * share - 1.0) for k in range(order)]
@@ -158,7 +158,7 @@ def band_pass(
     if low is not None and high is not None and low >= high:
         raise InputError("order-corners", "low", f"{low:g} Hz", high=f"{high:g} Hz")
     if not 1 <= order <= 10:
-        raise InputError("order-filter", "order", order)
+        raise InputError("out-of-range", "order", order, bound="from 1 to 10")
     corners = [corner for corner in (low, high) if corner is not None]
     zeros = math.ceil(1.5 * order / corners[0] / motion.dt)
     if zeros > _MOST_ZEROS:
@@ -214,7 +214,7 @@ def _at_rest(motion: GroundMotion) -> tuple[Floats, str]:
 def taper(motion: GroundMotion, share: float = 0.05, ends: Ends = "both") -> GroundMotion:
     """Fade the motion in and out with half a cosine (Tukey) over `share` of its duration at each end asked for."""
     if not 0.0 < share <= 0.5:
-        raise InputError("order-share", "share", f"{share:g}", bounds="above 0 and up to 0.5")
+        raise InputError("out-of-range", "share", f"{share:g}", bound="above 0 and up to 0.5")
     place = motion.time / motion.duration
     weight = np.ones_like(place)
     if ends in ("both", "start"):
@@ -270,7 +270,7 @@ def cut_to_window(motion: GroundMotion, start: float = 0.0, end: float | None = 
 def scale_to_arias(motion: GroundMotion, intensity: float, gravity: float = STANDARD_GRAVITY) -> GroundMotion:
     """Scale to an Arias intensity [m/s]."""
     if not intensity > 0.0:
-        raise InputError("order-target", "intensity", f"{intensity:g} m/s")
+        raise InputError("out-of-range", "intensity", f"{intensity:g} m/s", bound="above 0")
     if motion.pga == 0.0:
         raise InputError("order-zero", "", motion.name)
     factor = float(np.sqrt(intensity / arias_intensity(motion, gravity)))
@@ -280,7 +280,7 @@ def scale_to_arias(motion: GroundMotion, intensity: float, gravity: float = STAN
 def scale_to_spectrum(motion: GroundMotion, period: float, acceleration: float, damping: float = 0.05) -> GroundMotion:
     """Scale to a spectral pseudo-acceleration [m/s2] at one period [s] and damping ratio."""
     if not acceleration > 0.0:
-        raise InputError("order-target", "acceleration", f"{acceleration:g} m/s2")
+        raise InputError("out-of-range", "acceleration", f"{acceleration:g} m/s2", bound="above 0")
     if motion.pga == 0.0:
         raise InputError("order-zero", "", motion.name)
     factor = acceleration / float(response_spectrum(motion, [period], damping).pseudo_acceleration[0])
@@ -291,7 +291,7 @@ def scale_to_spectrum(motion: GroundMotion, period: float, acceleration: float, 
 def scale_time(motion: GroundMotion, factor: float, *, allow: bool = False) -> GroundMotion:
     """Stretch time by `factor`, which divides all frequencies by it; refused unless `allow` says it is meant."""
     if not 0.01 <= factor <= 100.0:
-        raise InputError("order-time-factor", "factor", f"{factor:g}")
+        raise InputError("out-of-range", "factor", f"{factor:g}", bound="from 0.01 to 100")
     if not allow:
         raise InputError("order-time", "allow", f"{factor:g}")
     step = f"time stretched by {factor:.6g}: all its frequencies are divided by that"

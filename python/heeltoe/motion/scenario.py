@@ -130,7 +130,7 @@ def scenario_parameters(
         ("vs30", vs30, 300.0, 2500.0, " m/s"),
     ):
         if not low <= value <= high:
-            raise InputError("synthetic-range", name, f"{value:g}{unit}", bounds=f"{low:g} to {high:g}{unit}")
+            raise InputError("out-of-range", name, f"{value:g}{unit}", bound=f"from {low:g} to {high:g}{unit}")
     scores = normal_scores(magnitude, distance, vs30, reverse)
     source = source_of(magnitude)
     if seed is None:

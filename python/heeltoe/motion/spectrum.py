@@ -75,7 +75,7 @@ def response_spectrum(motion: GroundMotion, periods: ArrayLike | None = None, da
     """
     period = np.ascontiguousarray(PERIODS if periods is None else periods, dtype=np.float64)
     if not 0.0 <= damping < 1.0:
-        raise InputError("spectrum-damping", "damping", f"{damping:g}")
+        raise InputError("out-of-range", "damping", f"{damping:g}", bound="from 0 to below 1")
     if period.ndim != 1 or not np.isfinite(period).all() or ((period < _SHORTEST) & (period != 0.0)).any():
         raise InputError("spectrum-period", "periods", least=f"{_SHORTEST:g} s")
     displacement, total = peak_responses(motion.time, motion.acceleration, period, damping)

@@ -87,8 +87,8 @@ class Parameters:
         ):
             value = getattr(self, name)
             if not low <= value <= high:
-                bounds = f"{low:g} to {high:g} {unit}".strip()
-                raise InputError("synthetic-range", name, f"{value:g} {unit}".strip(), bounds=bounds)
+                bound = f"from {low:g} to {high:g} {unit}".strip()
+                raise InputError("out-of-range", name, f"{value:g} {unit}".strip(), bound=bound)
 
 
 def modulation(parameters: Parameters) -> tuple[float, float]:

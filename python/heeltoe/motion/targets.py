@@ -3,6 +3,7 @@ names them ``en1998:0.3 g,B``, ``asce7:0.9 g,0.4 g,8 s``, or by the file of a ta
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from heeltoe.base.arrays import Floats
 from heeltoe.errors.error import InputError, shown
+from heeltoe.motion.openquake import is_of_openquake, spectrum_of_openquake
 from heeltoe.motion.records.quantities import units_in
 from heeltoe.motion.records.raw import table as rows_of
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit, parse, parse_acceleration
@@ -22,6 +24,11 @@ from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit, parse, pars
 STANDARDS = ("en1998:", "asce7:")
 # Word and unit in brackets of the first column of a table, and what the units hold.
 _FIRST_COLUMN = re.compile(r"[\s#%*'\"]*([^\W\d_][^,;\t\[(]*)?(?:[\[(]([^\])]*)[\])])?")
+_LOGARITHM = re.compile(r"\b(?:log\s?_?(?:10|e)?|ln)(?:\b|(?=[\s_(\[]|p?sa\b|t\b))")
+_DAMPED = re.compile(r"(\d+(?:\.\d+)?)\s?%\s?(?:of )?(?:critical )?damp|\bdamping\b[^\d%]{0,12}(\d+(?:\.\d+)?)\s?(%?)")
+_DATA = re.compile(r"\s*[-+]?\.?\d")
+# The damping of spectra that do not say theirs.
+_USUAL_DAMPING = 0.05
 _PERIODS = {"": "", "s": "s", "sec": "s", "seconds": "s", "ms": "ms", "msec": "ms", "hz": "hz", "1/s": "hz"}
 # No table of a spectrum comes near.
 _LARGEST_BYTES = 1_000_000
@@ -94,11 +101,11 @@ def en_1998(peak: float, ground: str = "A", type_: int = 1, damping: float = 0.0
     """
     _check_positive("peak", peak, "m/s2")
     if type_ not in _EN_1998:
-        raise InputError("target-type", "type_", type_)
+        raise InputError("not-a-choice", "type_", type_, choices="spectrum type 1 or 2 of EN 1998-1")
     if ground not in _EN_1998[type_]:
-        raise InputError("target-ground", "ground", ground)
+        raise InputError("not-a-choice", "ground", ground, choices="ground type A, B, C, D or E of EN 1998-1")
     if not 0.0 <= damping <= 1.0:
-        raise InputError("target-value", "damping", f"{damping:g}", bounds="a ratio from 0 to 1")
+        raise InputError("out-of-range", "damping", f"{damping:g}", bound="from 0 to 1")
     soil, tb, tc, td = _EN_1998[type_][ground]
     eta = max(0.55, float(np.sqrt(10.0 / (5.0 + 100.0 * damping))))
 
@@ -127,7 +134,7 @@ def asce_7(short: float, one_second: float, transition: float) -> Target:
     corner = one_second / short
     if transition < corner:
         raise InputError(
-            "target-value", "transition", f"{transition:g} s", bounds=f"at least S_D1 / S_DS, {corner:g} s"
+            "out-of-range", "transition", f"{transition:g} s", bound=f"of at least S_D1 / S_DS, {corner:g} s"
         )
     ordinate = partial(_of_asce_7, short, one_second, transition)
     name = f"ASCE 7, S_DS {short:.4g} m/s2, S_D1 {one_second:.4g} m/s2, T_L {transition:g} s"
@@ -185,7 +192,7 @@ def _of_table(periods: Floats, accelerations: Floats, period: Floats) -> Floats:
 
 def _check_positive(name: str, value: float, unit: str) -> None:
     if not (np.isfinite(value) and value > 0.0):
-        raise InputError("target-value", name, f"{value:g} {unit}", bounds="a value above 0")
+        raise InputError("out-of-range", name, f"{value:g} {unit}", bound="above 0")
 
 
 def target_of(text: str, field: str, gravity: float = STANDARD_GRAVITY) -> Target:
@@ -195,7 +202,9 @@ def target_of(text: str, field: str, gravity: float = STANDARD_GRAVITY) -> Targe
     ----------
     text
         ``en1998:PEAK,GROUND`` with ``,2`` behind it for spectra of type 2, ``asce7:S_DS,S_D1,T_L``, or a file with
-        periods [s] and accelerations in two columns, whose header states the unit of these.
+        periods [s] and accelerations in two columns, whose header states the unit of these; or with a uniform hazard,
+        conditional mean or median spectrum of OpenQuake's, ``#`` and the probability of exceedance behind it where it
+        has several.
     field
         Where it stands, for errors.
     gravity
@@ -217,19 +226,35 @@ def target_of(text: str, field: str, gravity: float = STANDARD_GRAVITY) -> Targe
     except InputError as error:
         error.field = field
         raise
-    path = Path(text)
+    file, wanted = file_of_target(text)
+    path = Path(file)
     try:
         if not path.is_file() or path.stat().st_size > _LARGEST_BYTES:
             raise InputError("target-form", field, text)
-        lines = path.read_text("latin-1").replace(",", " ").replace(";", " ").splitlines()
+        content = path.read_text("latin-1")
     except (OSError, ValueError):
         raise InputError("target-form", field, text) from None
-    return _of_file(lines, path.name, gravity)
+    if is_of_openquake(content):
+        spectrum, about = spectrum_of_openquake(content, path.name, wanted)
+        periods, accelerations = np.array(spectrum).reshape(-1, 2).T
+        return table(periods, gravity * accelerations, name=f"{path.stem}, {about}")
+    if wanted:
+        raise InputError("target-form", field, text)
+    return _of_file(content.replace(",", " ").replace(";", " ").splitlines(), path.name, gravity)
+
+
+def file_of_target(text: str, directory: Path | None = None) -> tuple[str, str]:
+    """Return the file that a text names, and behind a `#` which of its spectra, where there is no such file."""
+    whole = (directory or Path()) / os.path.expanduser(text)
+    if "#" not in text or os.path.isfile(whole):
+        return text, ""
+    file, _, wanted = text.rpartition("#")
+    return file, wanted
 
 
 def _of_file(lines: list[str], name: str, gravity: float) -> Target:
-    header = [line for line in lines if line.strip() and not line.lstrip()[:1].isdigit()]
-    data = [line for line in lines if line.lstrip()[:1].isdigit()]
+    header = [line for line in lines if line.strip() and not _DATA.match(line)]
+    data = [line for line in lines if _DATA.match(line)]
     units = {unit for line in header for unit in units_in(line)}
     if len(units) != 1:
         raise InputError("target-unit", name)
@@ -243,12 +268,25 @@ def _of_file(lines: list[str], name: str, gravity: float) -> Target:
         periods, accelerations = 1.0 / periods[::-1], accelerations[::-1]
     elif unit == "ms":
         periods = 1e-3 * periods
-    return table(periods, accelerations * acceleration_unit(units.pop(), name).si(gravity), name=Path(name).stem)
+    accelerations = accelerations * acceleration_unit(units.pop(), name).si(gravity)
+    return table(periods, accelerations, _damping_of(header), Path(name).stem)
+
+
+def _damping_of(header: list[str]) -> float:
+    """Return the damping ratio that a header states; that of most spectra where it states none."""
+    stated = next((match for line in header if (match := _DAMPED.search(line.lower()))), None)
+    if stated is None:
+        return _USUAL_DAMPING
+    if stated[1]:
+        return float(stated[1]) / 100.0
+    return float(stated[2]) / 100.0 if stated[3] or float(stated[2]) >= 1.0 else float(stated[2])
 
 
 def _unit_of_periods(heading: str, name: str) -> str:
     """Return what the first of two columns holds, by its heading: periods in ``"s"`` or ``"ms"``, frequencies in
     ``"hz"``; seconds where it does not say."""
+    if _LOGARITHM.search(heading.lower()):
+        raise InputError("heading-logarithm", name, shown(heading.strip()))
     first = _FIRST_COLUMN.match(heading.lower())
     word, unit = (part.strip() if part else "" for part in first.groups()) if first else ("", "")
     frequency = re.match(r"freq|f\b|hz", word) is not None

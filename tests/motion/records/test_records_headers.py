@@ -10,12 +10,12 @@ import pytest
 
 from heeltoe import InputError, read_case, read_record
 from heeltoe.case.shaking import resolve
-from heeltoe.motion.records import read_text_channels
+from heeltoe.motion.records import read_text, read_text_channels
 from heeltoe.motion.records.quantities import names_of, table_in, unit_of
 from heeltoe.motion.records.stated import number, read_stated
 from heeltoe.motion.records.to_motion import Options
 from shared.dams import PLAIN as DAM
-from shared.record_samples import G, channels, read
+from shared.record_samples import GAL, G, channels, read
 
 WAVE = np.round(1.7 * np.hanning(240) * np.sin(0.31 * np.arange(240)), 5)
 
@@ -61,7 +61,7 @@ def test_values_run_along_rows_where_count_and_step_say_so_and_else_only_on_requ
     assert motion.acceleration == pytest.approx(0.3048 * WAVE, rel=1e-4, abs=1e-9)
     assert motion.dt == 0.01
     for stated in ("Tstep = 0.01", "NPT = 240", "NPT = 239, Tstep = 0.01"):
-        with pytest.raises(InputError, match=r'has 8 columns of numbers.*motion.layout = "rows"'):
+        with pytest.raises(InputError, match=r'has 8 columns of numbers.*say in motion.layout "rows"'):
             read(f"{head}{stated}\n{along(8)}")
     asked = read(f"{head}{along(8)}", layout="rows", time_step=0.01)
     assert asked.acceleration.tolist() == motion.acceleration.tolist()
@@ -309,7 +309,7 @@ def test_two_units_are_neither_guessed_nor_outvoted(header):
 
 @pytest.mark.parametrize(
     ("peak", "units"),
-    [(0.3, ["g", "m/s^2"]), (3.4, ["m/s^2"]), (19.4, ["m/s^2", "cm/s^2"]), (340.0, ["cm/s^2", "mm/s^2"])],
+    [(0.3, ["g", "m/s^2"]), (3.4, ["m/s^2", "%g"]), (19.4, ["m/s^2", "cm/s^2", "%g"]), (340.0, ["cm/s^2", "mm/s^2"])],
 )
 def test_a_hint_names_each_unit_in_which_a_peak_is_that_of_an_earthquake(peak, units):
     """From 0.005 g to 3 g: 0.3 is 0.3 g or 0.03 g, and no hint is ten times off without its alternative."""
@@ -439,3 +439,36 @@ def test_a_workbook_is_refused_in_one_clear_sentence(tmp_path):
     for name in ("a.xlsx", "a.ods", "a.xls"):
         with pytest.raises(InputError, match=r"is a workbook of a spreadsheet program.*save the sheet.*as CSV"):
             read_record(tmp_path / name)
+
+
+@pytest.mark.parametrize(
+    ("head", "width"),
+    [
+        ("160", 1),
+        ("160 0.01", 1),
+        ("A title\n160, 0.01", 8),
+        ("160\n0.01", 1),
+        ("160\n0.01", 5),
+        ("A title\n160 .01", 4),
+    ],
+)
+def test_a_count_in_front_of_the_values_is_none_of_them(head, width):
+    """As programs for building structures write them; a count of 160 would be a peak of 160 cm/s2 at the start."""
+    rows = "\n".join(" ".join(f"{v:.6f}" for v in GAL[k : k + width]) for k in range(0, GAL.size, width))
+    options = Options(unit="gal", time_step=0.01)
+    motion = read_text(f"{head}\n{rows}\n".encode(), "a.txt", options=options)
+    assert motion.acceleration == pytest.approx(0.01 * GAL, abs=1e-7)
+    assert motion.dt == pytest.approx(0.01)
+
+
+def test_a_wrong_count_in_front_of_the_values_is_refused():
+    rows = "\n".join(f"{v:.6f}" for v in GAL)
+    with pytest.raises(InputError, match="states 130 values and has 160"):
+        read_text(f"130\n{rows}\n".encode(), "a.txt", options=Options(unit="gal", time_step=0.01))
+
+
+@pytest.mark.parametrize("name", ["Arias (%)", "Husid", "cumulative energy"])
+def test_what_grows_all_through_is_no_acceleration(name):
+    rows = "\n".join(f"{0.01 * k:g}, {k / 160:.4f}" for k in range(160))
+    with pytest.raises(InputError, match="is a cumulative record"):
+        read_text(f"time (s), {name}\n{rows}\n".encode(), "a.txt", options=Options(unit="g"))

@@ -127,14 +127,14 @@ def test_archives_that_lie_or_never_end(monkeypatch):
     bomb = zipped({"a.txt": b"0\n" * 1_000_000})
     assert len(bomb) < 10_000
     monkeypatch.setattr(archive, "LARGEST_BYTES", 1_000_000)
-    assert refused(bomb).code == "record-large"
-    assert refused(gzip.compress(b"0\n" * 1_000_000), "a.gz").code == "record-large"
+    assert refused(bomb).code == "too-large"
+    assert refused(gzip.compress(b"0\n" * 1_000_000), "a.gz").code == "too-large"
     for many in (zipped, tarred):
         assert "it holds more than 200 files" in str(refused(many({f"{k}.txt": b"" for k in range(300)})))
     lying = bytearray(zipped({"a.txt": b"0 0.1\n" * 400_000}))
     at = lying.index(b"PK\x01\x02") + 24
     lying[at : at + 4] = (100).to_bytes(4, "little")
-    assert refused(bytes(lying)).code in ("record-large", "record-archive")
+    assert refused(bytes(lying)).code in ("too-large", "record-archive")
 
 
 def test_archives_that_cannot_be_read():
@@ -202,13 +202,13 @@ def test_tars_that_lie_lead_elsewhere_or_never_end(monkeypatch, tmp_path):
     bomb = tarred({f"{k}.txt": b"0\n" * 100_000 for k in range(6)})
     for compress in (gzip.compress, bz2.compress):
         assert len(compress(bomb)) < 20_000
-        assert refused(compress(bomb), "a.tar.gz").code == "record-large"
+        assert refused(compress(bomb), "a.tar.gz").code == "too-large"
     # A header says a gigabyte, of which nothing is there; one of holes is all zeros.
     header = bytearray(tarred({"a.asc": b""}, kind=tarfile.GNU_FORMAT)[:512])
     header[124:136] = b"%011o\0" % 2**30
-    assert refused(with_checksum(header) + bytes(1024), "a.tar").code in ("record-archive", "record-large")
+    assert refused(with_checksum(header) + bytes(1024), "a.tar").code in ("record-archive", "too-large")
     header[156:157], header[483:495] = b"S", b"%011o\0" % 2**30
-    assert refused(with_checksum(header) + bytes(1024), "a.tar").code in ("record-archive", "record-large")
+    assert refused(with_checksum(header) + bytes(1024), "a.tar").code in ("record-archive", "too-large")
 
 
 # miniSEED and SAC

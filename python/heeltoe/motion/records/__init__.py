@@ -14,11 +14,12 @@ from pathlib import Path
 from types import ModuleType
 from typing import Literal
 
+from heeltoe.base.input_files import read_bounded
 from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.records import seismology
 from heeltoe.motion.records.archive import LARGEST_BYTES, is_archive, is_workbook, unpacked
-from heeltoe.motion.records.catalog import PREFIX, find
+from heeltoe.motion.records.catalog import PREFIX, find, is_called_record
 from heeltoe.motion.records.channel import choose, numbered
 from heeltoe.motion.records.formats import (
     afad,
@@ -38,11 +39,11 @@ from heeltoe.motion.records.formats import (
     volume1,
 )
 from heeltoe.motion.records.raw import RawRecord
-from heeltoe.motion.records.to_motion import Options, to_motion
+from heeltoe.motion.records.to_motion import HeaderFactor, Options, to_motion
 from heeltoe.motion.scenario import synthetic
 from heeltoe.units.parse import STANDARD_GRAVITY
 
-__all__ = ["READERS", "RawRecord", "read_channels", "read_record", "read_text", "read_text_channels"]
+__all__ = ["READERS", "RawRecord", "is_record", "read_channels", "read_record", "read_text", "read_text_channels"]
 
 #: In the order in which they are asked.
 READERS: tuple[ModuleType, ...] = (
@@ -78,7 +79,8 @@ def read_record(
     field: str = "motion",
     assume: bool = False,
     layout: Literal["rows", "columns"] | None = None,
-    factor: float | None = None,
+    factor: float | HeaderFactor | None = None,
+    several: bool = False,
 ) -> GroundMotion:
     """Read a record as it was downloaded.
 
@@ -104,7 +106,10 @@ def read_record(
     layout
         Whether the values of a plain table run along its rows or down its columns, where its header does not say so.
     factor
-        Factor of the values where the header has one: that one, or 1 where they contain it.
+        Factor of the values where the header has one: that one, or 1 where they contain it; of several files one of the
+        words "multiply", "divide" and "contain".
+    several
+        Whether what is said here is meant for several files: it holds where this one does not state it.
 
     Returns
     -------
@@ -120,7 +125,7 @@ def read_record(
         return synthetic(text, gravity=gravity, field=f"{field}.file")
     place = _place(path, field)
     data, name = _load(place)
-    options = Options(unit, time_step, gravity, field, assume, layout, factor)
+    options = Options(unit, time_step, gravity, field, assume, layout, factor, several)
     return called(_chosen(_records(data, name, options, place), name, channel, options), place, text)
 
 
@@ -133,12 +138,13 @@ def read_channels(
     field: str = "motion",
     assume: bool = True,
     layout: Literal["rows", "columns"] | None = None,
-    factor: float | None = None,
+    factor: float | HeaderFactor | None = None,
+    several: bool = False,
 ) -> list[GroundMotion]:
     """Read all channels of a file, to look at them; see :func:`read_record`. Most files have one."""
     place = _place(path, field)
     data, name = _load(place)
-    options = Options(unit, time_step, gravity, field, assume, layout, factor)
+    options = Options(unit, time_step, gravity, field, assume, layout, factor, several)
     records = _records(data, name, options, place)
     return [to_motion(raw, name, len(records), options) for raw in records]
 
@@ -165,6 +171,31 @@ def read_text_channels(data: bytes, name: str, options: Options = _NO_OPTIONS) -
     return [to_motion(raw, name, len(records), options) for raw in records]
 
 
+# Velocities and displacements by PEER, which need not be opened.
+_NO_ACCELERATIONS = {".vt2", ".dt2"}
+# Of a file, where a format says what it is.
+_OPENING = 30_000
+
+
+def is_record(path: Path) -> bool:
+    """Whether a file in a folder is a record: by its name, or as it opens in the words of a format; networks end the
+    names of their files with dates and channels, too."""
+    if is_called_record(path):
+        return True
+    if not path.is_file() or path.suffix.lower() in _NO_ACCELERATIONS:
+        return False
+    try:
+        data = read_bounded(path, _OPENING)
+    except OSError:
+        return False
+    if is_archive(data):
+        return False
+    if seismology.is_miniseed(data) or seismology.is_sac(data):
+        return True
+    lines = data.decode("latin-1").splitlines() or [""]
+    return b"\x00" not in data and any(reader.matches(lines) for reader in READERS if reader not in (columns, foreign))
+
+
 def _place(path: str | os.PathLike[str], field: str) -> Path:
     """Return where a record is that is given by its path or by its name."""
     return Path(path) if os.path.exists(path) else find(path, Path(), field=f"{field}.file")
@@ -176,12 +207,14 @@ def _load(path: str | os.PathLike[str]) -> tuple[bytes, str]:
         status = path.stat()
         # A device or a pipe may never end.
         if not stat.S_ISREG(status.st_mode):
-            raise InputError("record-unreadable", str(path), reason="it is not a file")
+            raise InputError("source-unreadable", str(path), reason="it is not a file", expected="a record")
         if status.st_size > LARGEST_BYTES:
-            raise InputError("record-large", str(path), f"{status.st_size / 1e6:.0f} MB")
+            raise InputError("too-large", str(path), f"{LARGEST_BYTES // 10**6} MB", expected="a file with one record")
         return path.read_bytes(), path.name
     except (OSError, ValueError) as error:
-        raise InputError("record-unreadable", str(path), reason=getattr(error, "strerror", None) or error) from None
+        raise InputError(
+            "source-unreadable", str(path), reason=getattr(error, "strerror", None) or error, expected="a record"
+        ) from None
 
 
 def _records(data: bytes, name: str, options: Options, place: Path | None = None) -> list[RawRecord]:
@@ -218,10 +251,20 @@ def _read(data: bytes, name: str, stations: list[bytes], options: Options) -> li
     reader = next((reader for reader in READERS if reader.matches(lines)), None)
     if reader is None:
         raise InputError("record-format", name, repr(lines[0][:40]))
-    # Only plain tables leave it open how their values run.
-    layout = {"layout": options.layout} if reader is columns else {}
-    records: list[RawRecord] = reader.read(lines, name, **layout)
+    records = _read_columns(lines, name, options) if reader is columns else reader.read(lines, name)
     return [replace(record, format=reader.FORMAT) for record in records]
+
+
+def _read_columns(lines: list[str], name: str, options: Options) -> list[RawRecord]:
+    """Read a plain table, which alone leaves it open how its values run; the layout of several files is for those."""
+    if options.layout is None or not options.several:
+        return columns.read(lines, name, options.layout, options.field)
+    try:
+        return columns.read(lines, name, None, options.field)
+    except InputError as error:
+        if error.code not in columns.ASKS_FOR_LAYOUT:
+            raise
+        return columns.read(lines, name, options.layout, options.field)
 
 
 def _lines(data: bytes, name: str) -> list[str]:

@@ -127,4 +127,6 @@ def _tar_members(data: bytes) -> _Members:
 
 
 def _too_large(name: str) -> InputError:
-    return InputError("record-large", name, f"more than {LARGEST_BYTES // 10**6} MB when unpacked")
+    return InputError(
+        "too-large", name, f"{LARGEST_BYTES // 10**6} MB when unpacked", expected="a file with one record"
+    )

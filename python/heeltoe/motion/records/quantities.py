@@ -43,7 +43,8 @@ _ONE_G = re.compile(r"1\s*g\s*=[^)\]]*")
 _LENGTH = r"(?:k?m|cm|mm|ft|in)"
 _VELOCITY = re.compile(rf"{VELOCITY}|[\[(:=]\s*{_LENGTH}\s*/\s*s(?:ec|eg|n)?\s*(?:[\])]|$)")
 _DISPLACEMENT = re.compile(rf"{DISPLACEMENT}|[\[(:=]\s*{_LENGTH}\s*(?:[\])]|$)")
-_QUANTITIES = (("velocity", _VELOCITY), ("displacement", _DISPLACEMENT))
+_CUMULATIVE = re.compile(r"\barias|\bhusid|\bcumulati|\bkumulier|\bcumul[eéa]")
+_QUANTITIES = (("velocity", _VELOCITY), ("displacement", _DISPLACEMENT), ("cumulative", _CUMULATIVE))
 _SERIES = re.compile(
     r"\b(velocity|displacement)s?\b\s*(?:$|[\[(:=,;]|time (?:series|history)|series|history|record|data|in\b)"
 )

@@ -140,6 +140,11 @@ def stated(text: str) -> float | None:
     return real(written) if written else None
 
 
+def breaks_off(name: str) -> Notice:
+    """Return the warning of a file that ends too early."""
+    return Notice("record-doubtful", name=name, doubt="breaks off before its end: all behind this channel is missing")
+
+
 def check_series(
     values: Floats, name: str, count: float | None, peak: str = "", share: float = 1e-3
 ) -> tuple[Notice, ...]:

@@ -84,7 +84,7 @@ def read(data: bytes, name: str, stations: list[bytes]) -> list[RawRecord]:
         Where obspy is not installed, the file is damaged, or its counts cannot be turned to accelerations.
     """
     if find_spec("obspy") is None:
-        raise InputError("record-package", name)
+        raise InputError("package-missing", name, "obspy", install="pip install obspy")
     with warnings.catch_warnings(record=True) as doubts:
         warnings.simplefilter("always")
         import obspy

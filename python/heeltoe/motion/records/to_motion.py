@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -38,14 +39,21 @@ _REPEATED = 0.02
 # Peaks in g of strong motion, and the units in which records are written, with what one g is in them.
 _WEAKEST, _STRONGEST = 0.005, 3.0
 _IN_ONE_G = {"g": 1.0, "m/s^2": 9.80665, "cm/s^2": 980.665, "mm/s^2": 9806.65}
+_IN_ONE_G_TOO = {"%g": 100.0}
 # Differences of a stated peak or length beyond its rounding: up to the first it is the same, up to the second the
 # file is said to contradict itself, beyond it is not what was read.
 _SAME, _FAR_PEAK, _FAR_DURATION = 1e-3, 0.05, 0.01
 
 
+#: What to do with the factors in headers of several files: multiply by them, divide by them, or leave values as they
+#: are that contain them.
+HeaderFactor = Literal["multiply", "divide", "contain"]
+
+
 @dataclass(frozen=True)
 class Options:
-    """What the caller says of a record; see :func:`heeltoe.motion.records.read_record`."""
+    """What the caller says of a record; see :func:`heeltoe.motion.records.read_record`. What is meant for `several`
+    files holds for those that do not state it themselves."""
 
     unit: str | None = None
     time_step: float | None = None
@@ -53,7 +61,8 @@ class Options:
     field: str = "motion"
     assume: bool = False
     layout: str | None = None
-    factor: float | None = None
+    factor: float | HeaderFactor | None = None
+    several: bool = False
 
 
 def to_motion(raw: RawRecord, name: str, channels: int, options: Options) -> GroundMotion:
@@ -136,8 +145,14 @@ def _factor(raw: RawRecord, name: str, options: Options) -> tuple[float, tuple[s
     field = f"{options.field}.factor"
     if options.factor is None:
         if raw.factor is not None:
-            raise InputError("record-factor", name, f"{raw.factor:g}", factor_field=field)
+            code = "record-factor-of-several" if options.several else "record-factor"
+            raise InputError(code, name, f"{raw.factor:g}", factor_field=field)
         return 1.0, ()
+    if isinstance(options.factor, str):
+        if raw.factor is None:
+            return 1.0, ()
+        chosen = {"multiply": raw.factor, "divide": 1.0 / raw.factor, "contain": 1.0}[options.factor]
+        return chosen, (f"values times {chosen:g}, by the factor {raw.factor:g} of its header",)
     if raw.factor is None:
         raise InputError("record-factor-none", field, f"{options.factor:g}", name=name)
     # A sensitivity is what to divide by.
@@ -190,6 +205,7 @@ def _unit(raw: RawRecord, name: str, peak: float, options: Options) -> tuple[str
     if (
         options.unit
         and stated
+        and not options.several
         and _si(options.unit, field, options) not in [_si(unit, name, options) for unit in stated]
     ):
         raise InputError("record-unit-conflict", field, options.unit, stated=" and ".join(stated), name=name)
@@ -206,7 +222,7 @@ def _unit(raw: RawRecord, name: str, peak: float, options: Options) -> tuple[str
         )
     possible = (
         stated
-        or [unit for unit, in_one_g in _IN_ONE_G.items() if _WEAKEST <= peak / in_one_g <= _STRONGEST]
+        or [unit for unit, in_one_g in (_IN_ONE_G | _IN_ONE_G_TOO).items() if _WEAKEST <= peak / in_one_g <= _STRONGEST]
         or ["m/s^2", "g", "cm/s^2"]
     )
     guess = "unit = " + " or ".join(f'"{unit}"' for unit in possible)
@@ -238,7 +254,8 @@ def _time(raw: RawRecord, name: str, options: Options) -> tuple[Floats, tuple[st
         raise InputError(
             "record-counts-samples" if raw.counts_samples else "record-step-missing", name, step_field=field
         )
-    if raw.time_step and options.time_step and abs(raw.time_step - options.time_step) > 1e-9 * options.time_step:
+    given = None if options.several else options.time_step
+    if raw.time_step and given and abs(raw.time_step - given) > 1e-9 * given:
         raise InputError("record-step-conflict", field, f"{options.time_step:g} s", stated=raw.time_step)
     if not 1e-6 <= step <= _LONGEST_STEP:
         raise InputError("record-step", name, f"{step:g} s")
@@ -268,8 +285,9 @@ def _moments(time: Floats, stated: float | None, name: str, options: Options) ->
         raise InputError("record-step", name, f"{gap if gap > _LARGEST_GAP else middle:g} s")
     even, done = _evened(time, stated or options.time_step)
     field = f"{options.field}.time_step"
-    if options.time_step and not any(abs(found - options.time_step) <= 0.01 * found for found in (middle, mean)):
-        raise InputError("record-step-conflict", field, f"{options.time_step:g} s", stated=f"{mean:.6g}")
+    given = None if options.several else options.time_step
+    if given and not any(abs(found - given) <= 0.01 * found for found in (middle, mean)):
+        raise InputError("record-step-conflict", field, f"{given:g} s", stated=f"{mean:.6g}")
     if done:
         return even, done
     _check_rows(time, middle, name)

@@ -73,6 +73,10 @@ _THOUSANDS = re.compile(r"\s*[-+]?[1-9]\d{0,2},\d{3}\s*")
 _ABOUT = re.compile(
     r"^(event|earthquake|station|site code|component|date|initial time|processing)\s*[:=]\s*(.+)$", re.IGNORECASE
 )
+# A line that a table may begin with, the next one, and numbers that no count has.
+_COUNT_AND_STEP = re.compile(r"(\d{2,9})(?:[\s,;]+(0?\.\d+))?")
+_STEP = re.compile(r"0?\.0*[1-9]\d*")
+_DECIMALS = re.compile(r"[.,]\d|\d[eEdD]")
 _CALLED = {"earthquake": "event", "site code": "station", "initial time": "date"}
 
 
@@ -91,6 +95,7 @@ def _split(lines: list[str]) -> tuple[list[str], int]:
 
 def matches(lines: list[str]) -> bool:
     """Whether there are lines of as many numbers, after a header of any kind."""
+    lines = _headed(lines)
     _, first = _split(lines)
     data = [parted(line[:_DATA_WIDTH].split("#")[0]).split() for line in lines[first : first + 20] if line.strip()]
     if not data:
@@ -101,8 +106,10 @@ def matches(lines: list[str]) -> bool:
     return numeric and widths.count(widths[0]) > len(widths) / 3
 
 
-def read(lines: list[str], name: str, layout: str | None = None) -> list[RawRecord]:
-    """Read a file that matches; `layout` is "rows" or "columns" where the user says how its values run."""
+def read(lines: list[str], name: str, layout: str | None = None, field: str = "motion") -> list[RawRecord]:
+    """Read a file that matches; `layout` is "rows" or "columns" where the user says, in the block `field`, how its
+    values run."""
+    lines = _headed(lines)
     header, first = _split(lines)
     points, commas = _with_points(lines[first:], name, first + 1)
     data = [parted(line.split("#")[0]) for line in points]
@@ -118,12 +125,13 @@ def read(lines: list[str], name: str, layout: str | None = None) -> list[RawReco
     if names is not None and not _is_named_time(names[without_index(names)]) and _counts_time(values[::width]):
         # Accelerations do not grow in equal steps: what was taken for names says nothing of the first column.
         names = None
-    if _run_along_rows(values, widths, names, stated, name, layout, bare):
+    asked = _Asked(name, layout, f"{field}.layout")
+    if _run_along_rows(values, widths, names, stated, asked, bare):
         table = _Table(values.reshape(1, -1), [""], None)
         names = None
     else:
         table = _table(values, widths, names, name, first, layout, time_in(bare))
-    _check_count(stated, table.columns[0], values.size, name)
+    _check_count(stated, table.columns[0], values.size, asked)
     clock = _clock(table.time, table.time_name, said, stated, name)
     series = _series(table, said, name)
     # One series by itself is one over time where somebody says its step.
@@ -145,10 +153,46 @@ def read(lines: list[str], name: str, layout: str | None = None) -> list[RawReco
             peaks=stated.peaks if k == largest and (len(series) == 1 or len(stated.peaks) == 1) else (),
             durations=stated.durations,
             named_units=frozenset() if unit else frozenset(units_of(said).union(*map(units_in, table.names))),
-            factor=_factor(bare, name),
+            factor=_factor(bare, name, f"{field}.factor"),
         )
         for k, (acceleration, direction, unit) in enumerate(series)
     ]
+
+
+#: Codes of the errors that go where the user says how the values run.
+ASKS_FOR_LAYOUT = frozenset({"record-layout", "record-columns", "record-time-column"})
+
+
+def _headed(lines: list[str]) -> list[str]:
+    """Return lines of which a first one with the count of all numbers behind it, and perhaps their step, says so.
+
+    A whole number by itself before numbers with decimals is a count, too, if a wrong one.
+    """
+    _, first = _split(lines)
+    filled = [place for place in range(first, len(lines)) if lines[place].strip()]
+    found = _COUNT_AND_STEP.fullmatch(lines[filled[0]][:_DATA_WIDTH].strip()) if len(filled) > 1 else None
+    if found is None:
+        return lines
+    rest = [len(parted(lines[place].split("#")[0]).split()) for place in filled[1:]]
+    count, step, taken = int(found[1]), found[2], 1
+    if step is None and sum(rest) == count + 1 and _STEP.fullmatch(lines[filled[1]].strip()):
+        step, taken = lines[filled[1]].strip(), 2
+    behind = [lines[place] for place in filled[taken:]]
+    alone = step is None and set(rest) == {1} and all(map(_DECIMALS.search, behind))
+    if sum(rest[taken - 1 :]) != count and not alone:
+        return lines
+    said = [f"NPTS: {count}", *([] if step is None else [f"DT: {step} s"])]
+    own = {filled[0]: ", ".join(said)} if taken == 1 else dict(zip(filled, said, strict=False))
+    return [own.get(place, line) for place, line in enumerate(lines)]
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """The file, how its values run by the user, and the field in which to say it."""
+
+    name: str
+    layout: str | None
+    field: str
 
 
 @dataclass(frozen=True)
@@ -176,16 +220,16 @@ def _run_along_rows(
     widths: list[int],
     names: list[str] | None,
     stated: Stated,
-    name: str,
-    layout: str | None,
+    asked: _Asked,
     header: list[str],
 ) -> bool:
     """Whether the values run along the rows: said by the user, or by a count and a step of the header."""
     width, rows = widths[0], sum(count > 0 for count in widths)
-    if layout is not None:
-        if layout == "rows" and width > 1 and _counts_time(values[: width * (rows - 1) : width]):
-            raise InputError("record-layout-time", "motion.layout", '"rows"', name=name)
-        return layout == "rows"
+    name, field = asked.name, asked.field
+    if asked.layout is not None:
+        if asked.layout == "rows" and width > 1 and _counts_time(values[: width * (rows - 1) : width]):
+            raise InputError("record-layout-time", field, '"rows"', name=name)
+        return asked.layout == "rows"
     if width == 1:
         return False
     along = stated.is_count(values.size) and not stated.is_count(rows)
@@ -193,16 +237,16 @@ def _run_along_rows(
         # Words alone weigh less than numbers.
         names = None
     if along and names is not None:
-        raise InputError("record-layout", name, values.size, width=width, rows=rows)
+        raise InputError("record-layout", name, values.size, width=width, rows=rows, layout_field=field)
     if along and stated.steps:
         return True
     if width == 2 and names is None:
         # Where values run along the rows, the last one may be short.
         if values.size in (2 * rows, 2 * rows - 1) and not _is_time(values[: 2 * (rows - 1) : 2], time_in(header)):
-            raise InputError("record-time-column", name)
+            raise InputError("record-time-column", name, layout_field=field)
         return False
     if names is None:
-        raise InputError("record-columns", name, width)
+        raise InputError("record-columns", name, width, layout_field=field)
     return False
 
 
@@ -275,10 +319,11 @@ def _is_named_time(name: str) -> bool:
     return is_time(name) or (bracket is not None and seconds_in(bracket[1]) is not None)
 
 
-def _check_count(stated: Stated, column: Floats, total: int, name: str) -> None:
+def _check_count(stated: Stated, column: Floats, total: int, asked: _Asked) -> None:
     """Refuse another count than the header states where it is that of all the numbers."""
     if stated.is_count(total) and not stated.is_count(column.size):
-        raise InputError("record-layout", name, total, width=total // max(1, column.size), rows=column.size)
+        width, rows = total // max(1, column.size), column.size
+        raise InputError("record-layout", asked.name, total, width=width, rows=rows, layout_field=asked.field)
 
 
 def _warnings(stated: Stated, column: Floats, name: str) -> tuple[Notice, ...]:
@@ -303,13 +348,13 @@ def _about(header: list[str]) -> tuple[dict[str, str], tuple[str, ...]]:
     return about, processing
 
 
-def _factor(header: list[str], name: str) -> float | None:
+def _factor(header: list[str], name: str, field: str) -> float | None:
     """Return the factor other than 1 that a header has: whether the values contain it is unknown."""
     for line in header:
         for match in () if _ABOUT.match(line) else _FACTOR.finditer(line):
             value = match[1] or match[2]
             if value is None:
-                raise InputError("record-factor", name, repr(match[0]), factor_field="motion.factor")
+                raise InputError("record-factor", name, repr(match[0]), factor_field=field)
             if real(value) != 1.0:
                 return real(value)
     return None

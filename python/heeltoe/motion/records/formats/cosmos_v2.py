@@ -21,7 +21,7 @@ from dataclasses import replace
 from heeltoe.base.arrays import Floats
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_line, plain, split_at
-from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, real, word_of_unit
+from heeltoe.motion.records.raw import NUMBER, RawRecord, breaks_off, counted, numbers, peaked, real, word_of_unit
 from heeltoe.warnings.notice import Notice
 
 FORMAT = "COSMOS V2"
@@ -66,7 +66,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         else:
             others.append({"vel": "velocity", "dis": "displacement"}[quantity])
     if records and find_line(lines, _END, starts[-1], len(lines)) == len(lines):
-        records[-1] = replace(records[-1], warnings=(*records[-1].warnings, Notice("record-breaks-off", name=name)))
+        records[-1] = replace(records[-1], warnings=(*records[-1].warnings, breaks_off(name)))
     if not records:
         raise InputError("record-not-acceleration", name, others[0])
     return records

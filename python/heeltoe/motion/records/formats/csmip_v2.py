@@ -14,7 +14,7 @@ import re
 from dataclasses import replace
 
 from heeltoe.motion.records.lines import find_line, find_match, plain
-from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real, word_of_unit
+from heeltoe.motion.records.raw import NUMBER, RawRecord, breaks_off, check_series, numbers, real, word_of_unit
 from heeltoe.warnings.notice import Notice
 
 FORMAT = "CSMIP V2"
@@ -52,7 +52,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         header = [line[:_WIDTH] for line in lines[max(before + 1, k - _HEADER_LINES) : k]]
         records.append(_channel(header, lines[k][:_WIDTH], lines[k + 1 : end], name, k + 2))
     if starts and not any(_CLOSED.match(line[:_WIDTH]) for line in lines[starts[-1] :]):
-        records[-1] = replace(records[-1], warnings=(*records[-1].warnings, Notice("record-breaks-off", name=name)))
+        records[-1] = replace(records[-1], warnings=(*records[-1].warnings, breaks_off(name)))
     opened = sum(_FIRST.match(line[:_WIDTH]) is not None for line in lines)
     if opened > len(records):
         lost = Notice("record-channels", name=name, opened=opened, found=len(records))

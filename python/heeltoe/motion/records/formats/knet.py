@@ -24,6 +24,10 @@ from heeltoe.warnings.notice import Notice
 FORMAT = "K-NET"
 
 _LABEL = 18
+_BOREHOLE = (
+    "was recorded in a borehole: a motion within the ground contains waves that the surface above reflects, and an "
+    "analysis uses it as the motion at the surface of the rock"
+)
 _SIGNS = ("origin time", "scale factor")
 _SCALE = re.compile(rf"({NUMBER})\s*\(gal\)\s*/\s*({NUMBER})", re.IGNORECASE)
 # A sensor of KiK-net in the borehole, and one at the surface above it.
@@ -66,7 +70,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     # Rounding of the mean, and of the counts.
     warnings = check_series(values, name, count, peak[0] if peak else "", share=0.01)
     if "borehole" in _KIKNET.get(header.get("dir.", ""), ""):
-        warnings += (Notice("record-borehole", name=name),)
+        warnings += (Notice("record-doubtful", name=name, doubt=_BOREHOLE),)
     record = RawRecord(
         values,
         time_step=1.0 / rate if rate > 0.0 else None,

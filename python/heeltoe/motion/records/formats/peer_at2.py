@@ -54,7 +54,9 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     values = numbers(lines[k + 1 :], name, k + 2)
     warnings = [*counted(values, real(count_text), name)]
     if _torn(lines[k + 1 :]):
-        warnings.append(Notice("record-torn", name=name))
+        warnings.append(
+            Notice("record-doubtful", name=name, doubt="ends in the middle of a number: its last value may be wrong")
+        )
     record = RawRecord(
         values,
         time_step=real(step_text),

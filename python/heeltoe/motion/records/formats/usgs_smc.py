@@ -60,7 +60,11 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     left = int(values.size - count) if timed and count is not None and 0 < values.size - count <= _ROW else 0
     values = values[: values.size - left]
     pairs = values[: values.size // 2 * 2].reshape(-1, 2)
-    flagged = (Notice("record-flagged", name=name),) if integers[17] == 1 else ()
+    flagged = (
+        (Notice("record-doubtful", name=name, doubt="flags a problem with its data: see its comments"),)
+        if integers[17] == 1
+        else ()
+    )
     # Both numbers of a pair count.
     counts = check_series(values, name, count)
     accelerations = np.ascontiguousarray(pairs[:, 1]) if timed else values

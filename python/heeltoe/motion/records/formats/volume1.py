@@ -22,8 +22,7 @@ import numpy as np
 from heeltoe.base.arrays import Floats
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_line, find_match, plain, split_at
-from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real, word_of_unit
-from heeltoe.warnings.notice import Notice
+from heeltoe.motion.records.raw import NUMBER, RawRecord, breaks_off, check_series, numbers, real, word_of_unit
 
 FORMAT = "volume 1 (CSMIP, USC, BHRC, RENADIC)"
 
@@ -66,7 +65,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     records = [_component(lines[start:stop], name, start) for start, stop in split_at(lines, starts)]
     closes = _USC.match(lines[0]) is None
     if closes and not any(_END.match(line) for line in lines[starts[-1] :]):
-        records[-1].warnings += (Notice("record-breaks-off", name=name),)
+        records[-1].warnings += (breaks_off(name),)
     return records
 
 
