@@ -152,7 +152,7 @@ def test_where_the_head_is(anchor, said):
             "fields-conflict",
             "uplift.drain_position",
         ),
-        ({"uplift": {"drain_x": "1 m"}}, "uplift-option-foreign", "uplift.drain_x"),
+        ({"uplift": {"drain_x": "1 m"}}, "option-foreign", "uplift.drain_x"),
     ],
 )
 def test_refused(more, code, field):

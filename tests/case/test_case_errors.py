@@ -19,7 +19,7 @@ REFUSED = [
         dam(crack=CRACK | {"colour": "red"}),
         "crack.colour: no such field; "
         "the fields here are elevation, inclination, kinks, friction, static_friction, kinetic_friction, law, bond, "
-        "restitution, uplift, uplift_intensity, roughness",
+        "restitution, uplift, uplift_intensity, side_gap, rocking_loss, roughness, band",
     ),
     (
         dam(motion=FILE | {"vertical": {"file": "a", "revers": True}}),
@@ -226,7 +226,7 @@ REFUSED = [
     ),
     (
         dam(crack={"static_friction": 0.9, "kinetic_friction": 1.0}),
-        "crack.static_friction: 0.9 is below kinetic_friction, 1; give a static_friction of at least 1",
+        "crack.static_friction: 0.9 is below kinetic_friction, 1; give at least 1",
     ),
     (
         dam(reservoir={"depth": "220 m"}),
@@ -242,12 +242,11 @@ REFUSED = [
     ),
     (
         dam(uplift={"pattern": "drained", "drain_position": 0.1}),
-        'uplift.drain_efficiency: is required by the pattern "drained"; give it or choose another pattern',
+        'uplift.drain_efficiency: is required by the pattern "drained"; give it, or make another choice',
     ),
     (
         dam(uplift={"pattern": "profile", "points": [[0, "9 m"], [0.9, "0 m"]]}),
-        "uplift.points: the distances [0.0, 0.9] do not ascend from 0 to 1; "
-        "give them in order, the heel at 0 and the toe at 1",
+        "uplift.points: the distances [0.0, 0.9] do not ascend; give them from the heel at 0 to the toe at 1",
     ),
     (dam(motion={"pga": "1 g"}), "motion: has no source; give file or points"),
     (dam(motion=FILE | PULSE), 'motion.file: cannot stand beside "points"; keep one of them'),
@@ -265,7 +264,7 @@ REFUSED = [
     ),
     (
         dam(motion={"points": [["0 s", "1 g"], ["1 s", "-11 g"]]}),
-        "motion.points[1][1]: -11 g is out of range; give up to 10 g either way",
+        "motion.points[1][1]: -11 g is out of range; give a value from -10 g to 10 g",
     ),
     (
         dam(motion={"points": [["1 s", "1 g"], ["1 s", "2 g"]]}),
@@ -276,12 +275,17 @@ REFUSED = [
         'motion.points[0][0]: "-1 s" is out of range; give a value of at least 0',
     ),
     (
+        dam(motion=FILE | {"at": "rock"}),
+        'motion.at: "rock": the models take the motion of the free surface, not one within the rock; '
+        "give the record as it was before any deconvolution",
+    ),
+    (
         dam(motion=FILE | {"pga": "11 g"}),
-        "motion.pga: 11 g is out of range; give a peak above 0 g and up to 10 g",
+        "motion.pga: 11 g is out of range; give a value above 0 g and up to 10 g",
     ),
     (
         dam(motion=FILE | {"pga": "0 cm/s^2"}),
-        "motion.pga: 0 m/s^2 is out of range; give a peak above 0 g and up to 10 g",
+        "motion.pga: 0 m/s^2 is out of range; give a value above 0 g and up to 10 g",
     ),
     (
         dam(crack={"friction": 11, "restitution": 2}, reservoir={"depth": "1"}),

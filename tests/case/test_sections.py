@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import math
 import sys
 import tomllib
@@ -15,7 +16,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from heeltoe import InputError, read_case, run, statics_of_sections
+from heeltoe import InputError, dam_periods, overturning_map, read_case, run, solve, statics_of_sections
 from heeltoe.case.section_file import read_corners
 from heeltoe.case.toml_writer import case_text
 from shared.command import command
@@ -101,7 +102,8 @@ def test_files_are_the_corners_to_the_last_bit(tmp_path_factory, out, wide, high
         ("f.dxf", drawing([*corners, corners[0]], closed=False)),
         ("g.dxf", drawing(corners, old=True)),
     ):
-        more = {"unit": "m"} if name == "c.txt" else {}
+        # Of a drawing the unit is asked for where it makes no dam.
+        more = {"unit": "m"} if name == "c.txt" or name.endswith("dxf") else {}
         assert read(folder / name, content, **more).section.polygon == own, name
 
 
@@ -337,7 +339,7 @@ def test_blocks_without_end_are_refused(tmp_path):
     for draw in (within_itself, copies):
         with pytest.raises(InputError) as refused:
             saved(tmp_path, draw)
-        assert refused.value.code == "section-file-large"
+        assert refused.value.code == "too-large"
 
 
 def test_every_answer_says_which_outline_is_the_dam(tmp_path):
@@ -354,6 +356,10 @@ def test_every_answer_says_which_outline_is_the_dam(tmp_path):
         (note,) = [warning for warning in answer.warnings if warning.code == "section-drawn"]
         said = 'section from a drawing: 40 m high, 30 m wide at its base, 640 m², on the layer "PIER 3"; read to 4 mm'
         assert str(note) == said
+    elastic = shaken.with_({"concrete.modulus": "30 GPa", "flexible.elements_across": 2})
+    solved = solve(shaken, "crack.friction", "residual_slip = 1 mm", model="rigid")
+    for result in (dam_periods(elastic, 1), overturning_map(shaken, count=2), solved):
+        assert result.to_json()["drawing"] == said
     # Other corners are of no drawing.
     assert case.with_({"section.polygon": [["0 m", "0 m"], ["9 m", "0 m"], ["0 m", "9 m"]]}).section.layer is None
 
@@ -376,8 +382,10 @@ def test_every_command_says_which_outline_is_the_dam(tmp_path, arguments):
         'motion = { file = "synthetic:M6.5,20km,seed=3", pga = "0.3 g", duration = "5 s" }\n'
     )
     name, *others = arguments
-    words = " ".join(command(name, "a.toml", *others, cwd=tmp_path).stdout.split())
-    assert 'section from a drawing: 40 m high, 30 m wide at its base, 640 m², on the layer "DAM"' in words
+    words = " ".join(command(name, "a.toml", *others, "--json", "a.json", cwd=tmp_path).stdout.split())
+    said = 'section from a drawing: 40 m high, 30 m wide at its base, 640 m², on the layer "DAM"'
+    assert said in words
+    assert json.dumps(said, ensure_ascii=False)[1:-1] in (tmp_path / "a.json").read_text(encoding="utf-8")
 
 
 TRIANGLE = CORNERS[:3]
@@ -385,6 +393,9 @@ TWICE = drawing(CORNERS, CORNERS, layer="")
 REFUSED = [
     ("section-unit-missing", table(CORNERS, ""), {}),
     ("section-unit-missing", drawing(CORNERS, unit=0), {}),
+    # A dam of 45 m in a template of millimetres is 45 mm high by it; one in millimetres under metres 45 km.
+    ("drawing-height", drawing(CORNERS, unit=4), {}),
+    ("drawing-height", drawing([(1e3 * x, 1e3 * z) for x, z in CORNERS], unit=6), {}),
     ("section-row", table(CORNERS) + b"1,x\n", {}),
     ("section-row", table(CORNERS) + b"1\n", {}),
     ("section-row", table(CORNERS) + b"1,nan\n", {}),
@@ -393,8 +404,8 @@ REFUSED = [
     ("section-head", b"name,east,north\na,1,2\n", {}),
     ("section-file-kind", b"", {}),
     ("section-file-kind", b"\xff\xfe\x00\x01", {}),
-    ("section-file-large", table([(float(n), 0.0) for n in range(10_002)]), {}),
-    ("section-file-large", b"1,2\n" * 3_000_000, {}),
+    ("too-large", table([(float(n), 0.0) for n in range(10_002)]), {}),
+    ("too-large", b"1,2\n" * 3_000_000, {}),
     ("polygon-corners", table(TRIANGLE[:2]), {}),
     ("unit-unknown", table(CORNERS, "x [wide],z [wide]\n"), {}),
     ("wrong-quantity", table(CORNERS), {"unit": "kg"}),
@@ -419,7 +430,7 @@ def test_refused(tmp_path, code, content, more):
 
 
 def test_refused_paths(tmp_path):
-    for name, code in (("no.csv", "section-file-missing"), (".", "section-file-unreadable")):
+    for name, code in (("no.csv", "file-missing"), (".", "file-unreadable")):
         with pytest.raises(InputError) as caught:
             read_case({**CRACK, "section": {"file": name}})
         assert caught.value.code == code
@@ -452,7 +463,7 @@ def test_without_the_package(tmp_path, monkeypatch):
     ("section", "words"),
     [
         ({"downstream": [["1 m", 0.8]]}, "section.downstream: the elevations"),
-        ({"downstream": [["0 m", 0.8], ["0 m", 0.7]]}, "do not ascend from 0 m"),
+        ({"downstream": [["0 m", 0.8], ["0 m", 0.7]]}, "do not ascend"),
         ({"downstream": []}, "section.downstream: the elevations"),
         ({"upstream": [["0 m", 0.1], ["40 m", 0.0]]}, "section.upstream: 40 m is not below the crest at 40 m"),
         ({"upstream": [["0 m", 0.1]], "base_width": "30 m"}, "section.base_width: cannot stand beside"),

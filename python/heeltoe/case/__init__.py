@@ -1,2 +1,1 @@
-"""What the user says: the dam, its crack, the water, the motion; read, checked, and answered in one sentence
-where it is wrong."""
+"""The user's input: dam, crack, water and motion, read and checked; an error is one sentence."""

@@ -78,7 +78,7 @@ def too_flat(anchor: Anchor, section: CutSection) -> bool:
 
 
 def flat(place: int, anchor: Anchor, section: CutSection) -> InputError:
-    """Return what is to be said of such an anchor."""
+    """Return the error for such an anchor."""
     crossing = crosses(anchor, section)
     angle = 0.0 if crossing is None else math.degrees(abs(_angle(crossing)))
     steepest = f"{math.degrees(STEEPEST_ANCHOR):.3g} deg"

@@ -19,7 +19,7 @@ from heeltoe.motion.records.catalog import PREFIX, find
 from heeltoe.units.parse import misgrouped
 
 #: ``"crack.friction=1.0"``, ``{"crack.friction": 1.0}`` or ``{"crack": {"friction": 1.0}}``; one or several of these.
-Change = str | Mapping[str, Any]
+Change = str | Mapping[str, object]
 Changes = Change | Sequence[Change]
 
 # Of a section: what its several forms are made of.
@@ -36,6 +36,8 @@ _REPLACES = {
     "motion.points": ("motion.file", *_OF_A_FILE),
     "motion.vertical.file": tuple(f"motion.vertical.{name}" for name in ("points", *FILE_OPTIONS)),
     "motion.vertical.points": tuple(f"motion.vertical.{name}" for name in ("file", *FILE_OPTIONS)),
+    "motion.cross_valley.file": tuple(f"motion.cross_valley.{name}" for name in ("points", *FILE_OPTIONS)),
+    "motion.cross_valley.points": tuple(f"motion.cross_valley.{name}" for name in ("file", *FILE_OPTIONS)),
     **{
         f"section.{name}": tuple(f"section.{other}" for other in others)
         for name, others in {
@@ -62,7 +64,7 @@ _ITEM = re.compile(r"(\w+)\[(\d{1,4})\]")
 _LISTED = re.compile(r"(?:further_)?cracks\[\d{1,4}\](?=\.)")
 
 
-def apply(fields: dict[str, Any], changes: Changes, directory: Path | None = None) -> dict[str, str]:
+def apply(fields: dict[str, object], changes: Changes, directory: Path | None = None) -> dict[str, str]:
     """Change the fields of a case, as a file has them, in place.
 
     Parameters
@@ -109,7 +111,7 @@ def apply(fields: dict[str, Any], changes: Changes, directory: Path | None = Non
     return written
 
 
-def _inner(block: dict[str, Any], name: str, path: str) -> Any:
+def _inner(block: dict[str, object], name: str, path: str) -> Any:
     """Return the block of this name in another, which is made where it is not there, or one of a list of them."""
     item = _ITEM.fullmatch(name)
     if item is None:
@@ -126,7 +128,7 @@ def _inner(block: dict[str, Any], name: str, path: str) -> Any:
     return item_block
 
 
-def _item_block(block: dict[str, Any], name: str) -> Any:
+def _item_block(block: dict[str, object], name: str) -> Any:
     """Return what is called so in a block, ``crack``, or so in a list of it, ``further_cracks[0]``; None without it."""
     item = _ITEM.fullmatch(name)
     if item is None:
@@ -144,20 +146,28 @@ def _replaced(path: str) -> tuple[str, ...]:
     return tuple(other.replace("crack", listed[0], 1) for other in others)
 
 
-def _check_pair(fields: dict[str, Any], split: Sequence[tuple[list[str], Any]], directory: Path | None) -> None:
-    """Refuse another horizontal motion beside the vertical one of the case: they are of one earthquake, and the
-    vertical one would be scaled by a factor that is none of its own."""
+def _check_pair(fields: dict[str, object], split: Sequence[tuple[list[str], Any]], directory: Path | None) -> None:
+    """Refuse another horizontal motion beside the vertical one of the case, or that across the valley: they are of one
+    earthquake, and the other one would be scaled by the factor of another motion."""
     motion = fields.get("motion")
-    if not isinstance(motion, dict) or motion.get("vertical") in (None, NO_MOTION):
+    if not isinstance(motion, dict):
         return
+    for component in ("vertical", "cross_valley"):
+        if motion.get(component) not in (None, NO_MOTION):
+            _check_component(f"motion.{component}", motion, split, directory)
+
+
+def _check_component(
+    component: str, motion: dict[str, Any], split: Sequence[tuple[list[str], Any]], directory: Path | None
+) -> None:
     values = {".".join(path): value for path, value in split}
-    if not values.keys().isdisjoint({"motion", "motion.vertical", "motion.vertical.file", "motion.vertical.points"}):
+    if not values.keys().isdisjoint({"motion", component, f"{component}.file", f"{component}.points"}):
         return
     for name in ("motion.file", "motion.points"):
         if name in values and values[name] != motion.get(name.removeprefix("motion.")):
             if name == "motion.file" and directory is not None and not str(values[name]).startswith(PREFIX):
                 find(str(values[name]), directory)  # a file that is missing is the first thing to say
-            raise InputError("vertical-of-another", name, shown(values[name]), none=NO_MOTION)
+            raise InputError("vertical-of-another", name, shown(values[name]), component=component, none=NO_MOTION)
 
 
 def _of_others(path: Sequence[str], value: Any) -> tuple[str, ...]:
@@ -211,7 +221,7 @@ def _value(text: str) -> Any:
     return value if len(read) == 1 and isinstance(value, bool | int | float | str | list | dict) else text
 
 
-def _remove(fields: dict[str, Any], path: Sequence[str]) -> None:
+def _remove(fields: dict[str, object], path: Sequence[str]) -> None:
     block: Any = fields
     for name in path[:-1]:
         block = _item_block(block, name) if isinstance(block, dict) else None

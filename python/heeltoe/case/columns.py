@@ -78,7 +78,7 @@ def by_columns(case: Case, columns: Columns, *, every: bool = False) -> Rows:
         Where the case has several cracks, a field can be no column, or columns differ in length; without `every` as of
         a single case, for the first row that is none.
     """
-    expect(case, Case, "not-a-case", "case")
+    expect(case, Case, "a case", "case")
     check(case, "table")
     fields, count = _checked(columns)
     sound, parts = np.ones(count, dtype=np.bool_), []

@@ -34,6 +34,8 @@ class Featured(Protocol):
     def aftershocks(self) -> tuple[Any, ...]: ...
     @property
     def statics(self) -> StaticsChoice: ...
+    @property
+    def motion(self) -> Any: ...
     def path_as_written(self, path: str) -> str:
         """Return the path of a field as the file of the case has it."""
 
@@ -170,6 +172,14 @@ def _aftershocks(case: Featured) -> FeatureFields:
         yield "aftershocks", None
 
 
+def _cross_valley(case: Featured) -> FeatureFields:
+    if case.motion is not None and case.motion.cross_valley is not None:
+        yield "motion.cross_valley", None
+    for place, motion in enumerate(case.aftershocks):
+        if motion.cross_valley is not None:
+            yield f"aftershocks[{place}].cross_valley", None
+
+
 def _closing_drains(case: Featured) -> FeatureFields:
     if case.statics.drain_diameter is not None:
         yield "statics.drain_diameter", None
@@ -197,6 +207,9 @@ FEATURES = {
             ("crack.kinks", "further_cracks.kinks"),
             "remove the kinks",
             lambda case: (place for place in _of_cracks("kinks")(case) if climbs(case.crack.kinks)),
+        ),
+        Feature(
+            "a measured loss of rocking", ("crack.rocking_loss",), "set rocking_loss = 0", _of_cracks("rocking_loss")
         ),
         Feature("roughness", ("crack.roughness",), "remove roughness", _of_cracks("roughness")),
         Feature(
@@ -302,6 +315,13 @@ FEATURES = {
             "set compressible = false",
             _options("reservoir.compressible", "tailwater.compressible", among=(True,)),
         ),
+        Feature(
+            "shaking across the valley",
+            ("motion.cross_valley", "aftershocks.cross_valley"),
+            "remove motion.cross_valley",
+            _cross_valley,
+        ),
+        Feature("an inclined crack", ("crack.inclination",), "set crack.inclination = 0", _of_cracks("inclination")),
         Feature("elastic rock", ("rock",), 'set rock = "rigid"', _options("rock.modulus")),
         Feature(
             "water that follows the vertical motion",
@@ -368,6 +388,7 @@ RULES = (
     Rule("a bonded joint", "several cracks", ("rigid",), "two blocks have no bond between them"),
     Rule("aftershocks", "several cracks", ("rigid",), "two blocks run through one motion"),
     Rule("a friction law", "several cracks", ("rigid",), "two blocks have constant coefficients of friction"),
+    Rule("a measured loss of rocking", "several cracks", ("rigid",), "impacts of two blocks lose what theory says"),
     Rule("rotation beyond small angles", "several cracks", ("rigid",), "two blocks rotate by small angles"),
     Rule("virtual water that does not rotate", "several cracks", ("rigid",), "the virtual water of two blocks rotates"),
     Rule(
@@ -375,6 +396,34 @@ RULES = (
     ),
     Rule("uplift that changes during shaking", "several cracks", ("rigid",), "the uplift of two blocks is constant"),
     Rule("Zangar's water pressure", "several cracks", ("rigid",), "the virtual water of two blocks is Westergaard's"),
+    *(
+        Rule("shaking across the valley", other, ("rigid",), why)
+        for other, why in (
+            ("an inclined crack", "its block slides on a level crack"),
+            ("several cracks", "two blocks slide along the stream alone"),
+            ("roughness", "asperities rise along the stream alone"),
+            ("a friction law", "the path of a law is that of a slip along the stream"),
+            ("a bonded joint", "the bond of a block is judged along the stream alone"),
+            ("uplift that changes during shaking", "its loads are constant"),
+            ("an anchor with stiffness", "its loads are constant"),
+            ("rotation beyond small angles", "its block does not rotate"),
+            ("aftershocks", "it is followed through one motion"),
+        )
+    ),
+    Rule(
+        "shaking across the valley",
+        "",
+        ("decoupled", "table", "map", "rotation"),
+        "the rigid model alone follows it, in runs and studies",
+    ),
+    Rule("shaking across the valley", "", ("motions",), "the motions of the study replace that of the case"),
+    Rule(
+        "shaking across the valley",
+        "",
+        ("flexible",),
+        "the elastic dam slides along the stream alone",
+        "warned",
+    ),
     Rule("roughness", "", ("flexible",), "the faces of its cracks are smooth"),
     Rule("a friction law", "penalty contact", ("flexible",), _NO_PENALTY),
     Rule("uplift that changes during shaking", "penalty contact", ("flexible",), _NO_PENALTY),
@@ -458,7 +507,8 @@ def _is_of(feature: Feature, path: str) -> bool:
 
 
 def _rules_for(user: str) -> Iterator[Rule]:
-    """Return what a model or table refuses, with what nothing supports: a case may be changed after it was checked."""
+    """Return the features that a model or table refuses, with those that no model supports: a case may be changed after
+    it was checked."""
     return (rule for rule in RULES if (user in rule.users or not rule.users) and rule.verdict == "refused")
 
 
@@ -469,9 +519,11 @@ def _unsupported(case: Featured, user: str) -> Iterator[InputError]:
 
 def _broken(case: Featured, rule: Rule) -> FeatureFields:
     """Walk the fields with the feature of a rule, where the case has the other one, too."""
+    found = list(FEATURES[rule.feature].find(case))
+    if not found:
+        return
     others = {path.rpartition(".")[0] for path, _ in FEATURES[rule.other].find(case)} if rule.other else set()
     if not rule.other or others:
-        found = FEATURES[rule.feature].find(case)
         yield from ((path, value) for path, value in found if not rule.one_crack or path.rpartition(".")[0] in others)
 
 

@@ -1,4 +1,4 @@
-"""What the user says about a dam, its water and what holds it: blocks of the case file.
+"""Dam, water, loads and anchors: blocks of the case file.
 
 All lengths, densities and so on are plain SI numbers here; the units are in the types of
 :mod:`heeltoe.case.quantities`. What needs the geometry (is the crack in the section, is the water below the crest)
@@ -68,7 +68,7 @@ class Water(Fields):
     """Sound travels in the water before an elastic dam, and leaves along the reservoir and through its floor, unless
     this is false: then the water is a mass that moves with the face."""
     wave_speed: Annotated[Velocity, Field(ge=100.0, le=1e5)] = Field(default="1440 m/s", validate_default=True)
-    """Of sound in compressible water."""
+    """Speed of sound in compressible water."""
     floor_reflection: Annotated[DimensionlessNumber, Field(ge=0.0, le=1.0)] = 0.9
     """Part of a pressure wave that the floor under compressible water throws back: 1 a rigid floor, 0.9 sound rock
     without sediment, less where there is some (Fenves and Chopra 1984)."""
@@ -78,8 +78,8 @@ class Reservoir(Water):
     """Still water upstream, which may stand above the crest."""
 
     nappe: Literal["none", "weight", "falling"] = "none"
-    """What water above the crest presses on it with: nothing; its full weight; or a weight that falls from the full one
-    at the upstream edge of the crest to nothing at the downstream edge."""
+    """Weight of the water above the crest: none; all of it; or linear from all of it at the upstream edge of the crest
+    to none at the downstream edge."""
 
 
 class Rock(Fields):
@@ -117,9 +117,9 @@ class Silt(Fields):
     depth: Head
     """From the lowest point of the section to the top of the silt."""
     horizontal_density: Annotated[Density, Field(ge=0.0, le=5e3)] = Field(default="360 kg/m^3", validate_default=True)
-    """Of the fluid whose pressure is that of the silt sideways, the water taken off."""
+    """Equivalent-fluid density for the horizontal pressure of silt (submerged)."""
     vertical_density: Annotated[Density, Field(ge=0.0, le=5e3)] = Field(default="920 kg/m^3", validate_default=True)
-    """Of the silt that stands on a slope of the face, the water taken off."""
+    """Density of the silt on a sloping face (submerged)."""
 
 
 class Anchor(Fields):
@@ -130,15 +130,15 @@ class Anchor(Fields):
     inclination: Annotated[Angle, Field(ge=-STEEPEST_ANCHOR, le=STEEPEST_ANCHOR)] = Field(
         default="0 deg", validate_default=True
     )
-    """Of its axis to the normal of the crack; positive where its upper end leans downstream."""
+    """Angle of the axis to the normal of the crack; positive where the upper end leans downstream."""
     head_x: Length | None = None
-    """Of its upper end, in place of `distance` and `inclination`, as are the next three: x of the section."""
+    """x of the upper end; both ends replace `distance` and `inclination`."""
     head_elevation: Length | None = None
-    """Of its upper end, above the lowest point of the section."""
+    """Elevation of the upper end above the lowest point of the section."""
     foot_x: Length | None = None
-    """Of its lower end."""
+    """x of the lower end."""
     foot_elevation: Length | None = None
-    """Of its lower end; below zero in the rock."""
+    """Elevation of the lower end; negative in the rock."""
     prestress: Annotated[LineForce, Field(ge=0.0, le=1e9)] = Field(default="0 kN/m", validate_default=True)
     """Tension while the crack is closed and has not slipped."""
     axial_stiffness: Annotated[Stiffness, Field(ge=0.0, le=1e13)] = Field(default="0 MN/m/m", validate_default=True)
@@ -190,7 +190,7 @@ DRAINS = ("drain_position", "drain_x")
 
 
 def pattern_of(name: object) -> object:
-    """Return what a pattern of uplift is called here; anything else as it is."""
+    """Return the name of a pattern of uplift; other words unchanged."""
     return "cut-off" if name == "cut-off triangular" else name
 
 
@@ -203,21 +203,21 @@ class Uplift(Fields):
     intensity: Annotated[DimensionlessNumber, Field(ge=0.0, le=10.0)] = 1.0
     """Factor on the pressure."""
     extent: Annotated[DimensionlessNumber, Field(gt=0.0, le=1.0)] | None = None
-    """Of `cut-off`: the part of the crack width, from the heel, that is under pressure."""
+    """`cut-off`: part of the crack width, from the heel, that is under pressure."""
     drain_position: Annotated[DimensionlessNumber, Field(gt=0.0, lt=1.0)] | None = None
-    """Of `drained`: distance of the drains from the heel, as a part of the crack width."""
+    """`drained`: distance of the drains from the heel, as a part of the crack width."""
     drain_x: Length | None = None
-    """Of `drained`, in place of `drain_position`: x of vertical drains in the section, which stay where they are when
-    the crack is moved."""
+    """`drained`, in place of `drain_position`: x of vertical drains in the section; they stay there when the crack is
+    moved."""
     drain_efficiency: Fraction | None = None
-    """Of `drained`: 0 leaves the heel's head at the drains, 1 brings it down to the tailwater's; USBR assumes
-    2/3 for drains that work."""
+    """`drained`: 0 leaves the heel's head at the drains, 1 brings it down to the tailwater's; USBR assumes 2/3 for
+    drains that work."""
     points: tuple[tuple[Fraction, Head], ...] | None = None
-    """Of `profile`: [distance from the heel as a part of the width, head of water], from 0 to 1; straight in
-    between, twice the same distance is a jump."""
+    """`profile`: [distance from the heel as a part of the width, head of water], from 0 to 1; linear in between, the
+    same distance twice is a jump."""
     during_shaking: Literal["constant", "zero while open", "full while open", "follows opening"] = "constant"
-    """What the pressure does where the crack opens in the earthquake: stays (USACE); vanishes (USBR); becomes the
-    reservoir's; or falls as the water that is there fills the wider crack (after Javanmardi and others 2005)."""
+    """Pressure where the crack opens in the earthquake: constant (USACE); zero (USBR); the reservoir's; or lower, as
+    the same water fills a wider crack (after Javanmardi and others 2005)."""
     opening: Annotated[Length, Field(ge=1e-6, le=0.1)] | None = None
     """How far the crack opens until the pressure has vanished, is the reservoir's, or has fallen to half; a tenth of
     a millimetre where it is not given."""
@@ -228,16 +228,28 @@ class Uplift(Fields):
         for option, pattern in {**UPLIFT_OPTIONS, "drain_x": "drained"}.items():
             value = getattr(self, option)
             if value is not None and pattern != self.pattern:
-                yield InputError("uplift-option-foreign", option, shown(value), pattern=self.pattern, owner=pattern)
+                yield InputError(
+                    "option-foreign",
+                    option,
+                    shown(value),
+                    owner=f'the pattern "{self.pattern}"',
+                    remedy=f' or choose the pattern "{pattern}"',
+                )
             replaced = option in DRAINS and any(getattr(self, name) is not None for name in DRAINS)
             if value is None and pattern == self.pattern and not replaced and option != "drain_x":
-                yield InputError("uplift-option-missing", option, pattern=pattern)
+                yield InputError("option-missing", option, owner=f'the pattern "{pattern}"')
         if self.drain_position is not None and self.drain_x is not None:
             yield InputError("fields-conflict", "drain_position", other="drain_x")
         if self.points is not None:
             fractions = [fraction for fraction, _ in self.points]
             if len(fractions) < 2 or fractions[0] != 0.0 or fractions[-1] != 1.0 or fractions != sorted(fractions):
-                yield InputError("uplift-profile", "points", shown(fractions))
+                yield InputError(
+                    "not-ascending",
+                    "points",
+                    shown(fractions),
+                    what="the distances",
+                    remedy="them from the heel at 0 to the toe at 1",
+                )
         if self.during_shaking == "constant" and self.opening is not None:
             yield InputError("needs-other", "opening", other="a during_shaking that changes the pressure")
         if self.during_shaking in ("zero while open", "follows opening") and self.pattern == "none":

@@ -97,7 +97,9 @@ class _Walk:
         """Count a thing, and end where there are too many."""
         self._met[what] += 1
         if self._met[what] > most:
-            raise InputError("section-file-large", "section.file", f"{most:,} {what}")
+            raise InputError(
+                "too-large", "section.file", f"{most:,} {what}", expected="the outline of the section alone"
+            )
 
 
 def _entities(

@@ -1,4 +1,4 @@
-"""Which models read which field of a case, and what is said of a field that is given and changes nothing.
+"""Which models read which field of a case, and notices for fields without effect.
 
 :data:`READ_BY` is the one place that knows; tests/case/test_every_field.py proves it by changing every field under
 every model. A field that its own model reads only together with another one is in :func:`_idle`.
@@ -36,8 +36,12 @@ READ_BY: dict[str, frozenset[str]] = {
     "concrete.tensile_strength": frozenset({"flexible"}),
     "concrete.dynamic_tension": frozenset({"flexible"}),
     "crack.restitution": _BLOCKS,
+    "crack.side_gap": frozenset({"rigid"}),
+    "motion.cross_valley": frozenset({"rigid"}),
+    "crack.rocking_loss": _BLOCKS,
     "crack.roughness": _BLOCKS | {"statics"},
     "crack.roughness.wear": _BLOCKS,
+    "crack.band": _SHAKEN,
     "crack.kinks": frozenset({"flexible", "statics"}),
     "further_cracks.kinks": frozenset({"flexible", "statics"}),
     **dict.fromkeys(
@@ -119,7 +123,7 @@ _EXPECTED = {
 
 
 def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
-    """Return what is to be said of the fields that are given in a case, and that nobody reads.
+    """Return notices for the given fields of a case that no model reads.
 
     Parameters
     ----------
@@ -129,14 +133,14 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
         ``"rigid"``, ``"decoupled"``, ``"flexible"``, ``"statics"``: those whose results stand side by side. What one
         of them reads is read.
     """
-    values = dict(_written_values(case))
+    values = {path: (_plain(path), value) for path, value in _written_values(case)}
     # Between the motions of a sequence a dam is judged by the static checks.
     users = {*models, "statics"} if case.aftershocks else set(models)
     # What the static checks alone read says what `heeltoe statics` shall do, and is none too many beside a run.
     foreign = [
         path
-        for path, value in values.items()
-        if not (own := readers(_plain(path))) & users and own != {"statics"} and value not in _AS_BLOCKS.get(path, ())
+        for path, (plain, value) in values.items()
+        if not (own := readers(plain)) & users and own != {"statics"} and value not in _AS_BLOCKS.get(path, ())
     ]
     notices = []
     if "flexible" in models:
@@ -144,17 +148,21 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
         # of two models leaves them out.
         usual, apart = ("small", "westergaard"), tuple(path for path in _EXPECTED if path != "crack.restitution")
         expected = [
-            path for path in _EXPECTED if path in foreign or (path in apart and values.get(path, "small") not in usual)
+            path
+            for path in _EXPECTED
+            if path in foreign or (path in apart and values.get(path, (path, "small"))[1] not in usual)
         ]
         foreign = [path for path in foreign if path not in expected]
         # The water of an elastic dam is Westergaard's in any case.
-        expectations = [path for path in expected if values[path] != "westergaard"]
-        notices = [Notice(_EXPECTED[path], field=path, value=shown(values[path])) for path in expectations]
+        expectations = [path for path in expected if values[path][1] != "westergaard"]
+        notices = [Notice(_EXPECTED[path], field=path, value=shown(values[path][1])) for path in expectations]
     if foreign:
         names = [name for model, name in READERS.items() if model in models]
         notices.append(Notice("fields-unused", readers=" and ".join(names), fields=", ".join(foreign)))
     for why, paths in _idle(case, models).items():
-        idle = [path for path in values if (path in paths or _plain(path) in paths) and path not in foreign]
+        idle = [
+            path for path, (plain, _) in values.items() if (path in paths or plain in paths) and path not in foreign
+        ]
         if idle:
             notices.append(Notice("fields-idle", field=idle[0], fields=", ".join(idle), why=why))
     return tuple(notices)
@@ -299,6 +307,8 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
         "statics.residual_friction is given" if slid else "nothing slides in these checks",
         ("crack.kinetic_friction", "further_cracks.kinetic_friction"),
     )
+    shaken_across = case.motion is not None and case.motion.cross_valley is not None
+    yield not shaken_across, "there is no motion.cross_valley", ("crack.side_gap",)
     laws = {
         "crack": case.crack.law,
         **{f"further_cracks[{place}]": crack.law for place, crack in enumerate(case.further_cracks)},

@@ -90,8 +90,8 @@ def _words(annotation: Any) -> set[Any]:
 
 @cache
 def field_texts(block: type[BaseModel]) -> dict[str, str]:
-    """Return the texts below the fields of a block, by name. They are read from its source when they are asked for: who
-    runs a case does not wait for that."""
+    """Return the texts below the fields of a block, by name. They are read from its source on the first call, so that a
+    run does not wait for them."""
     texts: dict[str, str] = {}
     for kind in reversed(block.__mro__):
         if issubclass(kind, Fields) and kind is not Fields:

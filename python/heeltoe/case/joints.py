@@ -44,7 +44,7 @@ class Joints(Fields):
     highest: Annotated[Length, Field(ge=0.0)] | None = None
     """No joint is higher than this; without it joints go up to half a lift below the crest."""
     friction: FrictionCoefficient | None = None
-    """Coefficient of friction of what has cracked, at rest and sliding."""
+    """Coefficient of friction of the cracked part, at rest and sliding."""
     static_friction: FrictionCoefficient | None = None
     """Coefficient of friction at rest, where it differs from that of sliding."""
     kinetic_friction: FrictionCoefficient | None = None
@@ -53,8 +53,8 @@ class Joints(Fields):
     """The bond of each joint."""
 
 
-def joints_as_cracks(fields: dict[str, Any]) -> dict[str, Any]:
-    """Return the fields of a case with its block of joints as the list of its cracks; others as they are.
+def joints_as_cracks(fields: dict[str, object]) -> dict[str, object]:
+    """Return the fields of a case with its block of joints as the list of its cracks; other fields unchanged.
 
     Raises
     ------
@@ -78,7 +78,7 @@ def joints_as_cracks(fields: dict[str, Any]) -> dict[str, Any]:
     return rest | {"cracks": [{"elevation": f"{level!r} m"} | own for level in levels]}
 
 
-def _checked(model: type[M], block: Mapping[str, Any]) -> M:
+def _checked(model: type[M], block: Mapping[str, object]) -> M:
     try:
         return model.model_validate(block)
     except ValidationError as complaint:

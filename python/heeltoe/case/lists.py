@@ -24,7 +24,7 @@ _OF_CRACK = re.compile(r"(crack|further_cracks(?:\[(\d+)\])?)(?=[.\[]|$)")
 _OF_LIST = re.compile(r"cracks\[(\d{1,4})\](?=\.|$)")
 
 
-def as_blocks(fields: Mapping[str, Any]) -> dict[str, Any]:
+def as_blocks(fields: Mapping[str, object]) -> dict[str, object]:
     """Return the fields of a case with its lists of motions and cracks as first blocks and further ones.
 
     Raises
@@ -38,7 +38,7 @@ def as_blocks(fields: Mapping[str, Any]) -> dict[str, Any]:
     return _split(motions_as_blocks(fields), CRACKS, "crack", _FURTHER)
 
 
-def motions_as_blocks(fields: Mapping[str, Any]) -> dict[str, Any]:
+def motions_as_blocks(fields: Mapping[str, object]) -> dict[str, object]:
     """Return the fields of a case with the first motion of a list as `motion` and the others as `aftershocks`.
 
     Raises
@@ -49,7 +49,7 @@ def motions_as_blocks(fields: Mapping[str, Any]) -> dict[str, Any]:
     return _split(dict(fields), "motion", "motion", "aftershocks")
 
 
-def _split(fields: dict[str, Any], name: str, first: str, others: str) -> dict[str, Any]:
+def _split(fields: dict[str, object], name: str, first: str, others: str) -> dict[str, object]:
     items = fields.get(name)
     if not isinstance(items, list) or not _is_list_of_blocks(items):
         return fields
@@ -71,8 +71,8 @@ def as_listed(fields: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def as_one_list(fields: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the fields of a case with its cracks as one list from the crest down, each with the friction and the
-    restitution that it has; what cannot be read stays as it is."""
+    """Return the fields of a case with its cracks as one list from the crest down, each with its friction and
+    restitution; unreadable entries unchanged."""
     first, further = fields.get("crack"), fields.get(_FURTHER) or []
     if CRACKS in fields or not isinstance(first, Mapping) or (further and not _is_list_of_blocks(further)):
         return dict(fields)
@@ -90,8 +90,8 @@ def as_one_list(fields: Mapping[str, Any]) -> dict[str, Any]:
     return listed
 
 
-def _by_itself(crack: Mapping[str, Any], cracks: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
-    """Return one of several cracks with what it takes from the first one."""
+def _by_itself(crack: Mapping[str, object], cracks: Iterable[Mapping[str, object]]) -> dict[str, object]:
+    """Return one of several cracks with the fields that it takes from the first one."""
     first = next(iter(cracks))
     own = {"elevation": "0 m"} | {name: value for name, value in crack.items() if value is not None}
     if own.keys().isdisjoint(FRICTION):
@@ -103,7 +103,7 @@ def _by_itself(crack: Mapping[str, Any], cracks: Iterable[Mapping[str, Any]]) ->
 
 
 def crack_path(path: str) -> str:
-    """Return the path of a field of `crack` or `further_cracks` in the list of all cracks; other paths as they are."""
+    """Return the path of a field of `crack` or `further_cracks` in the list of all cracks; other paths unchanged."""
     match = _OF_CRACK.match(path)
     if match is None:
         return path
@@ -118,14 +118,14 @@ def place_in_list(path: str) -> int | None:
 
 
 def block_path(path: str) -> str:
-    """Return the path of a field of a list of cracks as that of a block with the same fields; others as they are."""
+    """Return the path of a field of a list of cracks as that of a block with the same fields; others unchanged."""
     match, place = _OF_LIST.match(path), place_in_list(path)
     if match is None or place is None:
         return path
     return f"{f'{_FURTHER}[{place - 1}]' if place else 'crack'}{path[match.end() :]}"
 
 
-def aliases_of(fields: Mapping[str, Any]) -> dict[str, str]:
+def aliases_of(fields: Mapping[str, object]) -> dict[str, str]:
     """Return the paths of the cracks of a file that lists them, by those of the blocks."""
     items = fields.get(CRACKS)
     count = len(items) if isinstance(items, list) else 0
@@ -133,7 +133,7 @@ def aliases_of(fields: Mapping[str, Any]) -> dict[str, str]:
     return {path: crack_path(path) for path in paths}
 
 
-def path_in_fields(path: str, fields: Mapping[str, Any]) -> str:
+def path_in_fields(path: str, fields: Mapping[str, object]) -> str:
     """Return the path of a field of a crack in the form that the fields have: a list, or a first one and others.
 
     In a list cracks count in its order. In the blocks ``cracks[0]`` is the uppermost one.

@@ -37,6 +37,7 @@ from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 from heeltoe.geometry.levels import cut_levels
 from heeltoe.geometry.section import ON_LINE, CutSection, above_line, cut, outline, outside
+from heeltoe.units.parse import InSI
 
 # Water so many times as deep as the dam is high is a slip of the pen.
 _DEEPEST = 2.0
@@ -48,13 +49,13 @@ class Case(Shown, Fields):
     """One dam, one crack, one earthquake. Per metre of dam, SI units."""
 
     title: str = Field(default="", strict=True)
-    """What the results are called."""
+    """Title of the results."""
     units: Literal["si", "us"] = "si"
     """Units in which everything is shown: SI, or those of the United States; files of numbers stay SI."""
     project: Project = Project()
     """The title block of the report."""
     gravity: Annotated[Gravity, Field(ge=0.01, le=1e4)] = Field(default="9.80665 m/s^2", validate_default=True)
-    """One g, of the weight and of motions given in g."""
+    """Acceleration of gravity, for weights and for motions given in g."""
     section: Section
     """The section of the dam."""
     # A factory, since the defaults with units take pint, which is slow to load, to read.
@@ -82,7 +83,7 @@ class Case(Shown, Fields):
     motion: Motion | None = None
     """The earthquake; statics needs none."""
     aftershocks: tuple[Aftershock, ...] = ()
-    """Motions after it, each with what the one before has left. A file may also give all of them as one list,
+    """Motions after the first; each meets the dam as the motion before has left it. A file may also list all of them as
     `[[motion]]`."""
     motions: tuple[SuiteMotion, ...] = ()
     """A suite of records, which the dam meets one by one, each from rest; `heeltoe run` runs all of them."""
@@ -95,7 +96,7 @@ class Case(Shown, Fields):
     statics: StaticsChoice = Field(default_factory=StaticsChoice)
     """Static checks."""
     limits: Limits = Limits()
-    """What is allowed."""
+    """Limits on the results."""
     analysis: Analysis = Field(default_factory=Analysis)
     """Choices for rare situations."""
 
@@ -155,7 +156,7 @@ class Case(Shown, Fields):
         return case.based_in(directory or Path())
 
     def with_(self, *changes: str | Mapping[str, Any]) -> Case:
-        """Return the case with some fields changed, read and checked as from a file; this one stays as it is.
+        """Return the case with some fields changed, read and checked as from a file; this one does not change.
 
         Parameters
         ----------
@@ -174,6 +175,29 @@ class Case(Shown, Fields):
         if self._lists_cracks:
             fields = as_listed(fields)
         return Case.of(fields, self.base_directory, apply(fields, changes, self.base_directory))
+
+    def with_numbers(self, changes: Mapping[str, object]) -> Case:
+        """Return the case with some fields changed as by :meth:`with_`, at once: blocks without a change are not read
+        again, and no number becomes a text on the way.
+
+        Parameters
+        ----------
+        changes
+            Values by their paths: numbers with a unit as :class:`heeltoe.units.parse.InSI` or accelerations.
+
+        Raises
+        ------
+        InputError
+            Where a change cannot be used, or does not go together with the rest.
+        """
+        changed = {path.partition(".")[0] for path in changes}
+        blocks = {name: value for name in self.model_fields_set if (value := getattr(self, name)) is not None}
+        fields = {name: _in_si(value) if name in changed else value for name, value in blocks.items()}
+        apply(fields, changes)
+        case, wrong = _checked(fields, [], listed=self._lists_cracks)
+        if case is None:
+            raise wrong[0].with_others(wrong[1:])
+        return case.based_in(self.base_directory)
 
     def without_evidence(self) -> Case:
         """Return the case whose elastic runs have no evidence."""
@@ -220,7 +244,7 @@ class Case(Shown, Fields):
         """Return the case on a rigid plane, before water that is a mass."""
         return self.with_water_as_mass().model_copy(update={"rock": "rigid"})
 
-    def reversal(self) -> dict[str, Any]:
+    def reversal(self) -> dict[str, object]:
         """Return the changes that reverse all of its motions."""
         if self.motion is None:
             return {}
@@ -366,7 +390,7 @@ class Case(Shown, Fields):
         """The uplift with its drains on the crack."""
         return uplift_at_crack(self.crack.uplift_of(self.uplift), self.cut)
 
-    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+    def model_copy(self, *, update: Mapping[str, object] | None = None, deep: bool = False) -> Self:
         """Return a copy with other fields; what was made of those before goes."""
         copy = super().model_copy(update=update, deep=deep)
         for made, of in _MADE_OF.items():
@@ -402,7 +426,7 @@ _OF_OTHERS = {"reservoir": ("ice", "silt")}
 def problems(
     fields: Mapping[str, Any], directory: Path | None, written: Mapping[str, str] | None = None
 ) -> tuple[Case | None, list[InputError]]:
-    """Return the case of some fields, as a file has them, and all that is wrong with them; None where anything is.
+    """Return the case of some fields, as a file has them, and all of its errors; None with an error.
 
     Parameters
     ----------
@@ -432,6 +456,13 @@ def _problems(
         read = as_blocks(read)
     except InputError as error:
         return None, [*wrong, error, *error.others]
+    return _checked(read, wrong, listed=listed)
+
+
+def _checked(
+    read: Mapping[str, object], wrong: list[InputError], *, listed: bool
+) -> tuple[Case | None, list[InputError]]:
+    """Return the case of blocks and fields, and all that is wrong with them beside what is known to be."""
     try:
         case = Case.model_validate(read)
     except ValidationError as complaint:
@@ -443,7 +474,16 @@ def _problems(
     return (None if wrong else case), wrong
 
 
-def _further(fields: Mapping[str, Any], wrong: list[InputError]) -> list[InputError]:
+def _in_si(value: Any) -> Any:
+    """Return a block as its fields that are given, with numbers that say that they are in SI."""
+    if isinstance(value, Fields):
+        return {name: _in_si(getattr(value, name)) for name in value.model_fields_set}
+    if isinstance(value, tuple):
+        return tuple(map(_in_si, value))
+    return InSI(value, f"{value!r}") if type(value) is float else value
+
+
+def _further(fields: Mapping[str, object], wrong: list[InputError]) -> list[InputError]:
     """Return what the section rules out of the blocks that are sound by themselves."""
     gone = {error.field.partition(".")[0].partition("[")[0] for error in wrong}
     gone |= {name for block in gone for name in _OF_OTHERS.get(block, ())}
@@ -471,9 +511,9 @@ def _misfits(case: Case) -> list[InputError]:
 
 
 def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
-    """Walk what the section rules out, whether it is so, row by row where the numbers of the case are columns, and what
-    is to be said then: silt above the crest, water farther above it than the dam is high, ice that nothing holds there,
-    sections outside the dam and anchors beyond the toe."""
+    """Walk the conditions that the section rules out, row by row where the numbers of the case are columns, with their
+    errors: silt above the crest, water farther above it than the dam is high, ice that nothing holds there, sections
+    outside the dam and anchors beyond the toe."""
     choice = case.statics
     _, base, _, crest = case.outline.bounds
     height = crest - base

@@ -1,4 +1,4 @@
-"""What the user says about the earthquake: where the ground motion comes from and how it is scaled."""
+"""The earthquake of a case: source and scale of the ground motion."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from heeltoe.case.sentences import collected
 from heeltoe.errors.error import InputError, shown
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
 
+#: How the numbers of a plain table run.
+Layout = Literal["rows", "columns"]
 #: Fields that belong to a motion from a file.
 FILE_OPTIONS = ("channel", "unit", "time_step", "layout", "factor")
 NO_MOTION = "none"
@@ -38,7 +40,7 @@ class Source(Fields):
     """Unit of the numbers in a file that does not state it: g, cm/s^2, m/s^2, ..."""
     time_step: TimeSpan | None = None
     """Time between the numbers of a file that does not state it."""
-    layout: Literal["rows", "columns"] | None = None
+    layout: Layout | None = None
     """How the numbers of a plain table run where its header does not say it: one series along its "rows", or each
     series down one of its "columns"."""
     factor: Annotated[DimensionlessNumber, Field(gt=0.0, le=1e12)] | None = None
@@ -61,10 +63,16 @@ class Source(Fields):
         if self.points is not None:
             times = [time for time, _ in self.points]
             if len(times) < 2 or times[0] == times[-1] or any(b < a for a, b in pairwise(times)):
-                raise InputError("motion-points", "points", shown(times))
+                raise InputError(
+                    "not-ascending",
+                    "points",
+                    shown(times),
+                    what="the times",
+                    remedy="at least two points in order of time",
+                )
             for place, (_, value) in enumerate(self.points):
                 if abs(value.si(STANDARD_GRAVITY)) > LARGEST_ACCELERATION:
-                    raise InputError("acceleration-range", f"points[{place}][1]", str(value))
+                    raise InputError("out-of-range", f"points[{place}][1]", str(value), bound="from -10 g to 10 g")
             for option in FILE_OPTIONS:
                 if getattr(self, option) is not None:
                     raise InputError("motion-file-option", option)
@@ -72,18 +80,21 @@ class Source(Fields):
             acceleration_unit(self.unit, "unit")
         # The case's own g plays no part in what is plausible.
         if self.pga is not None and not 0.0 < self.pga.si(STANDARD_GRAVITY) <= LARGEST_ACCELERATION:
-            raise InputError("pga-range", "pga", str(self.pga))
+            raise InputError("out-of-range", "pga", str(self.pga), bound="above 0 g and up to 10 g")
         return self
 
 
 class Motion(Source):
-    """The ground motion: horizontal, positive downstream, and vertical on request, positive up."""
+    """The ground motion: horizontal, positive downstream, with vertical and cross-valley ones on request."""
 
     duration: TimeSpan | None = None
     """Length of the run, counted from where the record begins; the whole record where it is not given."""
     sign: Literal["recorded", "reversed"] | None = None
     """Which way round the motion shakes the dam. Where the case does not say, here or by `reverse`, both ways are run
     and the worse one leads; `points` are as they are written."""
+    at: Literal["surface", "rock"] = "surface"
+    """Where the ground has this motion: on the free surface of the rock, as records and hazard curves have it; or
+    within the rock, as a deconvolution leaves it, which no model takes."""
     allow_zero: Truth = False
     """Accept a motion that is zero throughout, which is otherwise taken for a mistake."""
     vertical: Annotated[
@@ -95,10 +106,27 @@ class Motion(Source):
     """The vertical motion of the same earthquake, positive up; without a peak of its own it is scaled as the horizontal
     one is. "none" leaves it out."""
 
+    cross_valley: Annotated[
+        Source | None,
+        BeforeValidator(
+            lambda value: None if value == NO_MOTION else value, json_schema_input_type=Source | Literal["none"] | None
+        ),
+    ] = None
+    """The horizontal motion across the valley of the same earthquake, positive to the left bank; without a peak of its
+    own it is scaled as the motion along the stream is. Its sign mirrors the slip across the valley and changes nothing
+    else. "none" leaves it out."""
+
     @model_validator(mode="after")
     def _check_sign(self) -> Self:
         if self.sign is not None and "reverse" in self.model_fields_set:
             raise InputError("contradiction", "sign", f'"{self.sign}"', other=f"reverse = {str(self.reverse).lower()}")
+        return self
+
+    @model_validator(mode="after")
+    @collected
+    def _check_place(self) -> Self:
+        if self.at == "rock":
+            raise InputError("motion-in-rock", "at", '"rock"')
         return self
 
     @property

@@ -1,4 +1,4 @@
-"""What the user chooses about models, checks and limits: blocks of a case that say nothing of the dam itself."""
+"""Choices of models, checks and limits: the blocks of a case beside the dam itself."""
 
 from __future__ import annotations
 
@@ -54,8 +54,8 @@ class Flexible(Fields):
     time_step: TimeSpan | None = None
     """Time step; chosen by the program where it is not given."""
     evidence: Evidence = "full"
-    """What the result is compared with: another step, another mesh and the shaking varied by 1 %; another step alone;
-    or nothing. Step and mesh are refined where it is too uncertain, unless they are given."""
+    """Comparisons that a result gets: another step, another mesh and the shaking varied by 1 %; another step alone; or
+    none. Step and mesh are refined where the result is too uncertain, unless they are given."""
     elements_across_below: Annotated[int, Field(strict=True, ge=1, le=200)] | None = None
     """Number of elements along the crack in the part below, where it differs."""
     mesh_above: str | None = Field(default=None, strict=True, min_length=1)
@@ -72,11 +72,11 @@ class Flexible(Fields):
     """Weight of the new state within a step of `coulomb`. 0.5 loses no energy, but lets a sliding face flutter where
     the concrete has no damping; 0.52 wears that out and takes some 1e-4 of critical damping from a dam's own modes."""
     penalty_factor: Annotated[DimensionlessNumber, Field(gt=0.0, le=1e12)] = 1000.0
-    """Of `idce`: stiffness of the contact over the largest diagonal term of the dam's."""
+    """`idce`: stiffness of the contact over the largest diagonal term of the dam's."""
     newmark_gamma: Annotated[DimensionlessNumber, Field(ge=0.5, le=1.5)] = 0.7
-    """Of `idce`: Newmark's gamma; more than 0.5 damps fast vibrations. With 0.5 contact makes energy at every blow."""
+    """`idce`: Newmark's gamma; more than 0.5 damps fast vibrations. With 0.5 contact creates energy in every impact."""
     newmark_beta: Annotated[DimensionlessNumber, Field(ge=0.25, le=1.0)] | None = None
-    """Of `idce`: Newmark's beta; (gamma + 1/2)^2 / 4 where it is not given."""
+    """`idce`: Newmark's beta; (gamma + 1/2)^2 / 4 where it is not given."""
 
     def row_counts(self, *, below: bool = False) -> tuple[int, int]:
         """Return how many elements the rows far from the crack have, and how often these are halved at it: while those
@@ -84,7 +84,7 @@ class Flexible(Fields):
         return self.halved((self.elements_across_below if below else None) or self.elements_across)
 
     def halved(self, across: int) -> tuple[int, int]:
-        """Return the same for a part with so many elements along its crack."""
+        """Return the same for a part with a number of elements along its crack."""
         halvings = 0
         while self.elements_away and across % 4 == 0 and across >= 2 * self.elements_away:
             across, halvings = across // 2, halvings + 1
@@ -120,19 +120,19 @@ class Analysis(Fields):
     """Where no motion of a rigid block agrees with Coulomb's law (Painlevé's paradox): stop and say so, or
     let an impulse of friction end the slip."""
     event_limit: Count = 1_000_000
-    """Stop after so many events."""
+    """Number of events after which a run stops."""
     time_limit: TimeSpan = 600.0
     """Refuse a model with elastic parts that would take longer on one core, by an estimate before it begins, and refine
     none beyond."""
     memory_limit: Annotated[MemorySize, Field(gt=0.0)] = 4e9
-    """The same of memory."""
+    """Refuse a model with elastic parts that would take more memory."""
     rotation: Literal["small", "p-delta", "finite"] = "small"
-    """Of the rigid block: small; small with the weight's moment that changes with it (P-Delta); or of any size.
-    Only with the last two can the block overturn."""
+    """Rotation of the rigid block: small; small with the moment of the weight that grows with it (P-Delta); or of any
+    size. Only with the last two can the block overturn."""
 
 
 class Limits(Fields):
-    """What the user allows; the verdict and the report compare the results with it."""
+    """Limits on the results; verdict and report compare the results with them."""
 
     residual_slip: Annotated[Slip, Field(ge=0.0)] | None = None
     """Slip that remains, either way."""
@@ -187,7 +187,7 @@ class StaticsEarthquake(Fields):
     """An earthquake of the pseudo-static checks."""
 
     name: Annotated[str, Field(strict=True, min_length=1, max_length=60)]
-    """What it is called: OBE, MDE, MCE, SEE, or a name of your own."""
+    """Name of the earthquake: OBE, MDE, MCE, SEE, or a name of your own."""
     seismic_coefficient: Annotated[DimensionlessNumber, Field(gt=0.0, le=3.0)]
     """Its horizontal acceleration in g."""
     vertical_seismic_coefficient: Annotated[DimensionlessNumber, Field(ge=0.0, le=3.0)] = 0.0
@@ -199,7 +199,7 @@ class StaticsEarthquake(Fields):
 
     @property
     def known_rarity(self) -> Literal["unusual", "extreme"] | None:
-        """What it is: as given, or as its name says; None where that says neither, or both."""
+        """Load category: as given, or from its name; None where the name has neither word, or both."""
         if self.rarity is not None:
             return self.rarity
         words = f" {' '.join(re.findall('[a-z]+', self.name.lower()))} "
@@ -213,7 +213,7 @@ class StaticsEarthquake(Fields):
 
 
 def _section_of(value: object) -> object:
-    """Return the fields of a section of which only the elevation is said."""
+    """Return the fields of a section that is given by its elevation alone."""
     return value if isinstance(value, dict | StaticsSection) else {"elevation": value}
 
 
@@ -231,7 +231,7 @@ class StaticsChoice(Fields):
     """Strength and load cases of the static checks before, during and after the earthquake."""
 
     criteria: Annotated[Literal["USACE", "USBR", "FERC", "CDA", "CADAM3D"], BeforeValidator(_upper)] = "USACE"
-    """Whose required factors the checks are judged by."""
+    """Guideline with the required factors."""
     criteria_file: str | None = Field(default=None, strict=True, min_length=1)
     """Criteria of your own from a file in TOML, relative to the case file, in place of those."""
     structure: Literal["critical", "normal"] = "critical"
@@ -247,13 +247,13 @@ class StaticsChoice(Fields):
     compressive_strength: Annotated[Pressure, Field(gt=0.0, le=1e9)] | None = None
     """Compressive strength of the concrete; stresses are judged by it where it is given."""
     flood_depth: Annotated[Head | None, BeforeValidator(_flood_of)] = None
-    """Reservoir in the flood; no such check without it, or with "none"."""
+    """Reservoir in the flood; without it, or with "none", the flood is not checked."""
     flood_tailwater: Head | None = None
     """Tailwater in the flood; the usual one where it is not given."""
     flood_rarity: Literal["unusual", "extreme"] = "unusual"
     """Whether the flood is an unusual load or, as the probable maximum flood, an extreme one."""
     seismic_coefficient: Annotated[DimensionlessNumber, Field(gt=0.0, le=3.0)] | None = None
-    """Horizontal acceleration of the pseudo-static check in g; no such check without it."""
+    """Horizontal acceleration of the pseudo-static check in g; without it there is no pseudo-static check."""
     vertical_seismic_coefficient: Annotated[DimensionlessNumber, Field(ge=0.0, le=3.0)] = 0.0
     """Vertical acceleration at the same time in g, up and down: each check is judged by the worse way."""
     earthquakes: Annotated[tuple[StaticsEarthquake, ...], Field(max_length=10)] = ()
@@ -267,10 +267,11 @@ class StaticsChoice(Fields):
     residual_slip: Annotated[Slip, Field(ge=0.0)] | None = None
     """Slip after the earthquake; that of an analysis where it is not given."""
     drain_diameter: Annotated[Length, Field(gt=0.0, le=10.0)] | None = None
-    """Of the drains of a `drained` uplift: slip closes them in proportion, and wholly from one diameter on; before the
-    checks after an earthquake, and before each further motion of a sequence."""
+    """Diameter of the drains of a `drained` uplift: slip closes them in proportion, and wholly from one diameter on;
+    this acts on the checks after an earthquake and on each further motion of a sequence."""
     sections: tuple[Annotated[StaticsSection, BeforeValidator(_section_of)], ...] = ()
-    """Lift joints to judge, the base among them where it is listed: elevations, or tables with what differs there."""
+    """Lift joints to judge, the base among them where it is listed: elevations, or tables with the fields that differ
+    there."""
 
     @property
     def has_own_bond(self) -> bool:
@@ -304,7 +305,7 @@ class StaticsChoice(Fields):
         called = [earthquake.name.strip().lower() for earthquake in self.earthquakes]
         again = next((title for title in called if called.count(title) > 1), None)
         if again is not None:
-            yield InputError("earthquakes-twice", "earthquakes", shown(again))
+            yield InputError("listed-twice", "earthquakes", shown(again))
         for place, earthquake in enumerate(self.earthquakes):
             if earthquake.known_rarity is None:
                 yield InputError("earthquake-rarity", f"earthquakes[{place}].name", shown(earthquake.name))
@@ -315,7 +316,7 @@ class StaticsChoice(Fields):
         elevations = [section.elevation for section in self.sections]
         twice = next((elevation for elevation in elevations if elevations.count(elevation) > 1), None)
         if twice is not None:
-            yield InputError("sections-twice", "sections", f"{twice:g} m")
+            yield InputError("listed-twice", "sections", f"{twice:g} m")
         if self.criteria_file is not None and "criteria" in self.model_fields_set:
             yield InputError("fields-conflict", "criteria", other="criteria_file")
         own = self.criteria_file is not None

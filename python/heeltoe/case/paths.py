@@ -25,7 +25,7 @@ def quantity_of(path: str) -> str | None:
 
 @cache
 def bounds_of(path: str) -> tuple[tuple[str, float], ...]:
-    """Return what a field keeps within, in SI units, by the names of comparisons: ``(("ge", 0.0), ("le", 10.0))``."""
+    """Return the bounds of a field, in SI units, by the names of comparisons: ``(("ge", 0.0), ("le", 10.0))``."""
     kinds = ("ge", "gt", "le", "lt")
     limits = list(constraints(_field_at(path)))
     return tuple((kind, float(getattr(limit, kind))) for limit in limits for kind in kinds if hasattr(limit, kind))
@@ -72,7 +72,7 @@ def value_of(case: Case, path: str) -> Any:
 
 
 def constraints(field: object) -> Iterator[object]:
-    """Walk all that is said of a field, also of one that may be left out."""
+    """Walk all metadata of a field, also of an optional one."""
     inner = (field.annotation, *field.metadata) if isinstance(field, FieldInfo) else get_args(field)
     for part in inner:
         yield part

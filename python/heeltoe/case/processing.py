@@ -55,11 +55,11 @@ class BandPass(Step):
     step: Literal["band-pass"]
     """Which step this is."""
     low: Corner | None = None
-    """What is slower goes."""
+    """Lower corner frequency: slower motion is removed."""
     high: Corner | None = None
-    """What is faster goes."""
+    """Upper corner frequency: faster motion is removed."""
     order: Order = 4
-    """Of each of the two passes."""
+    """Order of the filter in each of its two passes."""
 
     def apply(self, motion: GroundMotion, gravity: float) -> GroundMotion:
         """Return the processed motion."""
@@ -158,6 +158,8 @@ class ScaleTime(Step):
         return scale_time(motion, self.factor, allow=self.allow)
 
 
+CorrectionStep = Annotated[Baseline | BandPass | Taper | CutToWindow, Field(discriminator="step")]
+"""A step that does the same to each component of an earthquake, told by its field ``step``."""
 ProcessingStep = Annotated[
     Baseline | BandPass | Taper | CutSignificant | CutToWindow | ScaleToArias | ScaleToSpectrum | ScaleTime,
     Field(discriminator="step"),

@@ -1,4 +1,4 @@
-"""What stands in the title block of a report: whose project it is, who made the report and who checked it."""
+"""The title block of a report: project, author and checker."""
 
 from __future__ import annotations
 
@@ -29,32 +29,32 @@ class Revision(Fields):
     date: Words = ""
     """When it was made."""
     change: Words = ""
-    """What was changed, and why."""
+    """The change and its reason."""
     author: Words = ""
-    """Who made it."""
+    """Author of the revision."""
     checker: Words = ""
-    """Who checked it."""
+    """Checker of the revision."""
     approver: Words = ""
-    """Who approved it."""
+    """Approver of the revision."""
 
 
 class Project(Fields):
     """The title block of a report, as free words; no number depends on it."""
 
     name: Words = ""
-    """What the project is called."""
+    """Name of the project."""
     client: Words = ""
     """For whom it is."""
     author: Words = ""
-    """Who made the report."""
+    """Author of the report."""
     checker: Words = ""
-    """Who checked it; left empty, the title block has a line to sign on."""
+    """Checker of the report; without it the title block has a line to sign on."""
     approver: Words = ""
-    """Who approved it; left empty, the title block has a line to sign on."""
+    """Approver of the report; without it the title block has a line to sign on."""
     date: Words = ""
-    """Of the report."""
+    """Date of the report."""
     revision: Words = ""
-    """Of the report."""
+    """Revision of the report."""
     revisions: tuple[Revision, ...] = ()
     """All revisions of the report, for the table on its page one."""
 

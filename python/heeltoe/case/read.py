@@ -32,8 +32,10 @@ _OF_KEYS = re.compile(
 )
 
 
+_A_CASE = "a case file; `heeltoe new NAME` writes one"
+
 #: Source of a case: a file, or its fields.
-Source = str | os.PathLike[str] | Mapping[str, Any]
+Source = str | os.PathLike[str] | Mapping[str, object]
 
 
 def read_case(source: Source, changes: Changes = ()) -> Case:
@@ -71,7 +73,7 @@ def read_case(source: Source, changes: Changes = ()) -> Case:
     return Case.of(fields, directory, apply(fields, changes, directory))
 
 
-def case_schema() -> dict[str, Any]:
+def case_schema() -> dict[str, object]:
     """Return the JSON schema of a case: its cracks stand in one list, in the blocks `crack` and `further_cracks`, or as
     `joints`."""
     schema = Case.model_json_schema()
@@ -87,8 +89,8 @@ def case_schema() -> dict[str, Any]:
     return schema | {"properties": properties, "required": required, "oneOf": forms}
 
 
-def read_fields(path: Path, missing: str = "case-file-missing") -> dict[str, Any]:
-    """Return what stands in a file in TOML or JSON; `missing` is what a file that is not there is called.
+def read_fields(path: Path, expected: str = _A_CASE) -> dict[str, object]:
+    """Return what stands in a file in TOML or JSON; `expected` is what it should be.
 
     Raises
     ------
@@ -99,14 +101,19 @@ def read_fields(path: Path, missing: str = "case-file-missing") -> dict[str, Any
     try:
         content = read_bounded(path, _LARGEST)
         if len(content) > _LARGEST:
-            raise InputError("case-file-large", name, f"{_LARGEST // 10**6} MB")
+            raise InputError("too-large", name, f"{_LARGEST // 10**6} MB", expected="a case file")
         text = content.decode("utf-8-sig")  # editors on Windows begin a file with a byte order mark
     except FileNotFoundError:
-        raise InputError(missing, name) from None
+        raise InputError("source-missing", name, expected=expected) from None
     except UnicodeDecodeError:
         raise InputError("case-file-encoding", name) from None
     except (OSError, ValueError) as error:
-        raise InputError("case-file-unreadable", name, reason=getattr(error, "strerror", None) or error) from None
+        raise InputError(
+            "source-unreadable",
+            name,
+            reason=getattr(error, "strerror", None) or error,
+            expected="a file in TOML or JSON",
+        ) from None
     kind = "JSON" if text.lstrip().startswith("{") else "TOML"
     try:
         fields: dict[str, Any] = json.loads(text, object_pairs_hook=_once) if kind == "JSON" else _toml(text)
@@ -126,8 +133,8 @@ def _has_nul(value: Any) -> bool:
     return isinstance(value, str) and "\0" in value
 
 
-def _toml(text: str) -> dict[str, Any]:
-    if any(line.count(".") >= _DEEPEST for line in text.splitlines()):
+def _toml(text: str) -> dict[str, object]:
+    if text.count(".") >= _DEEPEST and any(line.count(".") >= _DEEPEST for line in text.splitlines()):
         parts = 1
         for token in _OF_KEYS.finditer(text):
             if token[0] == ".":
@@ -143,7 +150,7 @@ def _toml(text: str) -> dict[str, Any]:
     return tomllib.loads(text)
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, object]:
     """Return a block of JSON; of a key that stands there twice JSON itself would take the last, TOML takes none."""
     fields: dict[str, Any] = {}
     for name, value in pairs:

@@ -1,4 +1,4 @@
-"""What the user says about the section of the dam: dimensions, slopes of its faces, corners, or a file of them."""
+"""The section of the dam: dimensions, slopes of its faces, corners, or a file of them."""
 
 from __future__ import annotations
 
@@ -89,7 +89,13 @@ class Section(Fields):
     def _wrong_face(self, name: str) -> Iterator[InputError]:
         levels = [level for level, _ in getattr(self, name)]
         if not levels or levels[0] != 0.0 or any(upper <= lower for lower, upper in pairwise(levels)):
-            yield InputError("face-levels", name, shown([f"{level:g} m" for level in levels]))
+            yield InputError(
+                "not-ascending",
+                name,
+                shown([f"{level:g} m" for level in levels]),
+                what="the elevations",
+                remedy="the base at 0 m first, then each break",
+            )
         elif self.height is not None and levels[-1] >= self.height:
             yield InputError("face-above-crest", name, f"{levels[-1]:g} m", height=f"{self.height:g} m")
 

@@ -69,7 +69,7 @@ def _read(path: Path) -> tuple[list[Line], str]:
     try:
         from ezdxf.filemanagement import readfile
     except ImportError:
-        raise InputError("drawing-package", "section.file", "ezdxf") from None
+        raise InputError("package-missing", "section.file", "ezdxf", install="pip install ezdxf") from None
     # It would tell on standard error what it makes of a broken file.
     logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
     try:

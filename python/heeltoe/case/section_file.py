@@ -1,4 +1,4 @@
-"""The corners of a section from a file: a drawing in DXF, or a table in CSV, told apart by what is in it."""
+"""The corners of a section from a file: a drawing in DXF, or a table in CSV, recognised by its content."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import os
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from heeltoe.base.input_files import read_bounded
 from heeltoe.errors.error import InputError, shown
@@ -15,8 +14,11 @@ from heeltoe.units.parse import parse
 
 Corners = list[tuple[float, float]]
 
+_EXPECTED = "a drawing in DXF or a table in CSV"
 #: What is read of a section's block where that names a file.
 FILE_FIELDS = ("file", "layer", "unit")
+# Heights of dams [m], beyond which a drawing is not believed in its unit.
+_LOWEST, _HIGHEST = 1.0, 350.0
 _LARGEST, _MOST_CORNERS = 10_000_000, 10_000
 # Every DXF begins with a group code, 0 or that of a comment, or says that it is binary.
 _DXF = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:0\s*\r?\n\s*SECTION|999\s*\r?\n)|AutoCAD Binary DXF", re.IGNORECASE)
@@ -25,7 +27,7 @@ _UNIT = re.compile(r"[\[(]([^\][()]{1,30})[\])]|_(m|mm|cm|ft|in)$")
 _UP = ("z", "y", "elevation", "level", "height")
 
 
-def with_section_read(fields: Mapping[str, Any], directory: Path | None) -> Mapping[str, Any]:
+def with_section_read(fields: Mapping[str, object], directory: Path | None) -> Mapping[str, object]:
     """Return the fields of a case with the corners in the place of the file that its section names, if it names one.
 
     Parameters
@@ -54,7 +56,7 @@ def with_section_read(fields: Mapping[str, Any], directory: Path | None) -> Mapp
     if directory is None:
         raise InputError("section-file-unread", "section.file", shown(section["file"]))
     corners, drawn_on = read_corners(directory / os.path.expanduser(section["file"]), layer, unit)
-    read: dict[str, Any] = {"polygon": [[f"{x!r} m", f"{z!r} m"] for x, z in corners]}
+    read: dict[str, object] = {"polygon": [[f"{x!r} m", f"{z!r} m"] for x, z in corners]}
     return {**fields, "section": {**read, "layer": drawn_on} if drawn_on else read}
 
 
@@ -78,16 +80,20 @@ def read_corners(path: Path, layer: str | None = None, unit: str | None = None) 
     try:
         content = read_bounded(path, _LARGEST)
     except FileNotFoundError:
-        raise InputError("section-file-missing", "section.file", path) from None
+        raise InputError(
+            "file-missing", "section.file", path, expected="an outline, relative to the case file"
+        ) from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
-        raise InputError("section-file-unreadable", "section.file", path, reason=reason) from None
+        raise InputError("file-unreadable", "section.file", path, reason=reason, expected=_EXPECTED) from None
     if len(content) > _LARGEST:
-        raise InputError("section-file-large", "section.file", f"{_LARGEST // 10**6} MB")
+        raise InputError(
+            "too-large", "section.file", f"{_LARGEST // 10**6} MB", expected="the outline of the section alone"
+        )
     if _DXF.match(content):
         # It is read once more, which a pipe does not bear.
         if not path.is_file():
-            raise InputError("section-file-unreadable", "section.file", path, reason="it is not a file")
+            raise InputError("file-unreadable", "section.file", path, reason="it is not a file", expected=_EXPECTED)
         from heeltoe.case.section_drawing import corners_of_drawing
 
         corners, stated, drawn_on = corners_of_drawing(path, layer)
@@ -98,12 +104,19 @@ def read_corners(path: Path, layer: str | None = None, unit: str | None = None) 
     if len(corners) > 1 and corners[0] == corners[-1]:
         corners = corners[:-1]
     if len(corners) > _MOST_CORNERS:
-        raise InputError("section-file-large", "section.file", f"{_MOST_CORNERS} corners")
+        raise InputError(
+            "too-large", "section.file", f"{_MOST_CORNERS} corners", expected="the outline of the section alone"
+        )
     if len(corners) < 3:
         raise InputError("polygon-corners", "section.file", len(corners))
     if unit is None and not stated:
         raise InputError("section-unit-missing", "section.unit")
     one = parse(f"1 {unit or stated}", "length", "section.unit" if unit else "section.file")
+    levels = [z * one for _, z in corners]
+    height = max(levels) - min(levels)
+    # Programs write the unit of their template, often millimetres, whatever the drawing is in.
+    if drawn_on and unit is None and not _LOWEST <= height <= _HIGHEST:
+        raise InputError("drawing-height", "section.unit", f"{height:.4g} m", unit=stated)
     return [(x * one, z * one) for x, z in corners], drawn_on
 
 

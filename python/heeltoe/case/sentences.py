@@ -1,4 +1,4 @@
-"""What pydantic found wrong with a case, said as one :class:`heeltoe.errors.InputError`.
+"""Complaints of pydantic about a case as one :class:`heeltoe.errors.InputError`.
 
 Checks of our own raise :class:`InputError` as everywhere else; :func:`collected` hands it through pydantic,
 which gathers all problems of a case, and :func:`first_error` takes it out again, with the full path of the
@@ -18,6 +18,7 @@ from pydantic_core import ErrorDetails, PydanticCustomError
 
 from heeltoe.errors.error import InputError, shown
 from heeltoe.errors.sanitize import harmless
+from heeltoe.units.parse import InSI
 
 P = typing.ParamSpec("P")
 R = typing.TypeVar("R")
@@ -61,7 +62,7 @@ def _handed_on(error: InputError, others: Sequence[InputError] = ()) -> Pydantic
 
 
 def gathered(check: Callable[[M], Iterator[InputError]]) -> Callable[[M], M]:
-    """Make a validator of a block of what walks all that is wrong with it, fields relative to it."""
+    """Make a validator of a block from a walk over its errors, with fields relative to it."""
 
     def inner(block: M) -> M:
         wrong = list(check(block))
@@ -73,7 +74,7 @@ def gathered(check: Callable[[M], Iterator[InputError]]) -> Callable[[M], M]:
 
 
 def first_error(complaint: ValidationError, model: type[BaseModel]) -> InputError:
-    """Return the problem to be told first, with the others.
+    """Return the first problem, with the others.
 
     Parameters
     ----------
@@ -113,8 +114,8 @@ def all_errors(complaint: ValidationError, model: type[BaseModel]) -> list[Input
 
 
 def _of_what_was_meant(details: list[ErrorDetails]) -> list[ErrorDetails]:
-    """Return the complaints without those of the other kind where a field holds a block or a word: a word that is none
-    of those known is no block, and a block is no word."""
+    """Return the complaints without those of the other kind where a field holds a block or a word: an unknown word is
+    no block, and a block is no word."""
     words = {detail["loc"][:-1] for detail in details if _is_word(detail) and isinstance(detail["input"], str)}
     return [detail for detail in details if (detail["loc"][:-1] in words) == _is_word(detail)]
 
@@ -140,6 +141,7 @@ def _joined(path: str, field: str) -> str:
 
 def _translated(detail: ErrorDetails, model: type[BaseModel]) -> InputError:
     kind, location, value = detail["type"], detail["loc"], detail["input"]
+    value = str(value) if isinstance(value, InSI) else value
     context = detail.get("ctx", {})
     path = _path(location, model)
     if kind == "input_error":
@@ -238,13 +240,13 @@ def _owner(location: Sequence[int | str], model: type[BaseModel]) -> type[BaseMo
 
 
 def _tags(model: type[BaseModel]) -> tuple[object, ...]:
-    """Return what a block may be told by: the only value of a field."""
+    """Return the field that identifies a block by its only value."""
     values = (typing.get_args(field.annotation) for field in model.model_fields.values() if field.is_required())
     return tuple(tag for tags in values for tag in tags)
 
 
 def _tag_example(location: Sequence[int | str], model: type[BaseModel]) -> str:
-    """Return a first line of a block whose kind is not said."""
+    """Return the first line of a block whose kind is missing."""
     owner = _owner(location, model)
     names = [part for part in location if isinstance(part, str)]
     first = next(kinds_in(owner.model_fields[names[-1]].annotation))

@@ -14,6 +14,7 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import process
 from heeltoe.motion.records import called, read_record
 from heeltoe.motion.records.catalog import PREFIX, find
+from heeltoe.motion.records.to_motion import HeaderFactor
 from heeltoe.motion.scenario import synthetic
 from heeltoe.motion.sequence import joined
 from heeltoe.warnings.notice import Notice
@@ -52,8 +53,14 @@ def resolve(
     InputError
         Where a record cannot be found, read or trusted.
     """
+    return resolve_components(shaking, gravity, base_directory, field)[:2]
+
+
+def resolve_components(
+    shaking: Motion, gravity: float, base_directory: Path, field: str = "motion"
+) -> tuple[GroundMotion, GroundMotion | None, GroundMotion | None]:
+    """Return the ground motions of a case along the stream, upward and across the valley, as :func:`resolve` does."""
     horizontal = read_source(shaking, gravity, base_directory, field)
-    vertical = None
     factor = 1.0
     if shaking.pga is not None and (horizontal.pga > 0.0 or not shaking.allow_zero):
         peak = shaking.pga.si(gravity)
@@ -61,27 +68,58 @@ def resolve(
         horizontal = horizontal.scaled_to(peak, f"scaled by {factor:.6g} to a peak of {shaking.pga}")
     by_processing = _scale_of_processing(shaking, gravity, base_directory, field)
     horizontal = horizontal.with_warnings(*check_scaling(horizontal, factor * by_processing, field))
+    factor *= by_processing
+    vertical = None
     if shaking.vertical is not None:
         vertical = read_source(shaking.vertical, gravity, base_directory, f"{field}.vertical", upward=True)
-        if shaking.vertical.pga is not None and vertical.pga > 0.0:
-            vertical = vertical.scaled_to(
-                shaking.vertical.pga.si(gravity), f"scaled to a peak of {shaking.vertical.pga}"
-            )
-        elif not _scales(shaking.vertical):
-            factor *= by_processing
-            if factor != 1.0:
-                vertical = vertical.scaled(factor, f"scaled by {factor:.6g} like the horizontal motion")
-        vertical = vertical.with_warnings(*check_pair(horizontal, vertical)).led_by(horizontal.lead)
-        horizontal = horizontal.led_by(vertical.lead)
+        vertical = _beside(vertical, shaking.vertical, horizontal, factor, gravity)
+    cross = None
+    if shaking.cross_valley is not None:
+        cross = read_source(shaking.cross_valley, gravity, base_directory, f"{field}.cross_valley")
+        cross = _beside(cross, shaking.cross_valley, horizontal, factor, gravity, f"{field}.cross_valley")
+    # Records whose lengths before the earthquake differ begin together.
+    leads = [motion.lead for motion in (horizontal, vertical, cross) if motion is not None]
+    for lead in leads:
+        horizontal = horizontal.led_by(lead)
+        vertical = None if vertical is None else vertical.led_by(lead)
+        cross = None if cross is None else cross.led_by(lead)
+    if vertical is not None and shaking.vertical is not None:
         vertical = _finish(vertical, shaking.vertical, shaking.duration)
         vertical = vertical.with_warnings(*check(vertical, gravity, allow_zero=True, field=f"{field}.vertical"))
+    if cross is not None and shaking.cross_valley is not None:
+        cross = _finish(cross, shaking.cross_valley, shaking.duration)
+        cross = cross.with_warnings(*check(cross, gravity, allow_zero=True, field=f"{field}.cross_valley"))
     horizontal = _finish(horizontal, shaking, shaking.duration)
     allowed = shaking.allow_zero or (vertical is not None and vertical.pga > 0.0)
     horizontal = horizontal.with_warnings(*check(horizontal, gravity, allow_zero=allowed, field=field))
     if "allow_zero" in shaking.model_fields_set and horizontal.pga > 0.0:
         idle = Notice("fields-idle", field=f"{field}.allow_zero", fields=f"{field}.allow_zero", why=_NOT_ZERO)
         horizontal = horizontal.with_warnings(idle)
-    return horizontal, vertical
+    return horizontal, vertical, cross
+
+
+def _beside(
+    motion: GroundMotion,
+    source: Source,
+    horizontal: GroundMotion,
+    factor: float,
+    gravity: float,
+    field: str | None = None,
+) -> GroundMotion:
+    """Scale another component of the same earthquake: as its own block says, or as the horizontal one is, and look
+    whether both are of one."""
+    if source.pga is not None and motion.pga > 0.0:
+        motion = motion.scaled_to(source.pga.si(gravity), f"scaled to a peak of {source.pga}")
+    elif not _scales(source) and factor != 1.0:
+        motion = motion.scaled(factor, f"scaled by {factor:.6g} like the horizontal motion")
+    return motion.with_warnings(*check_pair(horizontal, motion, field=field))
+
+
+def cross_of(case: Case) -> GroundMotion | None:
+    """Return the ground motion of a case across the valley, as :func:`resolve_components` does; None without one."""
+    if case.motion is None or case.motion.cross_valley is None:
+        return None
+    return resolve_components(case.motion, case.gravity, case.base_directory)[2]
 
 
 def resolve_all(case: Case) -> tuple[GroundMotion, GroundMotion | None]:
@@ -112,16 +150,18 @@ def read_source(
     *,
     upward: bool = False,
     options_field: str | None = None,
+    header_factor: HeaderFactor | None = None,
 ) -> GroundMotion:
     """Read, or make, the motion, look for damage that would be hidden later, and process it.
 
-    `field` is where it stands, for errors. In a list of files that is the entry of the file itself; its unit and its
-    time step then stand in the block `options_field`.
+    `field` is where it stands, for errors. In a list of files that is the entry of the file itself; how files are read
+    and processed, and what to do with the factors in their headers, then stands in the block `options_field`.
     """
-    motion = _source(shaking, gravity, base_directory, field, upward, options_field)
+    motion = _source(shaking, gravity, base_directory, field, upward, options_field, header_factor)
     motion = motion.with_warnings(*check_record(motion, gravity, field=field, upward=upward))
-    motion = process(motion, shaking.processing, gravity, field=f"{field}.processing")
-    check_moved(motion, gravity, field)
+    block = options_field or field
+    motion = process(motion, shaking.processing, gravity, field=f"{block}.processing")
+    check_moved(motion, gravity, field, block)
     return motion
 
 
@@ -140,7 +180,13 @@ def _scale_of_processing(shaking: Source, gravity: float, base_directory: Path, 
 
 
 def _source(
-    shaking: Source, gravity: float, base_directory: Path, field: str, upward: bool, options_field: str | None
+    shaking: Source,
+    gravity: float,
+    base_directory: Path,
+    field: str,
+    upward: bool,
+    options_field: str | None,
+    header_factor: HeaderFactor | None,
 ) -> GroundMotion:
     if shaking.points is not None:
         time = [moment for moment, _ in shaking.points]
@@ -151,12 +197,14 @@ def _source(
     file_field, block = (f"{field}.file", field) if options_field is None else (field, options_field)
     if shaking.file.startswith(PREFIX):
         for option in FILE_OPTIONS:
-            if getattr(shaking, option) is not None:
+            # What is said of a list is for its files.
+            if getattr(shaking, option) is not None and options_field is None:
                 raise InputError("synthetic-option", f"{block}.{option}")
         return synthetic(shaking.file, gravity=gravity, field=file_field)
     path = find(shaking.file, base_directory, field=file_field)
     options = {"unit": shaking.unit, "time_step": shaking.time_step, "gravity": gravity, "field": block}
-    options |= {"layout": shaking.layout, "factor": shaking.factor}
+    options |= {"layout": shaking.layout, "factor": header_factor or shaking.factor}
+    options |= {"several": options_field is not None}
     motion = _KEPT.get(
         (_state_of(path), shaking.channel, *options.values()),
         lambda: read_record(path, shaking.channel, **options),  # type: ignore[arg-type]

@@ -8,9 +8,12 @@ from typing import Annotated, Literal
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from heeltoe.case.fields import Fields, TimeSpan, Truth
+from heeltoe.case.motion import Layout
+from heeltoe.case.processing import CorrectionStep
 from heeltoe.case.quantities import AccelerationField, Duration
 from heeltoe.case.sentences import gathered
 from heeltoe.errors.error import InputError
+from heeltoe.motion.records.to_motion import HeaderFactor
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
 
 #: A period, or that of the first mode of the dam.
@@ -34,7 +37,7 @@ class SuiteRule(Fields):
     """How a suite of records is judged: one dam in several earthquakes."""
 
     judge: Literal["largest", "mean", "median", "84%"] = "largest"
-    """Which number over the records is held against the limits of the case."""
+    """Statistic over the records that is compared with the limits of the case."""
     target: str | None = Field(default=None, strict=True, min_length=1)
     """Target spectrum to draw with those of the records, written as `motions.match`; that one where it is given."""
 
@@ -54,11 +57,20 @@ class Suite(SuiteRule):
     both_signs: Truth | None = None
     """Whether each record runs both ways round: it does unless `motion.sign` says which way round motions are."""
     vertical: Truth = False
-    """Whether the vertical components of folders, told by their names, shake the dam with each horizontal one."""
+    """Whether vertical components of folders, recognised by their names, shake the dam with each horizontal one."""
     unit: str | None = Field(default=None, strict=True)
     """Unit of the numbers in files that do not state it."""
     time_step: TimeSpan | None = None
     """Time between the numbers of files that do not state it."""
+    layout: Layout | None = None
+    """How the numbers of plain tables run whose headers do not say it: one series along the "rows", or each series down
+    one of the "columns"."""
+    factor: HeaderFactor | None = None
+    """Where the header of a file has a factor (a scale of a table, SCALE of SAC): "multiply" the numbers by it,
+    "divide" by it where it is a sensitivity, or leave numbers alone that "contain" it."""
+    processing: tuple[CorrectionStep, ...] = ()
+    """Steps of processing of every record in their order, before records are matched or scaled; uncorrected records
+    need a band-pass or a baseline."""
 
     @model_validator(mode="after")
     @gathered

@@ -1,10 +1,44 @@
-"""The commented case file that ``heeltoe new`` writes."""
+"""The case files that ``heeltoe new`` writes: a short one, and one with every field."""
 
 from __future__ import annotations
 
 import json
 
-_TEMPLATE = """\
+_SHORT = """\
+# A dam cracked along its base, in El Centro 1940. `heeltoe explain` lists every field;
+# `heeltoe new NAME --all` writes a case with all of them.
+title = {title}
+# rock = "rigid"                   # rigid rock; without a block [rock], rock as stiff as the concrete is assumed
+
+[section]                          # vertical upstream face at x = 0
+height = "100 m"
+crest_width = "8 m"
+neck_height = "90 m"               # where the slope of the downstream face changes
+neck_width = "8 m"
+base_width = "80 m"
+
+[concrete]
+density = "2400 kg/m^3"
+modulus = "20 GPa"                 # without it the dam is a rigid block
+
+[crack]
+elevation = "0 m"                  # at the upstream face, above the lowest point of the section
+friction = 1.0
+restitution = 0.5                  # impacts of a rocking block: 0 stays down, 1 loses nothing
+
+[reservoir]
+depth = "95 m"                     # above the lowest point of the section
+
+[uplift]
+pattern = "triangular"             # or none, uniform, cut-off, drained, profile
+
+[motion]                           # acceleration of the ground, positive downstream
+file = "elcentro-1940-180-nga"     # a file beside this one, or a name of `heeltoe motion --list`
+pga = "0.4 g"                      # without it the record keeps its peak
+# duration = "30 s"                # without it the whole record
+"""
+
+_LONG = """\
 # A case for heeltoe: one dam, one crack, one earthquake.
 #
 # Quantities are texts with their unit: "100 m", "328 ft", "2650 kg/m^3", "20 GPa", "0.4 g". Lines that begin
@@ -76,6 +110,8 @@ friction = 1.0
 # static_friction = 1.1            # instead of friction, where the friction at rest
 # kinetic_friction = 1.0           # is higher than in motion
 restitution = 0.5                  # of a rocking block's impacts: 0 stays down, 1 loses nothing
+# rocking_loss = 0.05              # what impacts of a rocking block take beyond theory: 0.03 to 0.05 on concrete
+# side_gap = "3 mm"                # joints to either neighbour, closed by shaking across the valley; "free" without
 
 # [crack.roughness]                # asperities that a rigid block climbs; friction is that of their flanks then
 # asperity_height = "20 mm"        # the crack dilates by so much at most
@@ -89,6 +125,13 @@ restitution = 0.5                  # of a rocking block's impacts: 0 stays down,
 # shear_energy = "1000 N/m"        # to shear it off, beside friction
 # initial_energy = "40 N/m"        # of the first of two lines of softening; without it there is one
 # dynamic_factor = 1.0             # on both strengths during the earthquake
+
+# [crack.band]                     # what else the friction may be: the dam is run with each
+# low = 0.8
+# high = 1.2
+# slip_weakening = {{ residual_friction = 0.8, slip = "20 mm" }}          # friction falls to so much over this slip,
+# speed_weakening = {{ residual_friction = 0.8, speed = "0.1 m/s" }}      # or with the speed of the slip
+# judge = "best"                   # or "low", "high", ..., "worst": which of them the limits judge
 
 # A friction law, in place of the coefficients (heeltoe law NAME draws one); each knows some of these fields:
 # [crack.law]
@@ -168,6 +211,8 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # factor = 1.0                     # of a file with a factor in its header: that one, or 1 where the values contain it
 # processing = [{{ step = "band-pass", low = "0.1 Hz", high = "25 Hz" }}, {{ step = "baseline" }}]   # before scaling
 # vertical = {{ file = "elcentro-1940-up-nga" }}   # of the same earthquake, positive up; pga, channel etc. as above
+# cross_valley = {{ file = "elcentro-1940-270-nga" }}   # across the valley, positive to the left bank; rigid model
+# at = "surface"                   # a motion of the free surface, not deconvolved to a depth within the rock
 # allow_zero = true                # accept a motion that is zero throughout
 # Or draw the motion, instead of file; the same time twice is a jump:
 # points = [["0 s", "0 g"], ["0.5 s", "0.4 g"], ["1 s", "0 g"]]
@@ -183,6 +228,9 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # vertical = true                  # with the vertical components of folders
 # unit = "g"                       # of files that do not state it
 # time_step = "0.01 s"
+# layout = "rows"                  # of plain tables whose headers do not say it, or "columns"
+# factor = "multiply"              # by the factors in headers, or "divide", or the values "contain" them
+# processing = [{{ step = "baseline" }}]   # of every record: a band-pass or a baseline corrects uncorrected ones
 
 # [flexible]
 # plane = "stress"                 # or strain
@@ -251,14 +299,17 @@ pga = "0.4 g"                      # leave out to take the record as it is
 """
 
 
-def new_case_text(name: str) -> str:
-    """Return a case file in TOML, complete and explained, that runs as it is.
+def new_case_text(name: str, *, every_field: bool = False) -> str:
+    """Return a case file in TOML that runs unchanged.
 
     Parameters
     ----------
     name
         Title of the case; characters that cannot be printed become blanks.
+    every_field
+        Whether it shows every field, those it does not set as comments.
     """
     printable = "".join(letter if letter.isprintable() else " " for letter in name)
     # A printable text in JSON's quotes is one in TOML's too.
-    return _TEMPLATE.format(title=json.dumps(printable, ensure_ascii=False))
+    template = _LONG if every_field else _SHORT
+    return template.format(title=json.dumps(printable, ensure_ascii=False))

@@ -35,7 +35,7 @@ def case_text(fields: Mapping[str, Any], *, listed: bool = True) -> str:
 
 
 def toml_text(fields: Mapping[str, Any], model: type[BaseModel], head: str) -> str:
-    """Return fields as a file in TOML below a head, each with what a model says of it."""
+    """Return fields as a file in TOML below a head, each with the text of a model beside it."""
     return "\n".join([head, "", *_block(fields, model, "")]).rstrip("\n") + "\n"
 
 
@@ -69,13 +69,13 @@ def _is_list(model: type[BaseModel] | None, name: str, value: Any) -> bool:
     return model is Case and name == CRACKS and blocks
 
 
-def _table(value: Mapping[str, Any], kind: type[BaseModel] | None, path: str, meaning: str) -> Iterator[str]:
+def _table(value: Mapping[str, object], kind: type[BaseModel] | None, path: str, meaning: str) -> Iterator[str]:
     yield ""
     yield _with_comment(f"[{path}]", meaning)
     yield from _block(value, kind, path)
 
 
-def _cracks(items: Sequence[Mapping[str, Any]], kind: type[BaseModel] | None, path: str) -> Iterator[str]:
+def _cracks(items: Sequence[Mapping[str, object]], kind: type[BaseModel] | None, path: str) -> Iterator[str]:
     for place, item in enumerate(items, 1):
         yield ""
         yield _with_comment(f"[[{path}]]", f"crack {place} of {len(items)}, from the crest down")

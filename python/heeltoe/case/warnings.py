@@ -1,4 +1,4 @@
-"""What is allowed in a case but seldom meant."""
+"""Warnings of allowed but unlikely values in a case."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from heeltoe.case.section_drawing import TOLERANCE
 from heeltoe.errors.error import shown
 from heeltoe.geometry.crossing import on_face
 from heeltoe.units.parse import STANDARD_GRAVITY
+from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
 
 # What is so near a face, as a part of the height of the dam, is on it.
@@ -21,6 +22,8 @@ _ON_FACE = 1e-3
 # Steeper flanks [rad] and higher asperities, as a part of the width of the crack, than a block climbs.
 _STEEPEST_FLANK = math.radians(45.0)
 _TALL = 0.03
+_NO_PRESSURE = "so that no water presses on the part above or in the crack"
+_NO_FORCE = "so that it does not act on the part above"
 
 
 def case_warnings(case: Case) -> tuple[Notice, ...]:
@@ -32,14 +35,14 @@ def case_warnings(case: Case) -> tuple[Notice, ...]:
         notices.append(Notice("uplift-intensity", intensity=case.uplift.intensity))
     upstream = case.reservoir.depth if case.reservoir else 0.0
     if case.reservoir and 0.0 < upstream <= case.crack.elevation:
-        notices.append(Notice("reservoir-below-crack"))
+        notices.append(Notice("below-crack", field="reservoir", ends="ends", effect=_NO_PRESSURE))
     over = upstream - (case.cut.crest_elevation - case.cut.base_elevation)
     if case.reservoir and over > 0.0:
         notices.append(Notice("water-over-crest", over_m=over, nappe=case.reservoir.nappe))
     if case.ice and upstream - case.ice.depth < case.crack.elevation:
-        notices.append(Notice("ice-below-crack"))
+        notices.append(Notice("below-crack", field="ice", ends="acts", effect=_NO_FORCE))
     if case.silt and case.silt.depth <= case.crack.elevation:
-        notices.append(Notice("silt-below-crack"))
+        notices.append(Notice("below-crack", field="silt", ends="ends", effect=_NO_FORCE))
     if case.silt and case.silt.depth > upstream:
         notices.append(Notice("silt-above-water"))
     if case.silt and (case.silt.horizontal_density > 1000.0 or case.silt.vertical_density > 1300.0):
@@ -48,7 +51,7 @@ def case_warnings(case: Case) -> tuple[Notice, ...]:
         )
     toe = case.cut.toe[1] - case.cut.base_elevation
     if case.tailwater and 0.0 < case.tailwater.depth <= toe:
-        notices.append(Notice("tailwater-below-crack"))
+        notices.append(Notice("below-crack", field="tailwater", ends="ends", effect=_NO_PRESSURE))
     if case.tailwater and case.tailwater.depth > upstream:
         notices.append(Notice("tailwater-deeper"))
     return (*notices, *_about_the_anchors(case), *_about_the_asperities(case), *_implausible(case))
@@ -67,11 +70,10 @@ def _implausible(case: Case) -> Iterator[Notice]:
         "tailwater.density": case.tailwater.density if case.tailwater else None,
         "motion.pga": None if peak is None else peak.si(case.gravity) / STANDARD_GRAVITY,
     }
-    for path, (low, high, _, code, quantity) in PLAUSIBLE.items():
+    for path, (low, high, _, sentence, quantity) in PLAUSIBLE.items():
         value = values[path]
         if value is not None and not low <= value <= high:
-            beside = {"earth_m_s2": STANDARD_GRAVITY} if path == "gravity" else {}
-            yield Notice(code, field=path, **{quantity: value}, **beside)
+            yield Notice("value-unusual", field=path, value=Sentence.of(sentence, **{quantity: value}))
 
 
 def drawing_notice(case: Case) -> Iterator[Notice]:
@@ -91,6 +93,11 @@ def drawing_notice(case: Case) -> Iterator[Notice]:
     )
 
 
+def drawing_text(case: Case) -> str:
+    """Return which outline of a drawing is the dam, in SI units; empty where it is not drawn."""
+    return "".join(notice.text() for notice in drawing_notice(case))
+
+
 def _about_the_asperities(case: Case) -> Iterator[Notice]:
     """Walk what is out of the range in which a crack is a sawtooth that a block climbs."""
     rough, width = case.crack.roughness, case.cut.crack_width
@@ -105,7 +112,7 @@ def _about_the_asperities(case: Case) -> Iterator[Notice]:
 
 
 def _about_the_anchors(case: Case) -> Iterator[Notice]:
-    """Walk what is to be said of where anchors and drains are."""
+    """Walk the notices on the places of anchors and drains."""
     section, whole = case.cut, case.outline
     inside = case.uplift.drain_x is None or drains(case.uplift.drain_x, section)[0]
     at = case.uplift_at_crack
@@ -145,5 +152,11 @@ def concrete_warnings(case: Case) -> tuple[Notice, ...]:
     """Return what elastic concrete seldom is; models of a rigid dam do not ask."""
     notices = []
     if case.concrete.poisson > 0.35:
-        notices.append(Notice("poisson-unusual", poisson=case.concrete.poisson))
+        notices.append(
+            Notice(
+                "value-unusual",
+                field="concrete.poisson",
+                value=Sentence.of("{poisson:g} is unusual for concrete", poisson=case.concrete.poisson),
+            )
+        )
     return tuple(notices)

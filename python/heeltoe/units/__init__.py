@@ -1,1 +1,1 @@
-"""Units in and out: what people write to SI, and SI to what people read."""
+"""Units in and out: from written quantities to SI, and back to text."""

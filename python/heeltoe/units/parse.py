@@ -7,7 +7,7 @@ import math
 import re
 from dataclasses import dataclass
 from numbers import Real
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from heeltoe.errors.error import InputError, shown
 
@@ -155,13 +155,28 @@ class Acceleration:
         return f"{repr(self.value).removesuffix('.0')} {'g' if self.in_g else 'm/s^2'}"
 
 
+class InSI(float):
+    """A number that is in SI already; shown to people it is the `text`, with its unit, that says the same."""
+
+    text: str
+
+    def __new__(cls, value: float, text: str = "") -> Self:
+        number = super().__new__(cls, value)
+        number.text = text
+        return number
+
+    def __str__(self) -> str:
+        return self.text
+
+
 def parse(value: object, dimension: str, field: str) -> float:
     """Return a quantity in SI units; an acceleration given in g counts standard gravity.
 
     Parameters
     ----------
     value
-        A text such as ``"95m"`` or ``"150 lb/ft^3"``; for the dimension ``number`` also a plain number.
+        A text such as ``"95m"`` or ``"150 lb/ft^3"``, or an :class:`InSI`; for the dimension ``number`` also a plain
+        number.
     dimension
         Key of :data:`DIMENSIONS`.
     field
@@ -172,6 +187,8 @@ def parse(value: object, dimension: str, field: str) -> float:
     InputError
         Where the value is no finite number, or its unit is missing, unknown, or of another kind.
     """
+    if isinstance(value, InSI):
+        return float(value)
     if dimension == "acceleration":
         return parse_acceleration(value, field).si(STANDARD_GRAVITY)
     number, unit = _split(value, dimension, field)
@@ -286,7 +303,7 @@ def _pounds_of_force(unit: str) -> str:
 
 
 def _density(value: object, unit: str, weight: float) -> str:
-    """Return the density [kg/m^3] of what weighs so much for each volume, as a case has it."""
+    """Return the density [kg/m^3] for a weight per volume, as a case has it."""
     number = float(str(value).replace("\u2212", "-").removesuffix(unit))
     return shown(f"{number * weight / STANDARD_GRAVITY:.5g} kg/m^3")
 

@@ -121,7 +121,7 @@ def numbers(values: Sequence[float], form: str, units: str = "si") -> tuple[list
 
 
 def _in_si(value: float, spec: str) -> str:
-    """Write a number by its format; one of so many digits without an exponent where people would write none."""
+    """Write a number by its format, without an exponent where people would write none."""
     if not spec.endswith("g"):
         return format(value, spec)
     if is_noise(value):

@@ -76,5 +76,5 @@ def unit_system(name: str, field: str = "units") -> Units:
         Where it is neither ``"si"`` nor ``"us"``.
     """
     if name not in _SYSTEMS:
-        raise InputError("unknown-units", field, name)
+        raise InputError("not-a-choice", field, name, choices="si or us")
     return Units(name)

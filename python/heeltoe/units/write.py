@@ -73,8 +73,8 @@ def one_unit(texts: Sequence[str], values: Sequence[float], quantity: str, units
 
 
 def _to(value: float, step: float, measured: bool) -> str:
-    """Write a number to a step, or where it is small to its own first three digits, up to a hundredth of the step; what
-    is less than that is something to a quantity that nobody measures on a dam."""
+    """Write a number to a step, or where it is small to its own first three digits, up to a hundredth of the step;
+    smaller values cannot be measured on a dam."""
     if not value:
         return "0"
     own = max(10.0 ** (math.floor(math.log10(abs(value))) - 2), 1e-2 * step)
@@ -103,7 +103,7 @@ def measured(value: float, unit: str, units: str = "si") -> str:
 
 
 def scaled(value: float, scale: Scale, count: int = 3) -> str:
-    """Write a value in SI with the unit of a scale, to so many digits, none cut off before the point."""
+    """Write a value in SI with the unit of a scale, to a number of digits, none cut off before the point."""
     shown = scale(value)
     return f"{'0' if is_noise(shown) else number(shown, count)} {scale.unit}"
 
@@ -114,7 +114,7 @@ def is_noise(value: float) -> bool:
 
 
 def number(value: float, digits: int = 3) -> str:
-    """Write a number to so many digits, without an exponent where people would write none."""
+    """Write a number to a number of digits, without an exponent where people would write none."""
     if value == 0.0:
         return "0"
     size = abs(value)
@@ -126,7 +126,7 @@ def number(value: float, digits: int = 3) -> str:
 
 
 def digits(value: float, count: int) -> str:
-    """Write a number to so many digits, without an exponent where people would write none."""
+    """Write a number to a number of digits, without an exponent where people would write none."""
     if isinstance(value, int):
         return str(value)
     if value == 0.0 or not math.isfinite(value):

@@ -1,1 +1,1 @@
-"""What the user says about cracks: where they run, what friction they have and how it is lost."""
+"""Cracks of a case: their place, their friction and its loss."""

@@ -6,8 +6,9 @@ import math
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
+from heeltoe.case.crack.band import Band
 from heeltoe.case.crack.bond import Bond
 from heeltoe.case.crack.law import Law
 from heeltoe.case.crack.roughness import Roughness
@@ -20,8 +21,17 @@ from heeltoe.errors.error import InputError
 #: Largest sum of the angles of friction and of the asperities along the mean plane of a crack [rad].
 STEEPEST_STRENGTH = math.radians(85.0)
 _COEFFICIENTS = ("friction", "static_friction", "kinetic_friction")
+#: A part above a crack that no neighbour stops.
+FREE = "free"
 #: Fields that state the friction of a crack.
 FRICTION = (*_COEFFICIENTS, "law")
+
+
+def _both_sides(value: object) -> object:
+    """Return the gaps on both sides of a part that slides across the valley."""
+    if value == FREE:
+        return None
+    return (value, value) if isinstance(value, str | int | float) else value
 
 
 class CrackFields(Fields):
@@ -48,9 +58,9 @@ class CrackFields(Fields):
     restitution: Fraction | None = None
     """Newton's coefficient of restitution of a corner that strikes: 0 stays down, 1 loses nothing."""
     uplift: Literal["none", "uniform", "triangular"] | None = None
-    """Of one of several cracks: pattern of its uplift, where it differs from `uplift.pattern`."""
+    """Pattern of uplift of one of several cracks, where it differs from `uplift.pattern`."""
     uplift_intensity: Annotated[DimensionlessNumber, Field(ge=0.0, le=10.0)] | None = None
-    """Of one of several cracks: factor on its pressure, where it differs from `uplift.intensity`."""
+    """Factor on the uplift of one of several cracks, where it differs from `uplift.intensity`."""
 
     @model_validator(mode="after")
     @gathered
@@ -71,7 +81,9 @@ class CrackFields(Fields):
             yield InputError("friction-missing", missing)
         elif stated and self.friction is None and stated["static_friction"] < stated["kinetic_friction"]:
             static, kinetic = stated["static_friction"], stated["kinetic_friction"]
-            yield InputError("friction-order", "static_friction", f"{static:g}", kinetic=f"{kinetic:g}")
+            yield InputError(
+                "below-other", "static_friction", f"{static:g}", other="kinetic_friction", least=f"{kinetic:g}"
+            )
 
     @model_validator(mode="after")
     @gathered
@@ -124,8 +136,40 @@ class Crack(CrackFields):
     restitution: Fraction = 0.5
     """Newton's coefficient of restitution of a corner that strikes: 0 stays down, 1 loses nothing.
     The default is that of Zhu (2004)."""
+    side_gap: Annotated[
+        tuple[Annotated[Length, Field(ge=0.0, le=10.0)], Annotated[Length, Field(ge=0.0, le=10.0)]] | None,
+        BeforeValidator(_both_sides),
+        WithJsonSchema({"type": ["string", "array", "null"], "quantity": "length", "examples": ["3 mm"]}),
+    ] = None
+    """How far the part above can slide across the valley until its neighbours stop it, to the left and to the right
+    bank: the sum of the joints between it and either abutment. One length counts for both sides, "0 mm" holds it,
+    "free" has no neighbours."""
+    rocking_loss: Fraction = 0.0
+    """Part of the velocity of rocking that an impact from one corner to the other takes beyond the law of impacts. With
+    `restitution = 0` that law is Housner's for a slender block, and tests on concrete found 0.03 to 0.05."""
     roughness: Roughness | None = None
     """Asperities that the block climbs and wears; the coefficients are then those of the flanks."""
+    band: Band | None = None
+    """What else the friction may be: a run for each, and which of them the limits judge."""
+
+    @model_validator(mode="after")
+    @gathered
+    def _around_the_friction(self) -> Iterator[InputError]:
+        if self.band is None:
+            return
+        for name in ("slip_weakening", "speed_weakening"):
+            fall = getattr(self.band, name)
+            if fall is not None and self.law is not None:
+                yield InputError("band-law", f"band.{name}")
+            elif fall is not None and fall.residual_friction > self.mu_static:
+                peak, residual = f"{self.mu_static:g}", f"{fall.residual_friction:g}"
+                yield InputError("band-falls", f"band.{name}.residual_friction", residual, peak=peak)
+        if self.law is None:
+            low, high = self.band.low, self.band.high
+            if low is not None and low > self.mu_kinetic:
+                yield InputError("band-low", "band.low", f"{low:g}", friction=f"{self.mu_kinetic:g}")
+            if high is not None and high < self.mu_static:
+                yield InputError("band-high", "band.high", f"{high:g}", friction=f"{self.mu_static:g}")
 
     @model_validator(mode="after")
     @gathered
@@ -164,7 +208,7 @@ class FurtherCrack(CrackFields):
         return all(getattr(self, name) is None for name in FRICTION)
 
     def beside(self, first: Crack) -> Crack:
-        """Return it as a crack of its own, with what it takes from the first one."""
+        """Return it as an independent crack, with the fields that it takes from the first one."""
         own = {
             name: getattr(self, name)
             for name in ("elevation", "inclination", "kinks", "uplift", "uplift_intensity", "bond")

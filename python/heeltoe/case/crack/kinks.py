@@ -38,7 +38,13 @@ def kinks_misfit(
     """
     distances = [distance for distance, _ in kinks]
     if distances[0] <= 0.0 or any(a >= b for a, b in pairwise(distances)):
-        return InputError("kinks-order", field, shown(distances))
+        return InputError(
+            "not-ascending",
+            field,
+            shown(distances),
+            what="the distances",
+            remedy="the kinks from heel to toe",
+        )
     if distances[-1] >= section.crack_width:
         return InputError("kinks-outside", field, f"{distances[-1]:g} m", width=f"{section.crack_width:g} m")
     for (start, low), (end, high) in pairwise(corners(section, kinks)):

@@ -33,16 +33,16 @@ class Law(Fields):
     """Which law: `slip weakening` and `speed weakening` from a peak to a residual coefficient; `cohesion` that is lost;
     `barton-bandis` and `lift joint`, whose coefficient falls with the normal stress."""
     form: Literal["linear", "exponential"] = "linear"
-    """Of slip weakening: in proportion to the slip, or exponentially."""
+    """Form of slip weakening: in proportion to the slip, or exponential."""
     peak_friction: FrictionCoefficient | None = None
     """Coefficient of friction before any slip, or at rest."""
     residual_friction: FrictionCoefficient | None = None
     """Coefficient of friction that is left."""
     slip: Annotated[Length, Field(gt=0.0, le=100.0)] | None = None
-    """Way, to and fro, over which friction or cohesion is lost, or of which exponential weakening leaves 1/e; cohesion
-    without it is brittle and goes with the first slip."""
+    """Accumulated slip over which friction or cohesion is lost, or after which exponential weakening has left 1/e;
+    cohesion without it is brittle and is lost with the first slip."""
     speed: Annotated[Velocity, Field(gt=0.0, le=100.0)] | None = None
-    """Speed of the slip that leaves 1/e of what friction loses with it."""
+    """Speed of slip at which friction has lost all but 1/e of its total loss."""
     cohesion: Annotated[Pressure, Field(ge=0.0, le=1e8)] | None = None
     """Shear stress that the whole bond bears without a normal one; a corner that lifts breaks the bond."""
     jrc: Annotated[DimensionlessNumber, Field(ge=0.0, le=20.0)] | None = None
@@ -56,7 +56,8 @@ class Law(Fields):
     basic_friction: FrictionCoefficient | None = None
     """Coefficient of friction of the plane surface."""
     roughness_friction: tuple[tuple[Annotated[Pressure, Field(ge=0.0, le=1e9)], FrictionCoefficient], ...] | None = None
-    """What the roughness of the surface adds: [normal stress, coefficient], straight in between, level beyond."""
+    """Coefficient that the roughness of the surface adds: [normal stress, coefficient], linear in between, constant
+    beyond."""
 
     @model_validator(mode="after")
     @gathered
@@ -66,24 +67,38 @@ class Law(Fields):
         for field in type(self).model_fields:
             if field in stated - {*needed, *allowed}:
                 known = ", ".join((*needed, *allowed))
-                yield InputError("law-option-foreign", field, shown(getattr(self, field)), law=self.name, known=known)
+                yield InputError(
+                    "option-foreign",
+                    field,
+                    shown(getattr(self, field)),
+                    owner=f'the law "{self.name}"',
+                    remedy=f"; that law knows {known}",
+                )
             if field in {*needed} - stated:
-                yield InputError("law-option-missing", field, law=self.name)
+                yield InputError("option-missing", field, owner=f'the law "{self.name}"')
         peak, residual = self.peak_friction, self.residual_friction
         if peak is not None and residual is not None and peak < residual:
-            yield InputError("law-order", "peak_friction", f"{peak:g}", residual=f"{residual:g}")
+            yield InputError(
+                "below-other", "peak_friction", f"{peak:g}", other="residual_friction", least=f"{residual:g}"
+            )
         yield from self._rough()
 
     def _rough(self) -> Iterator[InputError]:
         if self.roughness_friction is None:
             if self.name == "lift joint" and self.surface not in (None, "plane"):
-                yield InputError("law-option-missing", "roughness_friction", law=f"{self.name}, {self.surface}")
+                yield InputError("option-missing", "roughness_friction", owner=f'the law "{self.name}, {self.surface}"')
             return
         if self.surface == "plane":
             yield InputError("contradiction", "surface", shown("plane"), other="roughness_friction")
         stresses = [stress for stress, _ in self.roughness_friction]
         if not stresses or any(a >= b for a, b in pairwise(stresses)):
-            yield InputError("law-points", "roughness_friction", shown(stresses))
+            yield InputError(
+                "not-ascending",
+                "roughness_friction",
+                shown(stresses),
+                what="the normal stresses",
+                remedy="the points in order, each stress once",
+            )
         basic = self.basic_friction or 0.0
         for (s0, r0), (s1, r1) in pairwise(self.roughness_friction):
             # The strength (mu + r(s)) s must not fall where the crack is pressed harder; its slope is least at the end.
