@@ -1,1 +1,1 @@
-"""What can be wrong with what a user gives: every error once, with its remedy."""
+"""Errors in the user's input: each once, with its remedy."""

@@ -11,12 +11,8 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "let it cross the crack more steeply, up to {most}",
     ),
     "section-incomplete": ("is required but missing", "give {fields}; or slopes, a polygon or a file"),
-    "face-levels": ("the elevations {value} do not ascend from 0 m", "give the base first, then each break in order"),
     "face-above-crest": ("{value} is not below the crest at {height}", "give breaks below it"),
     "section-file-unread": ("{value} has not been read", "read the case by heeltoe.read_case"),
-    "section-file-missing": ("there is no file {value}", "give its path relative to the case file"),
-    "section-file-unreadable": ("{value} cannot be read ({reason})", "give a drawing in DXF or a table in CSV"),
-    "section-file-large": ("has more than {value}", "give the outline of the section alone"),
     "section-file-kind": ("is neither a drawing in DXF nor a table of numbers", "give one of them"),
     "section-unit-missing": (
         "is required, since the file does not state the unit of its numbers",
@@ -27,7 +23,6 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "give x and z in each line, and no more than its head names",
     ),
     "section-head": ("the head {value} does not say which columns are x and z", 'call them "x [m]" and "z [m]"'),
-    "drawing-package": ("needs the package {value}, which is not installed", "pip install ezdxf"),
     "drawing-unreadable": ("cannot be read as DXF ({reason})", "save it anew as DXF, best of the release 2010"),
     "drawing-empty": (
         "has no closed outline{why}",
@@ -47,6 +42,10 @@ OF_DAMS: dict[str, tuple[str, str]] = {
     ),
     "drawing-layer": ("{value} has no closed outline{why}; layers that have: {layers}", "name one of them"),
     "neck-above-crest": ("{value} is above the crest at {height}", "give a height up to {height}"),
+    "drawing-height": (
+        "by the unit of the drawing, {unit}, the dam is {value} high",
+        'say the unit of its numbers, for example unit = "m" under [section]',
+    ),
     "section-size": ("{value} is not the size of a dam", "give a section of 1 mm to 10 km"),
     "polygon-corners": ("has {value} different corners", "give at least 3"),
     "polygon-crossing": (
@@ -75,7 +74,6 @@ OF_DAMS: dict[str, tuple[str, str]] = {
     "cracks-order": ("{value} is below the crack at {other}", "list the cracks from the crest down"),
     "combination": ("{value} cannot be combined with {other}: {reason}", "{remedy}"),
     "unsupported": ("{model} does not support {value}: {reason}", "{remedy}"),
-    "kinks-order": ("the distances {value} do not ascend from the heel", "give the kinks in order, from heel to toe"),
     "kinks-outside": ("{value} is beyond the toe: the crack is {width} wide", "give distances below {width}"),
     "kinks-steep": (
         "the crack runs at {value} to its mean line or to the horizontal behind {start}",
@@ -91,11 +89,6 @@ OF_DAMS: dict[str, tuple[str, str]] = {
     ),
     "kinks-mesh": ("elements cannot follow {value} kinks", "give more elements_across, fewer kinks or flatter ones"),
     "friction-missing": ("is required but missing", "give friction, or both static_friction and kinetic_friction"),
-    "friction-order": ("{value} is below kinetic_friction, {kinetic}", "give a static_friction of at least {kinetic}"),
-    "law-option-foreign": ('does not belong to the law "{law}"', "remove it; that law knows {known}"),
-    "law-option-missing": ('is required by the law "{law}"', "give it, or choose another law"),
-    "law-order": ("{value} is below residual_friction, {residual}", "give a peak_friction of at least {residual}"),
-    "law-points": ("the normal stresses {value} do not ascend", "give the points in order, each stress once"),
     "law-falls": (
         "the strength falls with the normal stress before {value}",
         "give points between which the coefficient times the stress grows",
@@ -114,13 +107,32 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "lower it, or the friction, or give a longer wave_length, so that they stay below 85 degrees",
     ),
     "law-unknown": ("{value} is not a friction law", "give one of {names}, or a case, CASE.toml{near}"),
-    "uplift-option-foreign": (
-        'does not belong to the pattern "{pattern}"',
-        'remove it or choose the pattern "{owner}"',
+    "motion-in-rock": (
+        "{value}: the models take the motion of the free surface, not one within the rock",
+        "give the record as it was before any deconvolution",
     ),
-    "uplift-option-missing": ('is required by the pattern "{pattern}"', "give it or choose another pattern"),
-    "uplift-profile": (
-        "the distances {value} do not ascend from 0 to 1",
-        "give them in order, the heel at 0 and the toe at 1",
+    # the band of the friction
+    "band-order": ("{value} is more than the highest, {high}", "give the lower coefficient as low"),
+    "band-judge": ("the band has no {value}", "give that end, or judge another one"),
+    "band-law": ("the crack has a friction law, which falls by itself", "give crack.friction, or leave the fall out"),
+    "band-falls": ("{value} is more than the friction of the crack, {peak}", "give a friction that falls"),
+    "band-low": ("{value} is more than the friction of the crack, {friction}", "give less"),
+    "band-high": ("{value} is less than the friction of the crack, {friction}", "give more"),
+    # tables of shear tests
+    "tests-needed": ("needs a table of shear tests", "write: heeltoe law fit TESTS.csv"),
+    "tests-missing": ("there is no file {value}", "give the CSV file of the shear tests"),
+    "tests-unreadable": ("{value} cannot be read ({reason})", "give a CSV file in UTF-8"),
+    "tests-row": ("has {value} cells, the header {count}", "give each row as many cells as the header has"),
+    "tests-heading": ("{value} is not a column of shear tests", "columns are {names}{near}"),
+    "tests-twice": ("two columns have this name", "leave one out"),
+    "tests-unit": ("{value} has no unit", "write it into the heading, for example: normal stress [MPa]"),
+    "tests-both": (
+        "the table has strengths and points of curves",
+        "give a table of strengths, or one of curves with specimen, normal stress, slip and shear",
     ),
+    "tests-column": ("this column is missing", "add it; `docs/friction.md` lists the columns"),
+    "tests-cell": ("{value} is no number", "give a plain number in the unit of the heading"),
+    "tests-range": ("{value} is out of range", "give a number of {bound}"),
+    "tests-points": ("the curve has {value} points", "give at least {least} points of each specimen and stage"),
+    "tests-few": ("{value} tests have a strength", "give at least {least}"),
 }

@@ -22,10 +22,21 @@ _LONGEST = 5000
 
 # Code -> (what is wrong, what to do). The braces are filled from the context of the raiser, and {value}.
 CATALOGUE: dict[str, tuple[str, str]] = {
+    # kinds: one idea each, whose context names the thing
+    "package-missing": ("needs the package {value}, which is not installed", "{install}"),
+    "source-missing": ("there is no such file", "give the path of {expected}"),
+    "file-missing": ("there is no file {value}", "give the path of {expected}"),
+    "source-unreadable": ("cannot be read ({reason})", "give {expected}"),
+    "file-unreadable": ("{value} cannot be read ({reason})", "give {expected}"),
+    "file-ending": ("{value} does not end as {kind}", "end it in {endings}"),
+    "too-large": ("has more than {value}", "give {expected}"),
+    "wrong-kind": ("a {kind} is not {expected}", "give {source}"),
+    "listed-twice": ("{value} is listed twice", "list it once"),
+    "option-foreign": ("does not belong to {owner}", "remove it{remedy}"),
+    "option-missing": ("is required by {owner}", "give it, or make another choice"),
+    "not-ascending": ("{what} {value} do not ascend", "give {remedy}"),
+    "below-other": ("{value} is below {other}, {least}", "give at least {least}"),
     # case
-    "case-file-missing": ("there is no such file", "give the path of a case file; `heeltoe new NAME` writes one"),
-    "case-file-unreadable": ("cannot be read ({reason})", "give the path of a case file in TOML or JSON"),
-    "case-file-large": ("has more than {value}", "give a case file"),
     "case-file-encoding": ("is not UTF-8 text", "save it as UTF-8"),
     "case-file-syntax": (
         "is not valid {kind}: {reason}",
@@ -35,7 +46,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "a {kind} is neither a case file nor the fields of one",
         "give a path or a dictionary; a case changes by its with_",
     ),
-    "not-a-case": ("a {kind} is not a case", "give what heeltoe.read_case returns"),
     "rock-level": (
         "elastic rock has a level surface, and the base rises by {value} from heel to toe",
         "give a level base, or remove the block rock",
@@ -45,10 +55,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         'run it with "heeltoe run", or name it in a study file: case = "{name}"',
     ),
     "study-no-case": ("is a study, not a case", 'run it with "heeltoe study"'),
-    "not-a-response": ("a {kind} is not a response", "give what heeltoe.run, rigid, decoupled or flexible returns"),
-    "not-checks": ("a {kind} holds no static checks", "give what heeltoe.statics_of_sections returns"),
-    "not-a-motion": ("a {kind} is not a ground motion", "give what heeltoe.read_record returns"),
-    "not-a-list": ("a {kind} is not a list", "put it into one"),
     "usage": ("{value}", "`{command} --help` lists the options"),
     "option-repeated": ("is given {value} times", "give it once; a study runs several values"),
     "override-form": ("{value} does not set a field", "write PATH=VALUE, for example crack.friction=1.0"),
@@ -88,14 +94,11 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "give a wider uplift.opening, a softer anchor or a tougher bond, or a flexible.time_step of that size",
     ),
     "motion-source": ("has no source", "give file or points"),
-    "motion-points": ("the times {value} do not ascend", "give at least two points in order of time"),
-    "acceleration-range": ("{value} is out of range", "give up to 10 g either way"),
     "motion-file-option": ("belongs to a motion from a file", "remove it, or give file instead of points"),
     "vertical-of-another": (
-        "{value} is another motion than the one that motion.vertical was recorded with",
-        "give motion.vertical.file of the same earthquake too, or motion.vertical={none} to leave it out",
+        "{value} is another motion than the one that {component} was recorded with",
+        "give {component}.file of the same earthquake too, or {component}={none} to leave it out",
     ),
-    "pga-range": ("{value} is out of range", "give a peak above 0 g and up to 10 g"),
     # motion
     "motion-short": ("has {value} samples", "give a record with at least two moments"),
     "motion-not-finite": ("value {number} is {value}", "give a record of finite numbers"),
@@ -105,7 +108,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "motion-order": ("its time goes back from {before} to {value}", "give the samples in order of time"),
     "motion-zero": ("the ground motion is zero throughout", "give another record, or set motion.allow_zero = true"),
-    "motion-peak": ("{name} peaks at {value}, beyond any earthquake", "check its unit (motion.unit) and its values"),
+    "motion-peak": ("{name} peaks at {value}, beyond any earthquake", "check its unit and its values"),
     "motion-spike": (
         "{name} jumps to {value} at {moment} and back, {ratio} times as far as it reaches anywhere else",
         "correct this value of the file; a pulse that is meant can be drawn by motion.points",
@@ -116,7 +119,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "motion-brief": ("lasts {value}", "give it {least} or more, in its file and in motion.duration"),
     "motion-samples": ("a step of {value} makes {count:.3g} samples", "give a step that makes up to {limit:.3g}"),
-    "spectrum-damping": ("a damping ratio of {value} is out of range", "give one from 0 to below 1"),
     "spectrum-period": (
         "are not finite numbers of seconds, or are shorter than a record resolves",
         "give 0 s or periods from {least} up",
@@ -127,7 +129,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "{value} jumps, or no step divides all of its steps",
         "give a record with equal steps for filters and Fourier amplitudes",
     ),
-    "order-baseline": ("a degree of {value} cannot hold the ends", "give one from {least} to 10"),
     "order-corner-missing": ("has no corner frequency", "give low, high or both"),
     "order-corner": (
         "{value} is not between 0 Hz and the Nyquist frequency of the record, {nyquist}",
@@ -138,19 +139,12 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "give {least} or more",
     ),
     "order-corners": ("{value} is not below high, {high}", "give them in order"),
-    "order-filter": ("filter order {value} is not supported", "give one from 1 to 10"),
-    "order-share": ("{value} is not a valid share", "give one {bounds}"),
     "order-shares": ("{value} does not come before end, {end}", "give shares in order, from 0 to 1"),
     "order-window": ("{value} does not come before the end, {end}", "give moments in order, within the record"),
-    "order-target": ("{value} cannot be scaled to", "give a value above 0"),
-    "order-time-factor": ("a stretch of {value} is out of range", "give one from 0.01 to 100"),
     "order-time": (
         "stretching time by {value} changes the frequency content of the motion",
         "filter or match it instead, or set allow = true if you mean it",
     ),
-    "target-value": ("{value} is out of range", "give {bounds}"),
-    "target-ground": ("{value} is not a ground type of EN 1998-1", "choose A, B, C, D or E"),
-    "target-type": ("{value} is not a type of spectrum of EN 1998-1", "choose 1 or 2"),
     "target-table": ("is not a table of a spectrum", "give at least two ascending periods with accelerations above 0"),
     "target-period": ("{value} is outside the spectrum {name}", "stay within {bounds}"),
     "synthetic-form": (
@@ -158,13 +152,11 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         'write for example "synthetic:M6.5,20km,seed=3,vs30=760,fault=reverse"',
     ),
     "synthetic-option": ("has no effect on a synthetic motion", "remove it"),
-    "synthetic-range": ("{value} is out of range", "give {bounds}"),
     "synthetic-shape": (
         "duration / t_mid is {value}, which no modulation reaches",
         "give duration / t_mid from 0.2 to 4.9",
     ),
     "match-band": ("a band of {value} cannot be matched", "give periods from 0.02 s up, the shorter first"),
-    "match-count": ("{value} periods cannot be matched", "give 5 to 200"),
     # flexible model
     "mesh-section": (
         "has a ledge, a face that doubles back or a base that is not level, which rows of elements cannot follow",
@@ -184,14 +176,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "mesh-tip": ("{value} element across cannot fill a pointed crest", "give at least 2"),
     "mesh-none-below": ("{value} has no place: the crack is at the base", "remove it"),
-    "mesh-missing": ("there is no file {value}", "give the path of a mesh"),
-    "mesh-package": ("meshes from files need the package meshio", "pip install meshio"),
-    "mesh-unreadable": (
-        "cannot be read ({reason})",
-        "give a mesh in a format that meshio reads, for example .msh, .vtu or .inp",
-    ),
     "mesh-include": ("includes another file, which is not read", "put all of the mesh into one file"),
-    "mesh-large": ("has more than {value}", "give a mesh of some thousand elements"),
     "mesh-not-finite": ("node {value} has no finite coordinates", "correct it"),
     "mesh-plane": ("is not plane", "give a mesh in the plane x, y or x, z"),
     "mesh-kind": (
@@ -227,7 +212,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "is required by the flexible model but missing",
         'add for example modulus = "20 GPa" under [concrete]',
     ),
-    "modulus-range": ("{value} is not the modulus of a solid", "give 1 MPa to 1e7 GPa"),
     "too-costly": ("takes about {value}, more than is allowed", "ask for less, or allow it by {allow}"),
     # decoupled chain, tables
     "crack-at-base": (
@@ -245,8 +229,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "unknown-figure": ("{value} is not a figure of this result", "choose {names}{near}"),
     "figure-nothing": ('has nothing to draw (outcome "{value}")', "draw a run that has started"),
-    "pandas-package": ("needs the package pandas, which is not installed", "pip install pandas"),
-    "figure-format": ("{value} does not end as a figure", "end it in .png, .svg or .pdf"),
     "output-step": ("{value} is not a step within the run", "give one above 0 s and up to {duration}"),
     "output-many": ("a step of {value} makes {count:.3g} moments", "give a step that makes up to {most:.3g}"),
     "unknown-model": ("{value} is not a model", "use {models}{near}"),
@@ -254,47 +236,35 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "{value} is not a field of a case or a study, a key of the JSON or a column{near}",
         "`heeltoe explain --all` lists all",
     ),
-    "app-package": ("needs the package {value}", 'install heeltoe with the extra "app"'),
     "app-public": (
         "{value} can be reached from other machines",
         "add --public, which lets those in that have its token, or leave --host out",
     ),
     "app-address": ("the app cannot listen at {value} ({reason})", "give another, or leave it out"),
-    "unknown-units": ("{value} is not a system of units", "use si or us"),
     "block-number": ("{value} is out of range for a block", "give {bounds}"),
     "blocks-shape": ("{value} is not a table of blocks", "give blocks, cases, or numbers of shape (n, {columns})"),
     "blocks-many": ("{value} for {count} blocks", "give one for each of them"),
     "column-unknown": ("cannot be a column", "give single cases; columns are {columns}"),
     "blocks-scale": ("{value} is not a factor", "give finite numbers"),
     "blocks-motion": ("{value} is not one of the motions", "give {bounds}"),
-    "blocks-limit": ("{value} is out of range", "give {bounds}"),
     "spread-runs": ("{value} is not a valid number of runs", "give {fewest} to {most}, or none for {usual}"),
     "no-first-mode": (
         "needs a first mode, and the crest of the dam has no clear peak: concrete, water and rock damp it too much",
         "look at heeltoe periods --response, or run the earthquake",
     ),
-    "period-count": ("{value} periods are not supported", "give 1 to {most}"),
-    "report-package": ("needs the package {value}, which is not installed", "pip install jinja2 typst"),
     "report-package-broken": (
         "needs the package {value}, which does not work here ({reason})",
         "give the program more memory, or install the package anew",
     ),
-    "workbook-package": ("needs the package {value}, which is not installed", "pip install xlsxwriter"),
-    "report-kind": ("{value} is not a kind of report", "use pdf or html"),
     "vtk-without-out": ("needs a directory", "add --out DIR"),
     "vtk-rigid": ("shows elastic parts, which a rigid block does not have", "use --model flexible or both"),
-    "pulse-kind": ("{value} is not a pulse", "choose sine, half-sine or cosine"),
-    "pulse-count": ("{value} is not a valid number of pulses", "give 2 to {most}"),
     "pulse-unstable": (
         "the dam does not even stand without a pulse",
         "give it less water, less uplift or more friction",
     ),
-    "animation-ending": ("{value} does not end as an animation", "end it in .mp4, .gif or .html"),
-    "animation-range": ("{value} is out of range", "give a number from {low} to {high}"),
     "animation-window": ("nothing happens from {value}", "give a time from {begin} to {finish}"),
     "animation-frames": ("{value} frames are too many", "show less, or faster; {most} are possible"),
     "animation-nothing": ('has no histories (outcome "{value}")', "show a run that has started"),
-    "animation-package": ("videos need the package imageio-ffmpeg", "pip install imageio-ffmpeg"),
     "file-not-sent": ("{value} has not been sent", "send it with the case file, or name a record of the catalogue"),
     "record-missing": ("is required but missing", "give a file or a name, or --list"),
     "file-exists": ("already exists", "give another name, or remove it first"),
@@ -302,7 +272,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "no-file": ("{value} does not name a file", "give the path of a file"),
     "problems-more": ("{value} more things in it are wrong", "correct those above first"),
     "not-ours": (
-        "{value} is there, and no earlier run listed it as its own",
+        "{value} exists and was not written by heeltoe",
         "give another directory, or empty this one (an older heeltoe listed nothing)",
     ),
     "left-over": (
@@ -322,16 +292,29 @@ CATALOGUE: dict[str, tuple[str, str]] = {
 }
 
 
-def expect(value: object, kind: type, code: str, field: str) -> None:
-    """Refuse what is of another kind than a public function takes.
+#: Arguments of public functions, and what makes them.
+_SOURCES = {
+    "a case": "the result of heeltoe.read_case",
+    "a response": "the result of heeltoe.run, rigid, decoupled or flexible",
+    "static checks": "the result of heeltoe.statics_of_sections",
+    "a ground motion": "the result of heeltoe.read_record",
+    "a list": "a list, even of one",
+}
+#: Command that installs the packages of studies.
+STUDY_PACKAGES = "pip install dask distributed duckdb pandas xarray"
+
+
+def expect(value: object, kind: type, expected: str, field: str) -> None:
+    """Refuse an argument of a public function that is not of a kind; `expected` is a key of the sources above.
 
     Raises
     ------
     InputError
-        With the code, for the field.
+        For the field.
     """
     if not isinstance(value, kind):
-        raise InputError(code, field, kind=type(value).__name__)
+        source = _SOURCES[expected]
+        raise InputError("wrong-kind", field, kind=type(value).__name__, expected=expected, source=source)
 
 
 def shown(value: object) -> str:
@@ -379,7 +362,7 @@ class InputError(HeeltoeError):
         super().__init__(str(self))
 
     def with_others(self, others: Iterable[InputError]) -> InputError:
-        """Return the same with what else is wrong, which Python shows below it."""
+        """Return the same error with other ones, which Python shows below it."""
         for other in others:
             self.others += (other,)
             self.add_note(str(other))
@@ -394,4 +377,4 @@ class InputError(HeeltoeError):
 
 
 class UnfinishedError(InputError):
-    """A run that what surrounds it has ended, with what was lost and how to go on: the input is not at fault."""
+    """A run that was ended from outside, with the loss and the way to continue; the input is not at fault."""

@@ -1,11 +1,9 @@
-"""What can be wrong with the file of a record: a part of the catalogue of errors (:mod:`heeltoe.errors.error`)."""
+"""Errors of the file of a record: a part of the catalogue (:mod:`heeltoe.errors.error`)."""
 
 from __future__ import annotations
 
 # As in heeltoe.errors.error: code -> (what is wrong, what to do).
 OF_RECORDS: dict[str, tuple[str, str]] = {
-    "record-unreadable": ("cannot be read ({reason})", "give the path of a record"),
-    "record-large": ("has {value}, more than any record", "give a file with one record"),
     "record-empty": ("is empty", "give a file with a record"),
     "record-binary": ("is not a text file", "give the record as text"),
     "record-format": (
@@ -23,6 +21,11 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
         "its header has the factor {value}, and does not say whether the values contain it",
         "say in {factor_field} what they are multiplied by: this factor, 1 over it, or 1 where they contain it",
     ),
+    "record-factor-of-several": (
+        "its header has the factor {value}, and does not say whether the values contain it",
+        'say in {factor_field} "multiply" where they are still to be multiplied by it, "divide" where it is a '
+        'sensitivity, or "contain" where they contain it',
+    ),
     "record-factor-none": ("{value} is given, and the header of {name} has no factor", "remove it"),
     "record-factor-other": (
         "{value} is neither 1 nor what the header of {name} states, {stated}",
@@ -38,7 +41,7 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
     ),
     "record-layout": (
         "states {value} values, has {rows} rows of {width}, and does not say clearly how they run",
-        'say motion.layout = "rows" where they run along the rows, or "columns", or correct the number or the names',
+        'say in {layout_field} "rows" where they run along the rows, or "columns", or correct the number or the names',
     ),
     "record-layout-time": (
         "{value} makes values of the times that the first column of {name} has",
@@ -46,7 +49,7 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
     ),
     "record-time-column": (
         "has two columns, of which the first is no time: it goes back, or has unequal steps without a name",
-        "name the columns, as in `time [s], acceleration [g]`, or say motion.layout",
+        "name the columns, as in `time [s], acceleration [g]`, or say in {layout_field} how they run",
     ),
     "record-steps-stated": (
         "states two time steps, {value} and {other}",
@@ -78,8 +81,8 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
     ),
     "record-columns": (
         "has {value} columns of numbers, and no line above them that names each",
-        'name them there, as in `time [s], NS [g], EW [g]`, or say motion.layout = "rows" where one series runs along '
-        "the rows",
+        'name them there, as in `time [s], NS [g], EW [g]`, or say in {layout_field} "rows" where one series runs '
+        "along the rows",
     ),
     "record-counts-samples": (
         "its first column counts the samples and is no time",
@@ -87,15 +90,15 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
     ),
     "record-uncorrected": (
         "{name} is uncorrected: {why}",
-        "correct it by motion.processing, by a band-pass from some 0.1 Hz or a baseline, or give the corrected record",
+        "correct it by {processing_field}, by a band-pass from some 0.1 Hz or a baseline, or give the corrected record",
     ),
     "motion-fast": (
         "{name} moves the ground at {value} or by {displacement}, more than {limit} or {farthest}: no earthquake does",
-        "check its time step and its unit, or take its drift out by motion.processing (baseline or band-pass)",
+        "check its time step and its unit, or take its drift out by {processing_field} (baseline or band-pass)",
     ),
     "motion-gravity": (
         "{name} rests at {value}: gravity is in it, as its sensor feels it",
-        "take it out by motion.processing, by a band-pass from some 0.1 Hz, or give the corrected record",
+        "take it out by {processing_field}, by a band-pass from some 0.1 Hz, or give the corrected record",
     ),
     "motion-one": ("is of one motion, and here are {value}", "give one file, or choose one by --channel"),
     "target-form": (
@@ -107,13 +110,18 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
         "write period [s], period [ms] or frequency [Hz] above it",
     ),
     "target-unit": ("does not state the unit of its accelerations", "say it above them, as in # period [s], Sa [g]"),
+    "target-spread": ("is a table of standard deviations, and no spectrum", "give the mean spectrum"),
+    "target-several": ("holds several spectra ({value})", "choose one, as in {example}"),
+    "target-level": (
+        "its value at the period that it is conditional on, {value}, is not the level that its header states, {stated}",
+        "export it anew, with OpenQuake 3.17 or later",
+    ),
     "record-workbook": (
         "is a workbook of a spreadsheet program, which is not read",
         "save the sheet with the record as CSV, or as text with tabs, and give that",
     ),
     "record-archive": ("is an archive that cannot be read ({reason})", "unpack it and give the record"),
     "record-archive-empty": ("holds no record that can be read", "give an archive of records"),
-    "record-package": ("needs the package obspy, which is not installed", "pip install obspy"),
     "record-response": (
         "is in counts, and the sensitivity of its instrument is not known ({reason})",
         "put its StationXML beside it as {value}, or both into one zip",

@@ -16,15 +16,10 @@ OF_STATICS: dict[str, tuple[str, str]] = {
         "leave the ice out, or lower the water",
     ),
     # criteria of a user's own
-    "criteria-file-missing": ("there is no such file", "give the path of criteria in TOML, relative to the case file"),
-    "criteria-table": ("there is no such check", "write one of {known}"),
-    "criteria-loads": ("there is no such case of loads", "write one of {known}"),
     "criteria-number": ("{value} is not a number above 0 and up to {most}", "give one"),
     "criteria-empty": ("{value} sets no criteria", "add a table, for example [sliding] with usual = 1.5"),
     # sections
     "section-misfit": ("at {value} the case does not fit: {reason}", "change that, or leave this section out"),
-    "earthquakes-twice": ("{value} is listed twice", "give each earthquake a name of its own"),
-    "sections-twice": ("{value} is listed twice", "name each elevation once"),
     "earthquake-rarity": (
         "{value} does not say whether the earthquake is an unusual or an extreme load",
         'add rarity = "unusual", as of an operating basis earthquake (OBE), or "extreme", as of a maximum design, '

@@ -6,21 +6,18 @@ from __future__ import annotations
 OF_STUDIES: dict[str, tuple[str, str]] = {
     # the option --vary
     "vary-form": ("{value} does not vary a field", "write PATH=VALUE,VALUE, for example crack.friction=0.8,1.0,1.2"),
-    "vary-twice": ("{value} is varied twice", "give all its values at once"),
     "vary-many": (
         "{value} runs are too many for a table",
         "vary less: up to {most} runs, or write a study file for `heeltoe study`",
     ),
     "vary-option": ("goes with one run, not with a table of runs", "leave it out, or --vary"),
     # study files and their directories
-    "study-file-missing": ("there is no such file", "give the path of a study file; `heeltoe examples` writes some"),
-    "distribution-incomplete": ("is required but missing", "the distribution {distribution} needs it"),
-    "distribution-foreign": ("does not belong to the distribution {distribution}", "that has {fields}"),
+    "levels-option": ("goes with one suite, not with one for each level", "write it into the file of the levels"),
     "distribution-order": ("{value} is not above {lowest}", "give the lower number first"),
     "distribution-mode": ("{value} is not between the lowest and the highest value", "give one that is"),
     "distribution-spread": ("{value} is not a spread", "give more than 0"),
     "study-not-a-number": ("holds no number, so that {value} cannot be drawn", "give a list of its values"),
-    "study-twice": ("{value} names something twice", "name each value once"),
+    "study-said-by-records": ("{value} is not needed: each record says this itself", "remove it"),
     "study-count": (
         "{value} is a distribution, of which this method takes equally likely values",
         "say how many: count = 5",
@@ -65,27 +62,25 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
         "start some: `dask worker {value}`, or leave --scheduler out",
     ),
     "study-no-runs": ("has no runs yet", "run the study: `heeltoe study FILE --out DIR --resume`"),
+    "study-left": (
+        "{value} runs of {count} are there, too few for an answer that needs the place of each",
+        "run the rest: `heeltoe study FILE --out DIR --resume`",
+    ),
     "study-no-grid": ("a study by {value} has no axes of a grid", "take to_pandas"),
-    "study-no-answer": ("a study by {value} has no such answer", 'run one with method = "{method}"'),
-    "study-measure": ("{value} is not a measure of its motions", "known are {known}"),
+    "study-no-answer": ("a study by {value} does not compute this", 'run one with method = "{method}"'),
     "study-no-fragility": ("the study asks for no curves", "say the limits under [fragility]"),
     "study-no-crest": (
         "the {value} model does not say how the crest moves",
         "leave out the model, or limits on the crest in the case and under [fragility]",
     ),
-    "study-package": (
-        "needs the package {value}, which is not installed",
-        "pip install dask distributed duckdb pandas xarray",
-    ),
     "study-lost": (
         "the scheduler or all of its workers are gone ({reason}); the runs that are done stay in {value}",
-        "start them again, and go on by --resume",
+        "start them again, and continue with --resume",
     ),
     "study-scheduler": (
         "there is no scheduler at {value} ({reason})",
         "start one with `dask scheduler`, or leave it out",
     ),
-    "study-scenario-count": ("{value} is not a valid number of motions", "give 1 to {most}"),
     # hazard curves
     "hazard-order": (
         "{value} are not ascending strengths above zero",
@@ -95,8 +90,8 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
         "{value} are not falling rates above zero",
         "give for each strength how often a year it is exceeded",
     ),
-    "hazard-unreadable": ("{value} cannot be read ({reason})", "give a CSV file, relative to the study file"),
     "hazard-header": ("has no header with a unit", "write it above the columns: pga [g], annual rate"),
+    "heading-logarithm": ("the heading {value} speaks of a logarithm", "give the numbers themselves"),
     "hazard-heading": (
         "{value} does not say what the second column holds",
         "write above it: annual rate, return period [years], or probability in 50 years (with % for per cent)",
@@ -109,8 +104,6 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
     "hazard-row": ("{value} is not a strength with an annual rate", "give two numbers"),
     # tables of dams
     "study-no-dams": ("the study has no table of dams", 'give one in its file: cases = "dams.csv"'),
-    "dams-missing": ("there is no file {value}", "give the CSV file of the dams, relative to the study file"),
-    "dams-unreadable": ("{value} cannot be read ({reason})", "give a CSV file in UTF-8"),
     "dams-empty": ("{value} has no dams", "write a header with fields, and a row for each dam"),
     "dams-row": ("has {value} cells, the header {count}", "give each dam as many cells as the header has"),
     "dams-name": ("{value} is the name of {count} dams", "give each dam a name of its own"),

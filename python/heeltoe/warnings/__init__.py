@@ -1,1 +1,1 @@
-"""What a reader of a result must know: every warning once, with how grave it is."""
+"""Warnings for readers of a result: each once, with its severity."""

@@ -1,4 +1,4 @@
-"""What cracks and motions that follow each other make a reader know; see :mod:`heeltoe.warnings.notice`."""
+"""Warnings of cracks and of motions in sequence; see :mod:`heeltoe.warnings.notice`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is suspicious about a case, its motion or a record, and what of it has no effect.
+"""Warnings of unlikely or unused input: the case, its motion, a record.
 
 The part of the catalogue of warnings (:mod:`heeltoe.warnings.notice`) that needs no run.
 """
@@ -14,6 +14,8 @@ with care. ``"grave"``: some number is not what it seems, or the dam does not ho
 # As in heeltoe.warnings.notice: code -> (how grave, field of the case, sentence).
 OF_INPUT: dict[str, tuple[Severity, str, str]] = {
     # case
+    "value-unusual": ("caution", "", "{field}: {value}"),
+    "below-crack": ("note", "", "{field}: it {ends} below the crack, {effect}"),
     "section-drawn": (
         "note",
         "section",
@@ -51,44 +53,11 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "{field}: with {efficiency:g} the head at the drains is higher than without drains: drains without effect are "
         'uplift.pattern = "triangular"',
     ),
-    "gravity-unusual": (
-        "caution",
-        "gravity",
-        "{field}: {gravity_m_s2:.4g m/s^2} is not that of the earth, {earth_m_s2:.4g m/s^2}: check its unit",
-    ),
-    "water-density-unusual": (
-        "caution",
-        "reservoir.density",
-        "{field}: {density_kg_m3:g kg/m^3} is unusual for water",
-    ),
-    "height-unusual": ("caution", "section.height", "{field}: {height_m:.3g m} is unusual for a dam: check its unit"),
-    "damping-unusual": (
-        "caution",
-        "concrete.damping",
-        "{field}: {damping:.2g %} is more than a dam has on its rock: a ratio of 5 % is 0.05",
-    ),
-    "peak-unusual": (
-        "caution",
-        "motion.pga",
-        "{field}: {peak_g:.2g g} is hardly felt by a dam: check its unit",
-    ),
-    "density-unusual": ("caution", "concrete.density", "{field}: {density_kg_m3:g kg/m^3} is unusual for concrete"),
     "water-over-crest": (
         "caution",
         "reservoir.depth",
         "{field}: the water stands {over_m:.3g m} above the crest; it presses on the faces as still water does and on "
         'the crest by reservoir.nappe = "{nappe}", without what its flow changes',
-    ),
-    "reservoir-below-crack": (
-        "note",
-        "reservoir",
-        "{field}: it ends below the crack, so that no water presses on the part above or in the crack",
-    ),
-    "ice-below-crack": ("note", "ice", "{field}: it acts below the crack, so that it does not act on the part above"),
-    "silt-below-crack": (
-        "note",
-        "silt",
-        "{field}: it ends below the crack, so that it does not act on the part above",
     ),
     "silt-above-water": (
         "caution",
@@ -100,15 +69,10 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "silt",
         "{field}: {densities_kg_m3:g kg/m^3} seem to include the water, which is counted separately",
     ),
-    "tailwater-below-crack": (
-        "note",
-        "tailwater",
-        "{field}: it ends below the crack, so that none of it presses on the part above or in the crack",
-    ),
     "tailwater-deeper": ("note", "tailwater.depth", "{field}: the water is deeper downstream than upstream"),
     # fields that change nothing
     "fields-unused": ("note", "", "no effect in {readers}: {fields}"),
-    "fields-idle": ("note", "", "no effect of {fields}: {why}"),
+    "fields-idle": ("note", "", "{fields}: no effect, because {why}"),
     "rotation-unused": (
         "note",
         "analysis.rotation",
@@ -227,6 +191,11 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "motion.vertical",
         "{field}: a motion given beside the case comes without it, as it was recorded with another one",
     ),
+    "cross-valley-not-given": (
+        "caution",
+        "motion.cross_valley",
+        "{field}: a motion given beside the case comes without it: the run has no shaking across the valley",
+    ),
     "aftershocks-left-out": (
         "caution",
         "aftershocks",
@@ -247,20 +216,8 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "{name} states a step of {step_s:g s}, {values:g} values and {duration_s:g s}: check it",
     ),
     "record-channels": ("caution", "", "{name} opens {opened:d} channels and has accelerations of {found:d}"),
-    "record-breaks-off": (
-        "caution",
-        "",
-        "{name} breaks off before its end: what comes behind this channel, other channels too, is missing",
-    ),
-    "record-borehole": (
-        "caution",
-        "",
-        "{name} was recorded in a borehole: it is a motion within the ground, with what the surface above throws back "
-        "in it; an analysis takes it for that of the surface of the rock",
-    ),
+    "record-doubtful": ("caution", "", "{name} {doubt}"),
     "record-reader-warns": ("caution", "", "{name}: its reader warns: {text}"),
-    "record-torn": ("caution", "", "{name} ends in the middle of a number: its last value may be wrong"),
-    "record-flagged": ("caution", "", "{name} flags a problem with its data: see the comments in it"),
     "record-uncorrected": (
         "caution",
         "motion.processing",

@@ -1,4 +1,4 @@
-"""What a reader of static checks must know; see :mod:`heeltoe.warnings.notice`."""
+"""Warnings of static checks; see :mod:`heeltoe.warnings.notice`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ OF_STATICS: dict[str, tuple[Severity, str, str]] = {
     "slip-untold": (
         "grave",
         "statics.residual_slip",
-        'post-seismic: the {model} model ends "{outcome}", with no slip to trust: zero is taken, so that what is said '
+        'post-seismic: the {model} model ends "{outcome}", with no slip to trust: zero is taken, so that a statement '
         "of the dam after the earthquake holds only if it has not moved",
     ),
     "crack-opens-statically": (
