@@ -19,6 +19,7 @@ from heeltoe import (
 )
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.surroundings.lowest_modes import first_period
+from heeltoe.models.flexible.surroundings.rock import ENOUGH
 from heeltoe.study.plan.plan import plan_of
 from shared.dams import BASE, COARSE, EXAMPLES, FAST, HEIGHT
 
@@ -116,7 +117,8 @@ def test_the_word_gives_way_to_the_fields_of_a_block():
 
 
 def test_other_rock_is_tried_and_said():
-    """The runs beside the result are those of cases that say so."""
+    """The runs beside the result are those of cases that say so: on the rigid plane to the last digits; on rock, which
+    takes the shapes of the assumed one, within the error that each of both reductions may leave."""
     case = read_case(SMALL | {"flexible": {"elements_across": 2, "evidence": "step"}})
     response = flexible(case)
     assumed = response.assumed_rock
@@ -124,10 +126,10 @@ def test_other_rock_is_tried_and_said():
     plain = case.with_("flexible.evidence=none")
     others = [plain.with_(f"rock.modulus={modulus}") for modulus in ("12.5GPa", "50GPa")]
     others.append(plain.with_("rock=rigid", "reservoir.compressible=false"))
-    for trial, other in zip(assumed.trials, others, strict=True):
+    for trial, other, off in zip(assumed.trials, others, (2.0 * ENOUGH, 2.0 * ENOUGH, 1e-9), strict=True):
         alone = flexible(other)
         assert trial.outcome == alone.outcome
-        assert trial.residual_slip_m == pytest.approx(alone.residual_slip_m, rel=1e-9)
+        assert trial.residual_slip_m == pytest.approx(alone.residual_slip_m, rel=off)
     said = verdict(response)
     assert "rock as stiff as the concrete (25 GPa) is assumed; with half and twice its modulus the dam" in said
     assert f"{1000.0 * abs(assumed.trials[2].residual_slip_m):.1f} mm" in said

@@ -246,7 +246,7 @@ def test_modulus_missing():
 
 @pytest.mark.parametrize("modulus", ["20 kPa", "1e8 GPa"])
 def test_absurd_modulus(modulus):
-    with pytest.raises(InputError, match=r"concrete\.modulus: .* is not the modulus of a solid; give 1 MPa to 1e7 GPa"):
+    with pytest.raises(InputError, match=r"concrete\.modulus: .* is out of range; give a value from 1 MPa to 1e7 GPa"):
         built(TYPICAL, concrete={"modulus": modulus})
 
 

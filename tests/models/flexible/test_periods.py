@@ -66,7 +66,7 @@ def test_json_and_damping():
 def test_counts_that_are_none(count):
     with pytest.raises(InputError) as refused:
         dam_periods(plane_case(TOWER), count)
-    assert refused.value.code == "period-count"
+    assert refused.value.code == "out-of-range"
 
 
 def test_a_dam_without_a_modulus():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import NamedTuple
@@ -22,6 +22,7 @@ from heeltoe.models.flexible.body.cost import check_cost
 from heeltoe.models.flexible.body.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.models.flexible.evidence.growth import self_excitation
 from heeltoe.models.flexible.evidence.refinement import Answer, answer, build_ahead
+from heeltoe.models.flexible.evidence.trials import LARGER
 from heeltoe.models.flexible.result.envelope import envelope_of
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.models.flexible.result.tables import crack_responses, crest_of, dam_numbers, energy_of, histories_of_cracks
@@ -123,7 +124,8 @@ def run_flexible(
 
 def assumed_rock(case: Case, block: Block, earthquake: Earthquake, frame_step: float, leads: int) -> AssumedRock | None:
     """Return the rock that is assumed below a dam, and how far the crack that leads slips on other rock; None where the
-    case says which rock it is."""
+    case says which rock it is. Softer rock takes its shapes from that of the evidence that answers well up to a
+    higher frequency, stiffer rock from the assumed one."""
     rock = case.foundation
     if rock is None or not case.surroundings.assumed:
         return None
@@ -133,8 +135,12 @@ def assumed_rock(case: Case, block: Block, earthquake: Earthquake, frame_step: f
     ending = Ending()
 
     def trial(modulus: float | None) -> RockTrial:
-        other = case.on_rigid_plane() if modulus is None else case.on_rock(modulus)
-        dam = build_flexible_dam(other)
+        if modulus is None:
+            other = case.on_rigid_plane()
+            dam = build_flexible_dam(other)
+        else:
+            other = case.on_rock(modulus)
+            dam = build_flexible_dam(other, LARGER if modulus < rock.modulus else 1.0, rock.modulus)
         rested = run_until_rest(other, dam, block, earthquake, frame_step, stresses=False, ending=ending)
         slip = rested.run.summaries[leads].slip if rested.outcome.has_result else None
         return RockTrial(modulus_pa=modulus, outcome=rested.outcome, residual_slip_m=slip)
@@ -335,6 +341,39 @@ def rest_both_ways(case: Case, earthquake: Earthquake, output_step: float | None
             ending.ask()
             pool.shutdown()
             pass_notes(ways, error)
+            raise
+
+
+def rest_each(
+    cases: Mapping[str, Case], shakings: Mapping[str, Earthquake], output_step: float | None
+) -> dict[str, list[SignNumbers]]:
+    """Run dams that differ in friction alone until they are at rest, without evidence, side by side, and return what
+    each does in each of the earthquakes, which are named by the sign of the motion.
+
+    Raises
+    ------
+    InputError
+        As :func:`run_until_rest`.
+    """
+    ending = Ending()
+
+    def run(case: Case, sign: str) -> SignNumbers:
+        shaking = shakings[sign]
+        frame_step = frame_step_of(shaking.end, output_step)
+        dam, block = build_flexible_dam(case), build_block(case)
+        rested = run_until_rest(case, dam, block, shaking, frame_step, stresses=False, ending=ending)
+        return rested.sign_numbers(case, sign)
+
+    for case in cases.values():
+        check(case, "flexible")
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        ways = {name: [pool.submit(run, case, sign) for sign in shakings] for name, case in cases.items()}
+        try:
+            return {name: [way.result() for way in each] for name, each in ways.items()}
+        except BaseException as error:
+            ending.ask()
+            pool.shutdown(cancel_futures=True)
+            pass_notes([way for each in ways.values() for way in each], error)
             raise
 
 

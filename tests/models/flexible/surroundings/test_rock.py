@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.sparse.linalg import splu
@@ -55,15 +58,7 @@ def test_table_of_the_half_plane():
 
 @pytest.mark.parametrize("frequency", [1.0, 2.0, 4.0, 7.0, 11.0, 15.0])
 def test_few_unknowns_answer_as_all_do(coarse, reduced, frequency):
-    full = coarse
-    omega = 2.0 * np.pi * frequency
-    tractions = smooth_tractions(BASE)[:, :4]
-    forces = np.zeros((full.mass.shape[0], 4))
-    forces[full.base] = tractions
-    exact = tractions.T @ full.body.response(1j * omega, forces)[full.base]
-    off = tractions.T @ reduced.compliance(omega, tractions) - exact
-    size = np.sqrt(np.abs(np.diag(exact)))
-    assert np.abs(off / np.outer(size, size)).max() < 0.03
+    _answers_as(coarse, reduced, frequency)
 
 
 @pytest.mark.slow
@@ -158,3 +153,26 @@ def test_materials_own_damping_is_the_ratio_at_its_frequency():
 def test_speeds_of_waves():
     assert ROCK.shear_speed == pytest.approx(np.sqrt(20e9 / 2.66 / 2650.0))
     assert ROCK.pressure_speed / ROCK.shear_speed == pytest.approx(np.sqrt(2.0 * 0.67 / 0.34))
+
+
+def test_stiffer_rock_has_the_same_shapes(coarse, reduced):
+    """All equations of the rock scale: stiffness with the modulus and what leaves with its root, in the finite elements
+    of rock of that modulus too, which carry waves up to a frequency that goes with the root; and those answer alike."""
+    factor = 2.0
+    full = full_rock(BASE, replace(ROCK, modulus=factor * ROCK.modulus), highest=math.sqrt(factor) * 15.0)
+    pairs = ((full.stiffness, coarse.stiffness, factor), (full.mass, coarse.mass, 1.0))
+    leaving = (full.damping_radiation, coarse.damping_radiation, math.sqrt(factor))
+    for matrix, other, by in (*pairs, leaving):
+        assert abs(matrix - by * other).max() <= 1e-12 * abs(matrix).max()
+    _answers_as(full, reduced.stiffer(factor), math.sqrt(factor) * 11.0)
+
+
+def _answers_as(full, reduced, frequency):
+    omega = 2.0 * np.pi * frequency
+    tractions = smooth_tractions(BASE)[:, :4]
+    forces = np.zeros((full.mass.shape[0], 4))
+    forces[full.base] = tractions
+    exact = tractions.T @ full.body.response(1j * omega, forces)[full.base]
+    off = tractions.T @ reduced.compliance(omega, tractions) - exact
+    size = np.sqrt(np.abs(np.diag(exact)))
+    assert np.abs(off / np.outer(size, size)).max() < 0.03

@@ -34,14 +34,14 @@ _FRICTION = {"friction", "static_friction", "kinetic_friction", "law", "bond"}
 _STRENGTH = {"tensile_strength", "dynamic_tension"}
 #: What a dam that is ready to be shaken does not depend on.
 NOT_OF_DAM: Any = _ANY | {
-    "crack": {"restitution"},
+    "crack": {"restitution", "rocking_loss", "band"},
     "further_cracks": {"__all__": {"restitution"}},
     "concrete": _STRENGTH,
     "flexible": set(_OF_RUNS),
 }
 #: What its modes do not depend on.
 NOT_OF_MODES: Any = _ANY | {
-    "crack": {"restitution", *_FRICTION},
+    "crack": {"restitution", "rocking_loss", "band", *_FRICTION},
     "further_cracks": {"__all__": {"restitution", *_FRICTION}},
     "concrete": {"damping", *_STRENGTH},
     "flexible": {*_OF_RUNS, "damping", "damping_on_water", "contact", "contactors"},

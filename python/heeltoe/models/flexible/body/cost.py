@@ -18,6 +18,7 @@ from heeltoe.case.dam import Rock, Water
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.mechanics.beam import band_of
+from heeltoe.models.cost import NOTHING, Cost, two_digits
 from heeltoe.models.flexible.body.modes import FIRST_KEPT
 from heeltoe.models.flexible.mesh.rows import ROWS
 
@@ -39,25 +40,8 @@ _SOLVING, _SOLVING_ALL, _KEPT, NUMBER = 8.5, 3.0, 2.5, 8.0
 _BESIDE = 2e6
 # A part that is lower has so many rows less, of each element across, for each of its heights over its widths.
 _FLAT, _FLATTEST = 1.5, 0.15
-_TIMES = ((86400.0, "days"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
 # A limit that is proposed, over what is estimated.
 _GENEROUS = 1.1
-
-
-@dataclass(frozen=True)
-class Cost:
-    """Time on one core [s] and memory [B]."""
-
-    seconds: float
-    memory: float
-
-    def __add__(self, other: Cost) -> Cost:
-        """Return what both cost, one after the other."""
-        return Cost(self.seconds + other.seconds, max(self.memory, other.memory))
-
-    def within(self, case: Case) -> bool:
-        """Whether a case allows that."""
-        return self.seconds <= case.analysis.time_limit and self.memory <= case.analysis.memory_limit
 
 
 @dataclass(frozen=True)
@@ -158,7 +142,7 @@ def _waters(case: Case) -> list[Water]:
     return [body for side, body in sides.items() if body is not None and case.has_sound(side) and body.depth > 0.0]
 
 
-def building(parts: Sequence[Part], surroundings: Cost = Cost(0.0, 0.0)) -> Cost:
+def building(parts: Sequence[Part], surroundings: Cost = NOTHING) -> Cost:
     """Return what the equations of a dam cost, with those of :func:`surroundings_of` it. One part is solved after the
     other, and what is around them after that."""
     costs = [part.cost for part in parts]
@@ -179,25 +163,14 @@ def check_cost(case: Case, cost: Cost, field: str | None = None) -> None:
         return
     limits = case.analysis
     more = [
-        f'{name} = "{_two(_GENEROUS * value / factor)} {unit}"'
+        f'{name} = "{two_digits(_GENEROUS * value / factor)} {unit}"'
         for name, value, limit, factor, unit in (
             ("analysis.time_limit", cost.seconds, limits.time_limit, 60.0, "min"),
             ("analysis.memory_limit", cost.memory, limits.memory_limit, 1e9, "GB"),
         )
         if value > limit
     ]
-    raise InputError("too-costly", field or _driver(case), shown_cost(cost), allow=" and ".join(more))
-
-
-def shown_cost(cost: Cost) -> str:
-    """Return a cost in words."""
-    factor, unit = next(item for item in _TIMES if cost.seconds >= 1.5 * item[0] or item[1] == "s")
-    return f"{_two(max(cost.seconds / factor, 1.0))} {unit} and {_two(max(cost.memory / 1e9, 0.1))} GB"
-
-
-def _two(value: float) -> str:
-    """Return a number with two digits that count."""
-    return f"{float(f'{value:.2g}'):.0f}" if 10.0 <= value < 1e6 else f"{value:.2g}"
+    raise InputError("too-costly", field or _driver(case), cost.shown(), allow=" and ".join(more))
 
 
 def _driver(case: Case) -> str:

@@ -322,7 +322,7 @@ def _elasticity(case: Case) -> Floats:
     if modulus is None:
         raise InputError("modulus-missing", "concrete.modulus")
     if not _SOFTEST <= modulus <= _STIFFEST:
-        raise InputError("modulus-range", "concrete.modulus", f"{modulus:g} Pa")
+        raise InputError("out-of-range", "concrete.modulus", f"{modulus:g} Pa", bound="from 1 MPa to 1e7 GPa")
     if case.flexible.plane == "strain":
         modulus, poisson = modulus / (1.0 - poisson**2), poisson / (1.0 - poisson)
     shear = (1.0 - poisson) / 2.0

@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 from heeltoe.case.model import Case
+from heeltoe.case.warnings import drawing_text
 from heeltoe.errors.error import InputError, expect
 from heeltoe.models.flexible.body.bonded import bonded_dam
 from heeltoe.models.flexible.body.modes import intact_periods, part_periods
@@ -27,7 +28,7 @@ class DamPeriods:
     Attributes
     ----------
     title
-        Of the case.
+        Title of the case.
     intact_dry, intact
         The whole dam, its crack bonded: without water, and with the virtual water that vibrates with it. Compressible
         water counts as that, too: with waves that leave, no modes are real.
@@ -50,6 +51,8 @@ class DamPeriods:
         Sentences on what of the case is simpler here.
     amplification
         How the crest answers by frequency, with and without rock and water; None where nobody asked.
+    drawing
+        Which outline of a drawing is the dam; empty where the section is not drawn.
     """
 
     title: str
@@ -66,6 +69,7 @@ class DamPeriods:
     nodes: tuple[int, ...]
     simplified: tuple[str, ...] = ()
     amplification: Amplification | None = None
+    drawing: str = ""
 
     @property
     def above(self) -> tuple[float, ...]:
@@ -85,6 +89,7 @@ class DamPeriods:
         """Return plain numbers, strings and lists."""
         return {
             "title": self.title,
+            "drawing": self.drawing,
             "periods_s": {
                 "intact_dry": list(self.intact_dry),
                 "intact": list(self.intact),
@@ -124,9 +129,9 @@ def dam_periods(case: Case, count: int = COUNT, *, response: bool = False, field
     InputError
         Where the count, the modulus or the mesh cannot be used.
     """
-    expect(case, Case, "not-a-case", "case")
+    expect(case, Case, "a case", "case")
     if not 1 <= count <= _MOST:
-        raise InputError("period-count", field, count, most=_MOST)
+        raise InputError("out-of-range", field, count, bound=f"from 1 to {_MOST}")
     dam, massed = build_flexible_dam(case), bonded_dam(case.with_water_as_mass())
     elevations = tuple(crack.elevation for crack in case.cracks)
     names = _names(elevations, len(dam.modes))
@@ -146,6 +151,7 @@ def dam_periods(case: Case, count: int = COUNT, *, response: bool = False, field
         elements=tuple(len(body.mesh.elements) for body in dam.bodies),
         nodes=tuple(len(body.mesh.nodes) for body in dam.bodies),
         simplified=tuple(_simplified(case)),
+        drawing=drawing_text(case),
         amplification=crest_amplification(case) if response else None,
     )
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -148,7 +147,7 @@ class FlexibleDam(BondedDam):
         counts = " and ".join(f"{len(body.mesh.nodes)} nodes in {modes.shapes.shape[1]} modes" for body, modes in parts)
         return f"<FlexibleDam: {counts}; first period {self.periods[0]:.4g} s>"
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, object]:
         """Return what is kept of a dam: the kernel's own copy can be made again."""
         return {name: value for name, value in vars(self).items() if name != "kernel"}
 
@@ -184,28 +183,30 @@ _KEPT: Kept[FlexibleDam] = Kept(4)
 
 
 @one_blas_thread()
-def build_flexible_dam(case: Case, larger: float = 1.0) -> FlexibleDam:
+def build_flexible_dam(case: Case, larger: float = 1.0, shapes_of: float | None = None) -> FlexibleDam:
     """Mesh, assemble and reduce the parts of a case; the last few are kept, by all that they depend on. Rock and water
     with sound reach so many times `larger` as far as they need, and answer well up to so many times the frequency of
-    :func:`heeltoe.mechanics.beam.band_of`.
+    :func:`heeltoe.mechanics.beam.band_of`. The rock may take its shapes from rock of another modulus [Pa].
 
     Raises
     ------
     InputError
         Where the case has no modulus, or a mesh cannot be made or used.
     """
-    expect(case, Case, "not-a-case", "case")
-    return _KEPT.get((larger, case_key(case, NOT_OF_DAM)), lambda: _build(case, larger))
+    expect(case, Case, "a case", "case")
+    key = (larger, shapes_of, case_key(case, NOT_OF_DAM))
+    return _KEPT.get(key, lambda: _build(case, larger, shapes_of))
 
 
-def _build(case: Case, larger: float = 1.0) -> FlexibleDam:
+def _build(case: Case, larger: float = 1.0, shapes_of: float | None = None) -> FlexibleDam:
     bonded = bonded_dam(case)
     bodies, modes = bonded.bodies, bonded.modes
     sections = tuple(single_crack_case.cut for single_crack_case in case.single_crack_cases)
     damping = damping_of(case, bonded)
-    with beside(lambda: water_body(case, bodies, larger * band_of(case), longer=larger)) as water:
-        whole = founded(case, bonded, larger=larger)
-        rock = rock_body(case, bodies[-1], larger=larger)
+    band = larger * band_of(case if shapes_of is None else case.on_rock(shapes_of))
+    with beside(lambda: water_body(case, bodies, band, longer=larger)) as water:
+        whole = founded(case, bonded, larger=larger, shapes_of=shapes_of)
+        rock = rock_body(case, bodies[-1], larger=larger, shapes_of=shapes_of)
     reservoir = water.result()
     if rock is not None and case.foundation is not None and case.foundation.bears_uplift:
         last = len(sections) - 1

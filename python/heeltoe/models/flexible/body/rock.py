@@ -96,7 +96,7 @@ class Founded:
     error: float
 
 
-def founded(case: Case, bonded: BondedDam, *, larger: float = 1.0) -> Founded | None:
+def founded(case: Case, bonded: BondedDam, *, larger: float = 1.0, shapes_of: float | None = None) -> Founded | None:
     """Return a dam whose lowest part, below all cracks, is one body with the rock; None on a rigid plane, or where the
     dam is cracked at its base.
 
@@ -111,12 +111,14 @@ def founded(case: Case, bonded: BondedDam, *, larger: float = 1.0) -> Founded | 
         The dam on a rigid plane.
     larger
         Factor on the extent of the rock that is meshed, and on the band in which it answers well.
+    shapes_of
+        As that of :func:`rock_body`.
     """
     lowest, held = bonded.bodies[-1], bonded.modes[-1]
     if case.foundation is None or not lowest.mesh.fixed.size:
         return None
     nodes = base_nodes(lowest)
-    rock = _rock_below(lowest.mesh.nodes[nodes], case.foundation, larger, larger * band_of(case))
+    rock = _rock_below(lowest.mesh.nodes[nodes], case, larger, shapes_of)
     load = np.concatenate([body.load for body in bonded.bodies])
     # Of the whole dam, for the settlement, and of the part alone.
     every = base_shapes(bonded, load.size - lowest.load.size + dofs(nodes)) @ rock.shapes
@@ -145,7 +147,7 @@ def founded(case: Case, bonded: BondedDam, *, larger: float = 1.0) -> Founded | 
     )
 
 
-def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | None:
+def rock_body(case: Case, lowest: Body, *, larger: float = 1.0, shapes_of: float | None = None) -> RockBody | None:
     """Return the rock below the part of the dam that stands on it by a crack; None on a rigid plane, and where the dam
     is bonded to the rock.
 
@@ -157,6 +159,8 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
         The part above the crack at the base.
     larger
         Factor on the extent of the rock that is meshed, and on the band in which it answers well.
+    shapes_of
+        Modulus [Pa] of rock that is the same in all else, whose shapes this rock takes; its own where it is not given.
 
     Raises
     ------
@@ -176,20 +180,23 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0) -> RockBody | No
     ahead = [base[0] - (BEYOND - k / 2.0) * first for k in range(2 * BEYOND)]
     behind = [base[-1] + (k + 1) / 2.0 * last for k in range(2 * BEYOND)]
     points = np.vstack([*ahead, base, *behind])
-    reduced = _rock_below(points, case.foundation, larger, larger * band_of(case), beyond=2 * BEYOND)
+    reduced = _rock_below(points, case, larger, shapes_of, beyond=2 * BEYOND)
     count = reduced.omega_squared.size
     shapes = reduced.shapes.T.reshape(count, -1, 2).swapaxes(1, 2).reshape(count, -1)
     still = np.zeros(count)
     return RockBody(reduced.omega_squared, reduced.damping, np.ascontiguousarray(shapes), points, reduced.error, still)
 
 
-def _rock_below(points: Floats, rock: Rock, larger: float, highest: float, *, beyond: int = 0) -> ReducedRock:
-    """Return the rock below nodes (x, z), of which so many are `beyond` the heel, and beyond the toe, good up to the
-    `highest` frequency [Hz].
+def _rock_below(points: Floats, case: Case, larger: float, shapes_of: float | None, *, beyond: int = 0) -> ReducedRock:
+    """Return the rock of a case below nodes (x, z), of which so many are `beyond` the heel, and beyond the toe.
 
     The same rock lies below dams that differ in all else, and below the meshes of a dam, of which coarser ones tie its
-    base to fewer nodes."""
-    material, extent = rock_material(rock), larger * EXTENT
+    base to fewer nodes. Rock with the shapes of another modulus answers well up to a frequency that goes with the root
+    of its own."""
+    known = case if shapes_of is None else case.on_rock(shapes_of)
+    assert case.foundation is not None
+    assert known.foundation is not None
+    material, extent, highest = rock_material(known.foundation), larger * EXTENT, larger * band_of(known)
     inner = points[beyond : len(points) - beyond]
     finer = 2 ** halvings(len(inner) // 2)
     places = np.arange(finer * (len(inner) - 1) + 1) / finer
@@ -198,11 +205,13 @@ def _rock_below(points: Floats, rock: Rock, larger: float, highest: float, *, be
     # Meshes have the same places but for rounding.
     fine = float(f"{_SAME * np.ptp(base[:, 0]):.0e}")
     base = fine * np.round(base / fine)
-    rock_below = _KEPT.get(
+    below = _KEPT.get(
         (base.tobytes(), material, extent, highest),
         lambda: reduced_rock(base, material, highest=highest, extent=extent),
     )
-    return rock_below if finer == 1 else rock_below.followed(base, points)
+    if shapes_of is not None:
+        below = below.stiffer(case.foundation.modulus / shapes_of)
+    return below if finer == 1 else below.followed(base, points)
 
 
 def rock_material(rock: Rock) -> RockMaterial:

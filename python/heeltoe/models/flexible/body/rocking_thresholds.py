@@ -1,7 +1,7 @@
 """How far the crack of an elastic dam turns and opens while the dam only stands or slides.
 
 What the part above the crack does as a whole is told by the kernel, from what it stands on, how far it has turned and
-what of it slips (docs/flexible.md, "What the dam does"). What it has to turn and lift by, so that this is no elastic
+what of it slips (docs/flexible.md, "Motion of the dam"). What it has to turn and lift by, so that this is no elastic
 deformation any more, is worked out here.
 """
 

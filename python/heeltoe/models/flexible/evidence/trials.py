@@ -13,7 +13,8 @@ from heeltoe.base.arrays import Floats
 from heeltoe.base.beside import pass_notes
 from heeltoe.errors.error import InputError
 from heeltoe.kernel.dam import DAM_OUTCOMES, DamRun, Ending
-from heeltoe.models.flexible.body.cost import Cost, building, parts_of, surroundings_of
+from heeltoe.models.cost import Cost
+from heeltoe.models.flexible.body.cost import building, parts_of, surroundings_of
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import running, with_mesh
@@ -25,8 +26,8 @@ from heeltoe.result.outcome import Outcome, decide
 SOFTENING = "softening_length_m"
 #: Factors on the shaking: as it is, and up to 1 % either way.
 SCALES = (1.0, 0.99, 0.995, 1.005, 1.01)
-# Rock and water that reach farther do so by this factor, and answer well up to a frequency that is higher by it.
-_LARGER = 1.5
+#: Rock and water that reach farther do so by this factor, and answer well up to a frequency that is higher by it.
+LARGER = 1.5
 # Twice as many elements along the crack cost about so many times as much; half the step twice.
 _WORK_OF_MESH = 4.0
 
@@ -101,7 +102,7 @@ class Trials:
         if (mesh, larger) not in self._shaken:
             first = self._shaken[0, False]
             case = with_mesh(first.case, mesh)
-            dam = build_flexible_dam(case, _LARGER if larger else 1.0)
+            dam = build_flexible_dam(case, LARGER if larger else 1.0)
             self._shaken[mesh, larger] = replace(first, case=case, dam=dam)
         return self._shaken[mesh, larger]
 

@@ -204,7 +204,7 @@ def _check_ends(section: CutSection, *, grounded: bool) -> None:
 
 def _from_file(path: Path, section: CutSection, area: float, *, above: bool) -> BodyMesh:
     if not os.path.isfile(path):
-        raise InputError("mesh-missing", f"flexible.mesh_{'above' if above else 'below'}", path)
+        raise InputError("file-missing", f"flexible.mesh_{'above' if above else 'below'}", path, expected="a mesh")
     # Needs an optional package and is seldom used.
     from heeltoe.models.flexible.mesh.file import read_quadrilaterals
 

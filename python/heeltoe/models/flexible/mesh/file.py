@@ -18,6 +18,7 @@ from heeltoe.base.input_files import read_bounded
 from heeltoe.errors.error import InputError
 from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
 
+_EXPECTED = "a mesh in a format that meshio reads, for example .msh, .vtu or .inp"
 # Meshers write the boundary beside the body.
 _BOUNDARY = {"vertex", "line", "line3"}
 # More than a mesh of a section takes in any format; some files never end, as /dev/zero.
@@ -57,7 +58,9 @@ def read_quadrilaterals(path: Path) -> tuple[Floats, Integers]:
     kind, parts = blocks.popitem()
     elements = np.vstack(parts)
     if elements.min() < 0 or elements.max() >= len(mesh.points):
-        raise InputError("mesh-unreadable", name, reason="an element names a node that is not there")
+        raise InputError(
+            "source-unreadable", name, reason="an element names a node that is not there", expected=_EXPECTED
+        )
     nodes = _plane(np.asarray(mesh.points, dtype=np.float64), name)
     unused = np.setdiff1d(np.arange(len(nodes)), elements)
     if unused.size:
@@ -73,26 +76,30 @@ def _read(path: Path) -> Any:
     try:
         import meshio
     except ImportError:
-        raise InputError("mesh-package", str(path)) from None
+        raise InputError("package-missing", str(path), "meshio", install="pip install meshio") from None
     try:
         content = read_bounded(path, _LARGEST)
         # Ansys has files of the same ending.
         kind = "gmsh" if content.startswith(b"$MeshFormat") else None
         if len(content) > _LARGEST:
-            raise InputError("mesh-large", str(path), f"{_LARGEST // 10**6} MB")
+            raise InputError(
+                "too-large", str(path), f"{_LARGEST // 10**6} MB", expected="a mesh of some thousand elements"
+            )
         if re.search(rb"^\s*\*include", content, re.IGNORECASE | re.MULTILINE):
             raise InputError("mesh-include", str(path))
         # It is read once more, which a pipe does not bear.
         if not path.is_file():
-            raise InputError("mesh-unreadable", str(path), reason="it is not a file")
+            raise InputError("source-unreadable", str(path), reason="it is not a file", expected=_EXPECTED)
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             return meshio.read(path, kind)
     except SystemExit:  # this is how meshio ends when no reader for the ending knows the file
-        raise InputError("mesh-unreadable", str(path), reason="it is not what its ending says") from None
+        raise InputError(
+            "source-unreadable", str(path), reason="it is not what its ending says", expected=_EXPECTED
+        ) from None
     except InputError:
         raise
     except Exception as error:  # its readers fail in any way that Python knows
-        raise InputError("mesh-unreadable", str(path), reason=str(error).rstrip(".")) from None
+        raise InputError("source-unreadable", str(path), reason=str(error).rstrip("."), expected=_EXPECTED) from None
 
 
 def _plane(points: Floats, name: str) -> Floats:

@@ -27,9 +27,11 @@ from heeltoe.result.rest import LAST_S
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
-#: Where waves surround the dam the step goes with the dam, and is this part of that vibration: a small dam swings as
-#: fast as its waves, and similar dams have similar answers.
-_STEPS_AMONG_WAVES = 400.0
+#: Where waves surround the dam the step goes with the dam, and is this part of that vibration, at most the longest step
+#: times the first of them over it: a small dam swings as fast as its waves, and similar dams have similar answers.
+#: Where waves leave through damped rock, several cracks take the second and one crack the last; bonds, laws, penalties,
+#: and all where a vibration feeds itself more, keep the first.
+_STEPS_AMONG_WAVES = (400.0, 200.0, 100.0)
 #: What acts in the crack may ask for a shorter one, down to this.
 _SHORTEST_OF_ALL = 1e-5
 #: So closely the program's own step follows it, as from a sixteenth on the contact problem is next to singular; and so
@@ -42,13 +44,27 @@ _STRESS_STEP = 2e-3
 _FITS = 1e-9
 
 
-def usual_step(period: float, *, waves: bool = False) -> float:
-    """Return a step [s] that follows a part above the crack of this longest period [s]; with `waves` in rock or
-    water around the dam."""
-    if waves:
-        return float(np.clip(period / _STEPS_AMONG_WAVES, _SHORTEST_OF_ALL, _LONGEST_STEP))
+def usual_step(case: Case, period: float) -> float:
+    """Return a step [s] that follows a part above the crack of a case, of this longest period [s]."""
+    if wave_bodies(case):
+        steps = _STEPS_AMONG_WAVES[_smoothness(case)]
+        longest = _LONGEST_STEP * _STEPS_AMONG_WAVES[0] / steps
+        return float(np.clip(period / steps, _SHORTEST_OF_ALL, longest))
     shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
     return float(np.clip(period / _STEPS_PER_PERIOD, shortest, _LONGEST_STEP))
+
+
+def _smoothness(case: Case) -> int:
+    """Return which of :data:`_STEPS_AMONG_WAVES` follows what happens in the cracks of a case."""
+    rock = case.foundation
+    if rock is None or not rock.radiation or rock.massless or not rock.damping:
+        return 0
+    plain = case.flexible.contact == "coulomb" and case.uplift.during_shaking == "constant"
+    if not plain or any(
+        crack.bond is not None or crack.law is not None for crack in (case.crack, *case.further_cracks)
+    ):
+        return 0
+    return 1 if case.further_cracks else 2
 
 
 class Pauses(NamedTuple):
@@ -76,7 +92,7 @@ class ShakenDam:
         """
         period = self._period()
         stated = self.case.flexible.time_step
-        wanted = stated or usual_step(period, waves=wave_bodies(self.case) > 0)
+        wanted = stated or usual_step(self.case, period)
         step, field = longest_step(self.dam, self.case.flexible.theta, wanted)
         if step < (wanted if stated else _SHORTEST_OF_ALL):
             raise InputError("step-stiff", field, step=f"{step:.2g} s")
