@@ -45,7 +45,7 @@ def sizes_of(block):
     masses, moved, followed = (np.array([item, item, item * long]) for item in (mass, mass, weighed))
     forces = np.array([force, force, force * long])
     lengths, ones, coupling = np.full(3, long), np.ones(3), masses * [1.0, long, 1.0]
-    return np.concatenate([masses * [1.0, 1.0, long], lengths, forces, moved, followed, ones, coupling])
+    return np.concatenate([masses * [1.0, 1.0, long], lengths, forces, moved, followed, ones, coupling, [1.0]])
 
 
 def compare(case, columns, piece=3):

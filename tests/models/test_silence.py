@@ -77,14 +77,15 @@ def approximately(summary):
 @pytest.mark.parametrize("model", MODELS)
 def test_a_dam_that_still_slides_when_the_record_ends_goes_on_as_with_zeros_behind_it(model):
     function, path, changes = MODELS[model]
-    result = function(read_case(path, changes))
+    # On a rigid plane the moments of the largest tension and slip are those of steps of 0.2 ms in both runs.
+    result = function(plane_case(path, changes))
     assert result.silence_s > 0.0
     assert result.end_time_s == pytest.approx(2.1 + result.silence_s)
-    longer = read_case(path, [*changes, ENDS, f"motion.duration={2.1 + result.silence_s!r}s"])
+    longer = plane_case(path, [*changes, ENDS, f"motion.duration={2.1 + result.silence_s!r}s"])
     again = function(longer, padded(result.motion, result.silence_s))
     # The steps of an elastic dam differ in their last digit, as its record is longer.
     assert same(result, again) or (model == "flexible" and numbers(again) == approximately(numbers(result)))
-    cut = function(read_case(path, [*changes, ENDS]))
+    cut = function(plane_case(path, [*changes, ENDS]))
     assert cut.silence_s == 0.0
     assert abs(cut.residual_slip_m) < 0.97 * abs(result.residual_slip_m)
 
@@ -214,7 +215,7 @@ def test_many_runs_end_where_each_of_them_does():
     assert (quiet["end_time"] == 2.1).all()
     numbers = np.array([case.cut and rigid_many([case], [alone[0].motion])["slip"][0] for case in cases[:2]])
     assert batch["slip"][:2].tolist() == numbers.tolist()
-    with pytest.raises(InputError, match=r"^limits\.silence: nan is out of range; give 0 to 600 s$"):
+    with pytest.raises(InputError, match=r"^limits\.silence: nan is out of range; give a value from 0 to 600 s$"):
         rigid_many(cases, [alone[0].motion], limits=Limits(silence=math.nan))
 
 

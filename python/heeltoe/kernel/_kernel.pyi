@@ -177,6 +177,39 @@ class Roughness:
     highest: Final[float]
 
 @final
+class CrossingSummary:
+    """End, peaks and sums of a block across the valley, SI, per metre of dam; positive to the left bank.
+
+    ``path`` is the length of the slip's path, along and across together; ``side_impulse`` what the neighbours have
+    taken, ``time_at_side`` how long one of them held the block.
+    """
+
+    slip: Final[float]
+    slip_velocity: Final[float]
+    slip_min: Final[float]
+    slip_max: Final[float]
+    path: Final[float]
+    side_impulse: Final[float]
+    time_at_side: Final[float]
+    side_strikes: Final[float]
+
+    def by_name(self) -> dict[str, float]:
+        """Return the numbers by their names."""
+
+@final
+class Crossing:
+    """What a block did across the valley.
+
+    Attributes
+    ----------
+    kept
+        (k, 3) at the moments that were asked for: place [m], velocity [m/s] and friction [N/m], to the left bank.
+    """
+
+    kept: Final[Floats]
+    summary: Final[CrossingSummary]
+
+@final
 class BlockRun:
     """What a block did.
 
@@ -192,6 +225,8 @@ class BlockRun:
         What the crack has been through, where its friction goes by a law.
     rough
         What its asperities have been through, where it is rough.
+    crossing
+        What it did across the valley, where the ground shakes that way.
     exact
         Whether closed forms carry it from event to event, or the walk was integrated.
     outcome, final_mode
@@ -205,6 +240,7 @@ class BlockRun:
     anchors: Final[Floats | None]
     worn: Final[Worn | None]
     rough: Final[Roughness | None]
+    crossing: Final[Crossing | None]
 
     @property
     def exact(self) -> bool: ...
@@ -253,7 +289,7 @@ def run_rigid(
     Parameters
     ----------
     block
-        (21,) numbers in the order of ``BLOCK_FIELDS``.
+        (22,) numbers in the order of ``BLOCK_FIELDS``.
     time, horizontal, vertical
         (n,) moments in s, not decreasing, and ground accelerations in m/s2 (downstream, upward); linear between the
         moments, a repeated moment is a jump.
@@ -268,6 +304,32 @@ def run_rigid(
         Most events before the run stops with that outcome.
     jam
         Resolve a Painlevé paradox by a tangential impact instead of stopping there.
+    """
+
+def run_rigid_plane(
+    block: Floats,
+    across: Sequence[float],
+    time: Floats,
+    horizontal: Floats,
+    vertical: Floats | None,
+    cross: Floats,
+    output_times: Floats,
+    start: Sequence[Sequence[float]] | None,
+    settle: float,
+    event_limit: int,
+    jam: bool,
+) -> BlockRun:
+    """Run one block on a ground that shakes across the valley, too; friction is one circle.
+
+    Parameters
+    ----------
+    across
+        (3,) mass across the valley [kg/m] and the distances of the neighbours to the left and to the right [m],
+        infinite where there are none.
+    cross
+        (n,) acceleration of the ground to the left bank [m/s2].
+
+    The others are those of :func:`run_rigid`. A run in which a corner would lift ends as ``lifts across``.
     """
 
 def run_rigid_stack(
@@ -287,7 +349,7 @@ def run_rigid_stack(
     Parameters
     ----------
     lower, upper
-        (21,) numbers in the order of ``BLOCK_FIELDS``: of all above the lower crack as one block, and of what is above
+        (22,) numbers in the order of ``BLOCK_FIELDS``: of all above the lower crack as one block, and of what is above
         the upper one.
     place
         (3,) numbers in the order of ``PLACE_FIELDS``.
@@ -359,7 +421,7 @@ def run_rigid_many(
     threads: int,
     crest: tuple[Floats, Sequence[Floats], Floats] | None = None,
 ) -> dict[str, Floats]:
-    """Run (n, 21) blocks, each through the motion ``motion_of`` names with the accelerations times ``scales`` (n, 2).
+    """Run (n, 22) blocks, each through the motion ``motion_of`` names with the accelerations times ``scales`` (n, 2).
 
     ``threads`` of 0 means all cores. Returns (n,) arrays by the names of ``SUMMARY_FIELDS``, the same bits for
     any number of threads. ``crest`` says how far slip and gaps of each block move its crest (n, 3), at which moments of

@@ -36,7 +36,7 @@ SETTLE = 1e-7
 
 @dataclass(frozen=True, eq=False)
 class Varying:
-    """What changes as a block moves.
+    """Properties that change as a block moves.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class Varying:
 
 @dataclass(frozen=True)
 class Limits:
-    """What ends bouncing and runs.
+    """Limits that end bouncing and runs.
 
     Attributes
     ----------
@@ -115,13 +115,14 @@ def run_block(
     start: Sequence[Sequence[float]] | None = None,
     varying: Varying | None = None,
     worn: tuple[float, bool] | None = None,
+    across: tuple[float, float, float] | None = None,
 ) -> BlockRun:
     """Run one block through one motion: exactly from event to event, or by integration where something varies.
 
     Parameters
     ----------
     block
-        (21,) numbers in the order of :data:`BLOCK`.
+        (22,) numbers in the order of :data:`BLOCK`.
     shaking
         The ground's motion; a rotation of the ground is felt by integration alone.
     moments
@@ -135,9 +136,15 @@ def run_block(
         What changes as it moves, where anything does.
     worn
         How far a crack whose friction goes by a law has slipped [m] and whether its bond is whole, where it is not new.
+    across
+        Mass that moves across the valley [kg/m] and how far the neighbours to the left and to the right are [m], where
+        the ground shakes that way; nothing varies then.
     """
     time, horizontal, up = shaking.time, shaking.horizontal, shaking.up
     settle, most, jam = limits.settle, limits.event_limit, limits.jam
+    if across is not None and shaking.cross is not None:
+        cross = shaking.cross
+        return _kernel.run_rigid_plane(block, across, time, horizontal, up, cross, moments, start, settle, most, jam)
     if varying is None:
         return _kernel.run_rigid(block, time, horizontal, up, moments, start, settle, most, jam)
     return _kernel.run_rigid_varying(
@@ -172,7 +179,7 @@ def run_blocks(
     threads: int = 0,
     crest: tuple[Floats, Sequence[Floats], Floats] | None = None,
 ) -> dict[str, Floats]:
-    """Run (n, 21) blocks, each through the motion that `which` names, times `scales` (n, 2), horizontal and vertical.
+    """Run (n, 22) blocks, each through the motion that `which` names, times `scales` (n, 2), horizontal and vertical.
 
     `threads` of 0 means all cores; the numbers, (n,) by name, are the same bits for any number of them. Where `crest`
     says how far slip, heel gap and toe gap of each block move a crest (n, 3), at which moments of each motion it is
@@ -193,7 +200,7 @@ def run_stack(
     Parameters
     ----------
     blocks
-        (21,) numbers in the order of :data:`BLOCK`: all above the lower crack as one block, and
+        (22,) numbers in the order of :data:`BLOCK`: all above the lower crack as one block, and
         what is above the upper one.
     place
         (3,) where the upper block is, see :func:`heeltoe.models.rigid.stack.place_of`.

@@ -1,4 +1,4 @@
-"""What kernels get of the ground's motion, and oscillators shaken by it."""
+"""The ground's motion as kernels take it, and oscillators shaken by it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from heeltoe.kernel import _kernel
 
 @dataclass(frozen=True, eq=False)
 class Shaking:
-    """What a kernel gets of the ground's motion: (n,) each, or None where there is none.
+    """The ground's motion for a kernel: (n,) each, or None without it.
 
     Attributes
     ----------
@@ -22,6 +22,8 @@ class Shaking:
         Accelerations downstream and upward [m/s2], straight between the moments.
     turning
         Rotational acceleration about the middle of the crack, counter-clockwise [rad/s2].
+    cross
+        Acceleration across the valley, to the left bank [m/s2].
     begins
         When the motions of a sequence but the first begin [s].
     drainage
@@ -34,20 +36,24 @@ class Shaking:
     horizontal: Floats
     up: Floats | None = None
     turning: Floats | None = None
+    cross: Floats | None = None
     begins: tuple[float, ...] = ()
     drainage: tuple[tuple[float, float, float], ...] = ()
     before: Shaking | None = None
 
     @property
     def end(self) -> float:
-        """Of the run [s]."""
+        """Duration of the run [s]."""
         return float(self.time[-1])
 
     def scaled(self, factor: float) -> Shaking:
         """Return the same motion, weaker or stronger."""
-        up, turning = (None if component is None else factor * component for component in (self.up, self.turning))
+        up, turning, cross = (
+            None if component is None else factor * component for component in (self.up, self.turning, self.cross)
+        )
         before = None if self.before is None else self.before.scaled(factor)
-        return replace(self, horizontal=factor * self.horizontal, up=up, turning=turning, before=before)
+        horizontal = factor * self.horizontal
+        return replace(self, horizontal=horizontal, up=up, turning=turning, cross=cross, before=before)
 
 
 def peak_responses(time: Floats, ground: Floats, periods: Floats, damping: float) -> tuple[Floats, Floats]:

@@ -51,7 +51,7 @@ def anchors_hold(block: Block) -> bool:
     way, friction = np.sign(along), block.friction_kinetic
 
     def driven(slip: float) -> float:
-        """Return by how much the loads along the crack are more than what holds them."""
+        """Return by how much the loads along the crack exceed its resistance."""
         force, normal = along, block.normal_force
         for anchor in anchors:
             elongation = np.sin(anchor.inclination) * way * slip

@@ -58,6 +58,7 @@ class Beam:
 
 _Swung = tuple[Beam, Floats, Floats | None, float | None]
 _KEPT: Kept[_Swung] = Kept(8)
+_BEAMS: Kept[Beam] = Kept(8)
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,7 +156,12 @@ def _mean_period(motion: GroundMotion) -> float | None:
 
 
 def beam(case: Case) -> Beam:
-    """Return the dam of a case as a beam."""
+    """Return the dam of a case as a beam; the last few are kept."""
+    concrete = case.concrete
+    return _BEAMS.get((case.section, concrete.density, concrete.poisson, case.reservoir), lambda: _beam(case))
+
+
+def _beam(case: Case) -> Beam:
     corners = np.array(case.section.vertices())
     base, crest = corners[:, 1].min(), corners[:, 1].max()
     levels = np.linspace(base, crest, _PIECES + 1)

@@ -86,7 +86,7 @@ class Block:
         Those of them that follow the vertical motion.
     water
         Virtual water.
-    friction_static, friction_kinetic, restitution
+    friction_static, friction_kinetic, restitution, rocking_loss
         Of the crack; by a friction law, what it bears under the static loads before any slip, and after all of it.
     gravity
         One g of the case [m/s2].
@@ -113,6 +113,7 @@ class Block:
     friction_static: float
     friction_kinetic: float
     restitution: float
+    rocking_loss: float
     gravity: float
     section: CutSection
     case: Case = field(repr=False)
@@ -204,6 +205,7 @@ class Block:
             self.friction_kinetic,
             self.restitution,
             *self.coupling,
+            self.rocking_loss,
         )
         assert len(values) == len(BLOCK)
         return values
@@ -221,7 +223,7 @@ def build_block(case: Case) -> Block:
     InputError
         Where the crack does not cut the section in two.
     """
-    expect(case, Case, "not-a-case", "case")
+    expect(case, Case, "a case", "case")
     section = case.above
     concrete = concrete_mass(case)
     offset = section.in_crack_frame(*section.centroid_from_heel)
@@ -273,6 +275,7 @@ def build_block(case: Case) -> Block:
         friction_static=at_rest,
         friction_kinetic=sliding,
         restitution=case.crack.restitution,
+        rocking_loss=case.crack.rocking_loss,
         gravity=case.gravity,
         section=section,
         case=case,
@@ -341,8 +344,8 @@ class StaticState(NumbersBlock):
     sliding_safety_factor: Annotated[
         float | None,
         Number(
-            "Friction that there can be over the force along the crack, or along the straight line from heel to toe of "
-            "one with kinks."
+            "Available friction over the force along the crack, or along the straight line from heel to toe of one "
+            "with kinks."
         ),
     ]
     resultant_from_heel_m: Annotated[

@@ -19,6 +19,6 @@ def drainage_left(case: Case, slip: float) -> float:
 
 
 def with_drainage(case: Case, share: float) -> Case:
-    """Return a case with so much of its drainage left."""
+    """Return a case with a share of its drainage left."""
     efficiency = share * (case.uplift.drain_efficiency or 0.0)
     return case.model_copy(update={"uplift": case.uplift.model_copy(update={"drain_efficiency": efficiency})})

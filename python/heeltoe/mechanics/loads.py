@@ -57,25 +57,24 @@ class Resultant:
 
 def total(name: str, forces: Iterable[Resultant]) -> Resultant:
     """Return the sum of some forces under a new name."""
-    forces = tuple(forces)
-    return Resultant(
-        name,
-        sum((force.horizontal for force in forces), 0.0),
-        sum((force.vertical for force in forces), 0.0),
-        sum((force.moment for force in forces), 0.0),
-        sum((force.virial for force in forces), 0.0),
-        sum((force.lift_moment for force in forces), 0.0),
-    )
+    horizontal = vertical = moment = virial = lift_moment = 0.0
+    for force in forces:
+        horizontal += force.horizontal
+        vertical += force.vertical
+        moment += force.moment
+        virial += force.virial
+        lift_moment += force.lift_moment
+    return Resultant(name, horizontal, vertical, moment, virial, lift_moment)
 
 
 def scaled(name: str, force: Resultant, factor: float) -> Resultant:
-    """Return so many times a force under a new name."""
+    """Return a multiple of a force under a new name."""
     numbers = (force.horizontal, force.vertical, force.moment, force.virial, force.lift_moment)
     return Resultant(name, *(factor * number for number in numbers))
 
 
 def static_forces(case: Case) -> tuple[Resultant, ...]:
-    """Return weight, reservoir, tailwater and uplift, with zeros for what is not there, then nappe, ice, silt and
+    """Return weight, reservoir, tailwater and uplift, with zeros for missing ones, then nappe, ice, silt and
     prestress of the anchors where there are any."""
     forces = [
         weight(case),

@@ -22,6 +22,10 @@ REFERENCES = {
         'G. W. Housner, "The behavior of inverted pendulum structures during earthquakes", Bulletin of the '
         "Seismological Society of America 53 (1963), 403-417"
     ),
+    "two components": (
+        "U.S. Army Corps of Engineers, EM 1110-2-6053, Earthquake design and evaluation of concrete hydraulic "
+        "structures (2007), on components of the ground motion that act together"
+    ),
     "overturning": (
         'J. Zhang and N. Makris, "Rocking response of free-standing blocks under cycloidal pulses", Journal of '
         "Engineering Mechanics, ASCE 127 (2001), 473-483"

@@ -1,4 +1,4 @@
-"""What a drawing of a section shows, from the back to the front, whoever draws it: water, silt, ice, ground, dam."""
+"""Shapes of a drawing of a section from the back to the front: water, silt, ice, ground, dam."""
 
 from __future__ import annotations
 

@@ -140,7 +140,7 @@ def _left_by_motion(case: Case, parts: Sequence[Part], slips: Callable[[Drainage
 
 
 def schedule(parts: Sequence[Part], shares: Sequence[float]) -> Drainage:
-    """Return from when to when the drainage changes [s] and what is left of it then, from what each motion finds."""
+    """Return the intervals in which the drainage changes [s] and the shares left, from that which each motion meets."""
     met = zip(pairwise(parts), pairwise(shares), strict=False)
     return tuple(
         (min(first.ends, then.begins - _FASTEST), then.begins, share)

@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING, Literal, TypeVar
 from heeltoe.case.combinations import check, supports
 from heeltoe.case.field_usage import unused_fields
 from heeltoe.case.model import Case
-from heeltoe.case.shaking import resolve_all
+from heeltoe.case.shaking import cross_of, resolve_all
 from heeltoe.case.warnings import case_warnings
 from heeltoe.errors.error import InputError, expect
 from heeltoe.errors.sanitize import near
 from heeltoe.mechanics.beam import step_warnings
 from heeltoe.mechanics.friction import friction_of
+from heeltoe.models.cost import Cost, block_cost, reading_cost
 from heeltoe.models.drain_closure import drained, follows_drains, with_shares
+from heeltoe.models.friction_band import band_of, frictions_of, judged_name, named, worse
 from heeltoe.models.rigid.omitted import omitted
 from heeltoe.models.runner import (
     about_the_end,
@@ -33,7 +35,7 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.contract import SHEARS_M
 from heeltoe.result.judge import Judgement
 from heeltoe.result.limits import check_limits, judge_response
-from heeltoe.result.numbers import Chosen
+from heeltoe.result.numbers import BEST, Chosen
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.units.sentences import Sentence
@@ -42,7 +44,6 @@ from heeltoe.warnings.notice import Notice, by_gravity
 # Not at run time: what another model needs is not loaded.
 if TYPE_CHECKING:
     from heeltoe.models.decoupled.response import DecoupledResponse
-    from heeltoe.models.flexible.body.cost import Cost
     from heeltoe.models.flexible.model import Rested
     from heeltoe.models.flexible.result.response import FlexibleResponse
 
@@ -98,21 +99,62 @@ def run(
     """
     check_model(model, "model")
     shaking = earthquake(case, motion, vertical)
+    response = _run(case, model, shaking, output_step)
+    return response if case.crack.band is None else _with_band(case, model, response, shaking, output_step)
+
+
+def _run(case: Case, model: str, shaking: Earthquake, output_step: float | None) -> Response:
+    """Run a model or two, with the friction that the crack states."""
     names, why = models_of(case, model)
     _check_costs(case, names, shaking, output_step)
 
     def one_way(shaking: Earthquake, first: Rested | None = None) -> Response:
         *block, better = _until_the_same_end(names, case, shaking, output_step, first)
-        if not block:
-            return _alone(better, case, Chosen(asked=model, why=why))
-        response = _completed(better, case, names, Chosen(asked=model, why=why))
+        return replace(better, beside=block[0]) if block else better
+
+    def complete(response: Response) -> Response:
+        block, chosen = response.beside, Chosen(asked=model, why=why)
+        if block is None:
+            return _alone(response, case, chosen)
         # The better model is judged.
-        simpler = replace(_completed(block[0], case, names, Chosen(asked=model, why=_BESIDE)), limits=())
-        return replace(response, beside=simpler)
+        simpler = replace(_completed(block, case, names, Chosen(asked=model, why=_BESIDE)), limits=())
+        return replace(_completed(response, case, names, chosen), beside=simpler)
 
     if names[-1] != "flexible" or follows_drains(case, shaking) or not runs_both_signs(case, shaking):
-        return _by_sign(case, shaking, one_way)
-    return _elastic_by_sign(case, shaking, output_step, one_way)
+        return complete(_by_sign(case, shaking, one_way))
+    return complete(_elastic_by_sign(case, shaking, output_step, one_way))
+
+
+def _with_band(case: Case, model: str, response: Response, shaking: Earthquake, output_step: float | None) -> Response:
+    """Add what the other frictions of the band do, and judge the limits by the one that the case names: a run with all
+    of its evidence."""
+    if not response.started:
+        return response
+    began = perf_counter()
+    cases = frictions_of(case)
+    shakings = {"recorded": shaking}
+    if runs_both_signs(case, shaking):
+        shakings["reversed"] = shaking.reversed()
+    governing = next((way.sign for way in response.signs if way.governs), "recorded")
+    ways = {BEST: numbers_of_sign(governing, response, response.limits, governs=True)}
+    if response.elastic and not follows_drains(case, shaking):
+        from heeltoe.models.flexible.model import rest_each
+
+        bare = {name: other.without_evidence() for name, other in cases.items()}
+        ways |= {name: worse(each) for name, each in rest_each(bare, shakings, output_step).items()}
+    else:
+        for name, other in cases.items():
+            each = _run(other.without_evidence(), response.model, shaking, output_step)
+            ways[name] = numbers_of_sign(governing, each, each.limits, governs=True)
+    judged = judged_name(case, ways)
+    limits = response.limits
+    if judged != BEST and limits:
+        own = _run(cases[judged], model, shaking, output_step)
+        limits = named(own.limits, judged)
+        ways[judged] = numbers_of_sign(governing, own, own.limits, governs=True)
+    took = perf_counter() - began
+    band = band_of(case, ways, judged)
+    return replace(response, friction_band=band, limits=limits, seconds=response.seconds + took)
 
 
 def _elastic_by_sign(
@@ -139,7 +181,9 @@ def _elastic_by_sign(
         worse = worse_way({sign: judged[sign] for sign in ways}, case.limits)
         return replace(worse, seconds=perf_counter() - began)
     signs = [
-        numbers_of_sign(sign, response, governs=True) if sign == worst else rested.sign_numbers(case, sign)
+        numbers_of_sign(sign, response, check_limits(case.limits, response), governs=True)
+        if sign == worst
+        else rested.sign_numbers(case, sign)
         for sign, (_, rested) in ways.items()
     ]
     return replace(response, signs=tuple(signs), seconds=response.seconds + took)
@@ -176,7 +220,7 @@ def check_model(name: str, field: str) -> None:
 
 
 def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
-    """Return the models that are run for a case where `model` is asked for, the better one last, and why it is that."""
+    """Return the models that are run for a case by the word `model`, the better one last, and the reason."""
     joint_alone = case.crack.bond is not None and model == AUTO and case.concrete.modulus is not None
     if case.further_cracks or case.crack.kinks or joint_alone:
         return _of_several(case, model)
@@ -194,7 +238,7 @@ def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
 
 
 def _of_several(case: Case, model: str) -> tuple[tuple[str, ...], str]:
-    """Return the model that knows several cracks, kinks and bonds; the rigid one knows two cracks where asked for."""
+    """Return the model that knows several cracks, kinks and bonds; the rigid one knows two cracks if it is named."""
     if model not in (AUTO, "flexible"):
         check(case, "beside" if model in BOTH else model)
         return (model,), _ASKED_FOR
@@ -207,11 +251,37 @@ def _of_several(case: Case, model: str) -> tuple[tuple[str, ...], str]:
 
 
 def cost_of(case: Case, model: str = AUTO, output_step: float | None = None, spread: int = 0) -> Cost | None:
-    """Return what a run is estimated to take where it makes elastic parts, with so many runs for a spread; blocks take
-    next to nothing."""
+    """Return what a run is estimated to take where it makes elastic parts, with a number of runs for a spread; blocks
+    take next to nothing."""
     if "flexible" not in models_of(case, model)[0]:
         return None
     return _cost(case, earthquake(case), output_step, spread)
+
+
+def wish_cost(case: Case, model: str = AUTO, output_step: float | None = None, spread: int = 0) -> Cost | None:
+    """Return what a run is estimated to take with its blocks, and with so many runs for a spread; None where that of
+    its elastic parts is more than the case allows, so that it is refused."""
+    names, shaking = models_of(case, model)[0], earthquake(case)
+    signs, end = (2 if runs_both_signs(case, shaking) else 1), shaking.run_end
+    samples = max(shaking.motion.time.size * end / max(shaking.motion.duration, 1e-9), end / (output_step or end))
+    cost = Cost()
+    for name in names:
+        if name == "flexible":
+            elastic = _cost(case, shaking, output_step, spread)
+            if not elastic.within(case):
+                return None
+            cost += elastic
+        else:
+            one = block_cost(name, end, samples)
+            cost += Cost((signs + spread) * one.seconds, signs * one.memory)
+    return cost
+
+
+def record_cost(case: Case) -> Cost:
+    """Return what reading the records of a case is estimated to take."""
+    motion = case.motion
+    sources = () if motion is None else (motion, motion.vertical)
+    return reading_cost(case.base_directory / source.file for source in sources if source is not None and source.file)
 
 
 def _cost(case: Case, shaking: Earthquake, output_step: float | None, spread: int = 0) -> Cost:
@@ -219,12 +289,12 @@ def _cost(case: Case, shaking: Earthquake, output_step: float | None, spread: in
 
     end = shaking.run_end
     cost = analysing(case, end, frame_step_of(end, output_step), silence=case.analysis.silence, spread=spread)
-    if not runs_both_signs(case, shaking):
-        return cost
-    # The other way round is run without evidence.
-    return cost + analysing(
-        case.without_evidence(), end, frame_step_of(end, output_step), silence=case.analysis.silence
-    )
+    both, band = runs_both_signs(case, shaking), case.crack.band
+    bare = analysing(case.without_evidence(), end, frame_step_of(end, output_step), silence=case.analysis.silence)
+    # The other way round is run without evidence, as are other frictions both ways; one that is judged has its own.
+    for _ in range(both + (0 if band is None else (1 + both) * len(band.names))):
+        cost += bare
+    return cost + cost if band is not None and band.judge != "best" else cost
 
 
 def _check_costs(case: Case, names: Sequence[str], shaking: Earthquake, output_step: float | None) -> None:
@@ -279,7 +349,7 @@ def rigid(
     Parameters, result and errors are those of :func:`run`. Histories come at the record's samples where no spacing is
     given; `rotation` is that of the ground about the middle of the crack, counter-clockwise [rad/s2].
     """
-    expect(case, Case, "not-a-case", "case")
+    expect(case, Case, "a case", "case")
     check(case, "rigid")
     if rotation is not None:
         check(case, "rotation")
@@ -298,7 +368,7 @@ def decoupled(
     Parameters, result and errors are those of :func:`run`. Histories come at an even part of the record's step, up to
     5 ms, where no spacing is given.
     """
-    expect(case, Case, "not-a-case", "case")
+    expect(case, Case, "a case", "case")
     check(case, "decoupled")
     return _alone(_decoupled(case, earthquake(case, motion, vertical), output_step), case)
 
@@ -333,9 +403,9 @@ def live(case: Case, model: str, shaking: Earthquake) -> Response:
     check(case, model)
 
     def one_way(shaking: Earthquake) -> Response:
-        return _alone(_live(case, shaking) if model == "decoupled" else _rigid(case, shaking, None), case)
+        return _live(case, shaking) if model == "decoupled" else _rigid(case, shaking, None)
 
-    return _by_sign(case, shaking, one_way)
+    return _alone(_by_sign(case, shaking, one_way), case)
 
 
 def earthquake(
@@ -351,18 +421,20 @@ def earthquake(
     InputError
         Where there is no motion, or one that cannot be used.
     """
-    expect(case, Case, "not-a-case", "case")
+    expect(case, Case, "a case", "case")
     for name, component in (("motion", motion), ("vertical", vertical), ("rotation", rotation)):
         if component is not None:
-            expect(component, GroundMotion, "not-a-motion", name)
+            expect(component, GroundMotion, "a ground motion", name)
+    cross = None
     if motion is None:
         motion, vertical = resolve_all(case)
+        cross = cross_of(case)
     elif not motion.parts and case.motion is not None:
         motion = motion.with_warnings(
             *(notice for notice in _left_out(case, vertical) if notice not in motion.warnings)
         )
     own = None if motion.parts or case.motion is None else case.motion.duration
-    return Earthquake(motion, vertical, own or motion.duration, rotation)
+    return Earthquake(motion, vertical, own or motion.duration, rotation, cross=cross)
 
 
 def _left_out(case: Case, vertical: GroundMotion | None) -> Iterator[Notice]:
@@ -371,11 +443,13 @@ def _left_out(case: Case, vertical: GroundMotion | None) -> Iterator[Notice]:
         yield Notice("aftershocks-left-out")
     if vertical is None and case.motion is not None and case.motion.vertical is not None:
         yield Notice("vertical-left-out")
+    if case.motion is not None and case.motion.cross_valley is not None:
+        yield Notice("cross-valley-not-given")
 
 
 def _alone(response: R, case: Case, chosen: Chosen | None = None) -> R:
-    """Return a response with no better model beside it, which says what it leaves out; its model was asked for by name
-    where nothing else is said."""
+    """Return a response with no better model beside it, which says what it leaves out; by default its model was named
+    by the user."""
     return _completed(
         response, case, (response.model,), chosen or Chosen(asked=response.model, why=_ASKED_FOR), alone=True
     )
@@ -383,16 +457,19 @@ def _alone(response: R, case: Case, chosen: Chosen | None = None) -> R:
 
 def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *, alone: bool = False) -> R:
     """Add what every result has, and to one that stands `alone` what it leaves out; a field that one of the `models`
-    side by side reads is not said to change nothing. A run that never started says why by itself."""
+    side by side reads is not reported as unused. A run that never started gives its own reason."""
     off: tuple[Notice, ...] = ()
     judgement = judge_response(case.limits, response)
     if response.started:
         off = (*_slides_on(case, response), *_anchors_crossed(case, response), *_slid_off(response, judgement))
     response, between = _sequence(case, response)
     unused = unused_fields(case, models)
-    vertical = () if response.vertical is None else response.vertical.warnings
+    beside = [component for component in (response.vertical, response.cross) if component is not None]
+    others = [notice for component in beside for notice in component.warnings]
     end = about_the_end(response, asked="silence" in case.analysis.model_fields_set)
-    warnings = (*case_warnings(case), *response.motion.warnings, *vertical, *response.warnings, *end, *unused)
+    warnings = (*case_warnings(case), *response.motion.warnings, *others, *response.warnings, *end, *unused)
+    if response.elastic and case.motion is not None and case.motion.cross_valley is not None:
+        warnings = (*warnings, Notice("cross-valley-left-out"))
     response = replace(response, limits=check_limits(case.limits, response, judgement))
     if not response.started:
         return replace(response, chosen=chosen, warnings=by_gravity(warnings))
@@ -410,7 +487,7 @@ def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *
 
 
 def _sequence(case: Case, response: R) -> tuple[R, tuple[Notice, ...]]:
-    """Add what each motion of a sequence does, and return what is to be said of it."""
+    """Add the results of each motion of a sequence, and return the notices on it."""
     if not response.motion.parts or not response.started:
         return response, ()
     from heeltoe.models.statics.after import about_the_sequence, judged_stages
@@ -462,6 +539,7 @@ def _slid_off(response: Response, judgement: Judgement) -> tuple[Notice, ...]:
 
 
 def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Response:
+    from heeltoe.models.rigid.across import beside_one_component
     from heeltoe.models.rigid.model import run_rigid
 
     def run(through: Earthquake) -> Response:
@@ -472,6 +550,8 @@ def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Res
         return run_rigid(case, through, output_step)
 
     response = with_outcome(*block_until_rest(run, lambda ran: ran, earthquake, case.analysis.silence))
+    if earthquake.cross is not None:
+        response = beside_one_component(response, run(replace(earthquake, cross=None).silent(response.silence_s)))
     # Of bounces that amplify the last digit no run is the answer: a twin shows it.
     twin = twin_of(case, response, run, earthquake)
     if twin is None:

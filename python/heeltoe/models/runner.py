@@ -19,9 +19,9 @@ from heeltoe.base.arrays import Floats, Integers
 from heeltoe.case.model import Case
 from heeltoe.case.options import Limits
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import JOINT_METER_M
-from heeltoe.result.judge import slides_off
-from heeltoe.result.limits import judge_response
+from heeltoe.result.contract import JOINT_METER_M, OPENINGS
+from heeltoe.result.judge import LimitCheck, slides_off
+from heeltoe.result.limits import check_limits, judge_response
 from heeltoe.result.numbers import AnchorForce, SignNumbers
 from heeltoe.result.outcome import Outcome, decide
 from heeltoe.result.response import Response
@@ -219,7 +219,7 @@ def block_until_rest(
     whole = until_rest(run, lambda ran: reach_of_block(response_of(ran)), earthquake, longest, swings=swings)
     response = response_of(whole)
     silence = response.silence_s
-    if reach_of_block(response) < math.inf or silence < _LEAST_SILENCE:
+    if silence < _LEAST_SILENCE or reach_of_block(response) < math.inf:
         return whole, response.outcome
     shorter = [response_of(run(earthquake.silent(part * silence))) for part in _QUARTERS]
     slips = np.array([[crack.residual_slip_m for crack in ran.cracks] for ran in (*shorter, response)])
@@ -234,22 +234,29 @@ def with_outcome(response: R, outcome: Outcome) -> R:
 
 
 def worse_way(ways: Mapping[str, R], limits: Limits) -> R:
-    """Return the response of the worse sign of the motion, the first where they are equal, with what each sign does."""
-    worst = max(ways, key=lambda sign: judge_response(limits, ways[sign]).badness())
-    return replace(ways[worst], signs=tuple(numbers_of_sign(sign, ways[sign], sign == worst) for sign in ways))
+    """Return the response of the worse sign of the motion, the first where they are equal, with the results of each
+    sign."""
+    judgements = {sign: judge_response(limits, response) for sign, response in ways.items()}
+    worst = max(ways, key=lambda sign: judgements[sign].badness())
+    signs = [
+        numbers_of_sign(sign, response, check_limits(limits, response, judgements[sign]), governs=sign == worst)
+        for sign, response in ways.items()
+    ]
+    return replace(ways[worst], signs=tuple(signs))
 
 
-def numbers_of_sign(sign: str, response: Response, governs: bool) -> SignNumbers:
-    """Return what a response says of one sign of the motion."""
+def numbers_of_sign(sign: str, response: Response, limits: Sequence[LimitCheck], *, governs: bool) -> SignNumbers:
+    """Return what a response says of one sign of the motion, beside its `limits`."""
     known = response.ok and response.started
+    openings = [opening.of(crack) for crack in response.cracks for opening in OPENINGS] if known else []
     return SignNumbers(
         sign=sign,
         governs=governs,
         outcome=response.outcome,
         elevation_m=response.cracks[response.asked].elevation if known else None,
         residual_slip_m=response.residual_slip_m if known else None,
-        opening_m=max(max(c.opening_upstream_m, c.opening_downstream_m) for c in response.cracks) if known else None,
-        limits_not_met=sum(not check.met for check in response.limits),
+        opening_m=max(openings) if known else None,
+        limits_not_met=len([check for check in limits if not check.met]),
     )
 
 
@@ -259,7 +266,7 @@ def rows_until_rest(
     rows: Integers,
     longest: float,
 ) -> Iterator[tuple[Integers, Table]]:
-    """Run many blocks as :func:`until_rest` runs one; what comes later takes the place of what came before.
+    """Run many blocks as :func:`until_rest` runs one; later results replace earlier ones.
 
     A block that is at rest stays so while the ground is still: the shortest silence after which it does not move is the
     one that a single run finds by the time of its last event.

@@ -141,7 +141,7 @@ def test_a_block_that_feels_the_rotation_of_its_crack(koyna):
 def test_refusals():
     for changes, code in (
         (["crack.elevation=0 m"], "crack-at-base"),
-        (["concrete.modulus=1 Pa"], "modulus-range"),
+        (["concrete.modulus=1 Pa"], "out-of-range"),
     ):
         with pytest.raises(InputError) as refused:
             decoupled(plane_case(KOYNA, [*SHORT, *changes]))

@@ -302,13 +302,13 @@ def test_many_blocks_have_the_same_bits_on_any_number_of_threads():
 @pytest.mark.parametrize(
     ("law", "code"),
     [
-        ({**WEAKENING, "jrc": 5}, "law-option-foreign"),
-        ({"name": "barton-bandis", "jrc": 5}, "law-option-missing"),
-        ({**WEAKENING, "residual_friction": 1.2}, "law-order"),
-        ({**LIFT, "roughness_friction": [["2 MPa", 0.2], ["1 MPa", 0.4]]}, "law-points"),
+        ({**WEAKENING, "jrc": 5}, "option-foreign"),
+        ({"name": "barton-bandis", "jrc": 5}, "option-missing"),
+        ({**WEAKENING, "residual_friction": 1.2}, "below-other"),
+        ({**LIFT, "roughness_friction": [["2 MPa", 0.2], ["1 MPa", 0.4]]}, "not-ascending"),
         ({**LIFT, "basic_friction": 0.1, "roughness_friction": [["1 MPa", 1.0], ["1.1 MPa", 0.1]]}, "law-falls"),
         ({**LIFT, "surface": "plane"}, "contradiction"),
-        ({"name": "lift joint", "surface": "untreated", "basic_friction": 0.8}, "law-option-missing"),
+        ({"name": "lift joint", "surface": "untreated", "basic_friction": 0.8}, "option-missing"),
     ],
 )
 def test_what_a_law_does_not_know_is_refused(law, code):

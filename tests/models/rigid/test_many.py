@@ -57,7 +57,7 @@ def test_what_goes_with_the_blocks_is_checked():
     assert refused(motion_of=[0, 0, 0.5]).startswith("motion_of[2]: 0.5")
     assert refused(motions=[]).startswith("motion_of[0]: 0 is not one of the motions; give a motion")
     assert refused(motions=["taft"]).startswith("motions[0]: str is not one of the motions")
-    assert refused(np.tile(DAM[:-1], (3, 1))).startswith("blocks: 3 x 20 of float64 is not a table")
+    assert refused(np.tile(DAM[:-1], (3, 1))).startswith("blocks: 3 x 21 of float64 is not a table")
     assert refused(["a dam"]).startswith("blocks[0]: str is not a table")
     assert refused(limits=Limits(settle=np.nan)).startswith("limits.settle: nan is out of range")
     assert refused(limits=Limits(event_limit=0)).startswith("limits.event_limit: 0 is out of range")

@@ -160,7 +160,7 @@ def test_criteria_with_one_set_of_factors_say_so():
     ("choice", "said"),
     [
         ({"earthquakes": [{"name": "OBE", "seismic_coefficient": 0.1}], "seismic_coefficient": 0.1}, "earthquakes"),
-        ({"earthquakes": [{"name": "OBE", "seismic_coefficient": 0.1}] * 2}, "give each earthquake a name of its own"),
+        ({"earthquakes": [{"name": "OBE", "seismic_coefficient": 0.1}] * 2}, "is listed twice"),
         ({"earthquakes": [{"name": "design", "seismic_coefficient": 0.1}]}, "add rarity"),
         ({"earthquakes": [{"name": "OBE = MDE", "seismic_coefficient": 0.1}]}, "statics.earthquakes[0].name"),
         ({"earthquakes": [{"name": "OBE", "seismic_coefficient": 0.0}]}, "statics.earthquakes[0].seismic_coefficient"),

@@ -106,12 +106,12 @@ def test_the_file_says_what_the_water_does(tmp_path):
         ("[sliding]\nusual = nan\n", "own.toml: sliding.usual: NaN is not a number above 0 and up to 100; give one"),
         (
             "[slidding]\nusual = 2\n",
-            "own.toml: slidding: there is no such check; write one of sliding, sliding-with-cohesion, "
+            "own.toml: slidding: slidding is not a choice; choose one of sliding, sliding-with-cohesion, "
             "sliding-without-cohesion, overturning, flotation, resultant, compression",
         ),
         (
             "[sliding]\nflood = 2\n",
-            "own.toml: sliding.flood: there is no such case of loads; write one of usual, unusual, extreme, "
+            "own.toml: sliding.flood: flood is not a choice; choose one of usual, unusual, extreme, "
             "earthquake, post-earthquake",
         ),
         ("[sliding]\nusual = 2\nsource = 3\n", "own.toml: sliding.source: 3 is of the wrong type; give a text"),

@@ -178,7 +178,7 @@ def test_a_dam_without_a_modulus_or_a_motion_is_refused():
     assert refused.value.code == "motion-missing"
     with pytest.raises(InputError) as refused:
         with_response_spectrum(plane_case(TOWER), "motion")
-    assert refused.value.code == "not-checks"
+    assert refused.value.code == "wrong-kind"
 
 
 @pytest.mark.slow

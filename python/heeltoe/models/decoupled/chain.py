@@ -91,7 +91,7 @@ def chain(case: Case) -> Chain:
 
 
 def bonded_chain(case: Case) -> Chain:
-    """Return the whole dam, both parts elastic and the crack bonded, as what the motion at the crack is compared with.
+    """Return the whole dam, both parts elastic and the crack bonded, the reference for the motion at the crack.
 
     Raises
     ------
@@ -105,7 +105,7 @@ _KEPT: Kept[Chain] = Kept(8)
 
 
 def _kept(case: Case, build: Callable[[Case], Chain]) -> Chain:
-    """Build a chain, or find it by all that it depends on."""
+    """Build a chain, or return the cached one with the same inputs."""
     # Its modes are real, and so without waves in the water.
     case = case.with_water_as_mass()
     fields: Any = dict.fromkeys(("section", "concrete", "reservoir", "tailwater", "flexible", "gravity"), True)

@@ -14,11 +14,12 @@ from heeltoe.case.model import Case
 from heeltoe.case.warnings import concrete_warnings
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.mechanics.references import cited
+from heeltoe.models.cost import Cost
 from heeltoe.models.decoupled.chain import Chain as Part
 from heeltoe.models.decoupled.chain import bonded_chain, chain
 from heeltoe.models.decoupled.crack_motion import FIRST_STEP, CrackMotion, crack_motion, crack_motion_at, relative
 from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.models.flexible.body.cost import Cost, check_cost
+from heeltoe.models.flexible.body.cost import check_cost
 from heeltoe.models.rigid.model import run_rigid
 from heeltoe.models.rigid.walk import walk
 from heeltoe.models.runner import block_until_rest, with_outcome
@@ -44,7 +45,7 @@ _BYTES = 400.0
 
 @dataclass(frozen=True, eq=False)
 class _Run:
-    """What the block did under the motion of the crack, before anything is asked about that motion."""
+    """The motion of the block under that of the crack, before the latter is judged."""
 
     earthquake: Earthquake
     at_crack: CrackMotion
@@ -128,7 +129,7 @@ def step_of(earthquake: Earthquake) -> float:
 
 
 def of_the_chain(block: Response, earthquake: Earthquake, **changes: Any) -> DecoupledResponse:
-    """Return what the block has done as what the chain has done."""
+    """Return the result of the block as that of the chain."""
     values = {column.name: getattr(block, column.name) for column in fields(block)}
     values |= {"model": "decoupled", "motion": earthquake.motion, "vertical": earthquake.vertical}
     values |= {"silence_s": earthquake.silence}

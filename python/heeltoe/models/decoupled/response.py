@@ -1,4 +1,4 @@
-"""What a run of the decoupled chain returns beside what every run of a block returns."""
+"""Results of the decoupled chain beyond those of a block."""
 
 from __future__ import annotations
 

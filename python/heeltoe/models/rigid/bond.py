@@ -29,7 +29,7 @@ _BREAKS_BY = ("tension at the heel", "tension at the toe", "shear downstream", "
 
 @dataclass(frozen=True, eq=False)
 class JointForces:
-    """What a bonded block presses on its joint with (n,): normal force, shear downstream [N/m], and their moment about
+    """Load of a bonded block on its joint (n,): normal force, shear downstream [N/m], and their moment about
     the middle of the joint, counter-clockwise [N m/m]."""
 
     normal: Floats
@@ -184,7 +184,7 @@ def _pressed(block: Block) -> Block:
 
 
 def _still_until(shaking: Shaking, until: float) -> Shaking:
-    """Return a motion that is still up to a moment [s], and jumps there to what it is."""
+    """Return a motion that is still up to a moment [s], and jumps there to its value."""
     if until <= 0.0:
         return shaking
     early, late = shaking.time < until, shaking.time > until

@@ -100,7 +100,7 @@ class Fit:
         return 1.0 - float(np.interp(missed, self.quantiles, shares))
 
     def outside(self, numbers: Mapping[str, float]) -> Sentence | None:
-        """Say which number is none of those studied."""
+        """Name the number that is outside the studied range."""
         for name, (low, high) in self.ranges.items():
             value, slack = numbers[name], _ROUNDING * max(abs(low), abs(high))
             if not low - slack <= value <= high + slack:
@@ -127,7 +127,7 @@ def regressor(name: str, number: float) -> float:
 
 @dataclass(frozen=True)
 class Likeness:
-    """What a dam, its block and its motion are like, in SI units.
+    """Measures of a dam, its block and its motion, in SI units.
 
     Attributes
     ----------
@@ -197,7 +197,7 @@ def fits() -> dict[str, dict[Regime, Fit]]:
 
 
 def fit_of(document: Mapping[str, Any]) -> Fit:
-    """Return a fit from what the file says of it."""
+    """Return a fit from its entry in the file."""
     ranges = {name: (low, high) for name, (low, high) in document["ranges"].items()}
     held_back = {place: (share, cases) for place, (share, cases) in document["held_back"].items()}
     return Fit(

@@ -81,7 +81,7 @@ def rigid_many(
         or lengths do not agree.
     """
     if isinstance(threads, bool) or not isinstance(threads, int) or threads < 0:
-        raise InputError("blocks-limit", "threads", threads, bounds="0 for all cores, or how many")
+        raise InputError("out-of-range", "threads", threads, bound="of 0 for all cores, or more")
     rows = rows_of(blocks, motions, motion_of, scales)
     pairs = [motion if isinstance(motion, tuple) else (motion, None) for motion in motions]
     earthquakes = [Earthquake(across, up, across.duration) for across, up in pairs]
@@ -101,12 +101,14 @@ def run_rows(
     threads: int = 0,
     progress: Callable[[int], None] | None = None,
 ) -> dict[str, Floats]:
-    """Run blocks that have been checked; what `rows.which` counts are `earthquakes`. `progress` is told how many more
-    are done. Otherwise as :func:`rigid_many`; where the rows ask for the crest with :data:`CREST`, as single runs have
-    it."""
+    """Run blocks that have been checked; what `rows.which` counts are `earthquakes`. `progress` gets the number of
+    finished ones. Otherwise as :func:`rigid_many`; where the rows ask for the crest with :data:`CREST`, as single runs
+    have it."""
     table = {name: np.zeros(len(rows.numbers)) for name in (*_names(rows), "keeps_sliding")}
     follow = any(earthquake.motion.parts for earthquake in earthquakes)
-    for part, kind in _parts(rows, limits, _CHUNK if progress else len(rows.numbers), sequences=follow):
+    across = any(earthquake.cross is not None for earthquake in earthquakes)
+    most = _CHUNK if progress else len(rows.numbers)
+    for part, kind in _parts(rows, limits, most, sequences=follow, across=across):
         run = _runner(rows, earthquakes, kind, threads)
         for some, columns in rows_until_rest(run, _reach(finite=kind[2]), part, kind[0].silence):
             for name, values in columns.items():
@@ -120,11 +122,14 @@ def _names(rows: Rows) -> tuple[str, ...]:
     return SUMMARY if rows.crest is None else (*SUMMARY, *CREST)
 
 
-def _parts(rows: Rows, limits: Limits | None, most: int, *, sequences: bool) -> Iterator[tuple[Integers, _Kind]]:
-    """Yield rows that go together, up to so many; in `sequences` of motions drains may close."""
+def _parts(
+    rows: Rows, limits: Limits | None, most: int, *, sequences: bool, across: bool
+) -> Iterator[tuple[Integers, _Kind]]:
+    """Yield rows that go together, up to a number; in `sequences` of motions drains may close, and where the ground
+    shakes `across` the valley each row runs by itself."""
     kinds: dict[_Kind, list[int]] = {}
     for row, block in enumerate(rows.blocks):
-        exact = not varies(block.case) and not (sequences and close_by_slip(block.case))
+        exact = not across and not varies(block.case) and not (sequences and close_by_slip(block.case))
         finite = block.case.analysis.rotation == "finite"
         kinds.setdefault((limits or limits_of(block.case), exact, finite), []).append(row)
     together = {kind: np.array(alike) for kind, alike in kinds.items()}
@@ -180,7 +185,8 @@ def _integrated(
         row, shaking, moments = part[place], earthquakes[which[place]].shaking, wanted[which[place]]
         block, (across, up) = rows.blocks[row], rows.scales[row]
         vertical = None if shaking.up is None else up * shaking.up
-        shaken = replace(shaking, horizontal=across * shaking.horizontal, up=vertical)
+        cross = None if shaking.cross is None else across * shaking.cross
+        shaken = replace(shaking, horizontal=across * shaking.horizontal, up=vertical, cross=cross)
         walked = walk(block.case, block, shaken, moments, limits)
         crest = () if moments is None else crest_of_run(block, shaken, walked)
         return [*walked.summary.by_name().values(), *crest]

@@ -74,6 +74,7 @@ def run_rigid(
         energy=energy_of(run) if started else None,
         motion=earthquake.motion,
         vertical=earthquake.vertical,
+        cross=earthquake.cross,
         gravity=case.gravity,
         cracks=tuple(cracks),
         crest=top,

@@ -1,4 +1,4 @@
-"""What a rigid block leaves out of a dam: the dam's own vibration, and how much farther it slides for it."""
+"""Effects that a rigid block leaves out: the vibration of the dam, and how much farther it slides by it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _SAME = 1.05
 
 @dataclass(frozen=True)
 class _Dam:
-    """What a case and the run of its block say, before the dam is asked how it swings."""
+    """A case and the run of its block, before the vibration of the dam is computed."""
 
     block: Response
     gravity: float
@@ -67,8 +67,8 @@ def omitted(case: Case, response: Response) -> tuple[Notice, ...]:
 
 def friction_at_rest(case: Case, response: Response) -> float:
     """Return the friction of the crack before any slip; by a law, under its static loads."""
-    law = response.summary.get("friction_law")
-    return case.crack.apparent_friction if law is None else float(law["apparent_friction_before"])
+    law = response.friction_law
+    return case.crack.apparent_friction if law is None else law.apparent_friction_before
 
 
 def _swings(dam: _Dam, swing: Swing, moduli: tuple[float, ...]) -> Notice:
@@ -149,9 +149,10 @@ def _remedy(case: Case) -> str:
 
 def _unlike(case: Case, response: Response) -> str | None:
     """Say what of a case or its run is not in the study at all."""
-    reasons: dict[str, Any] = {
+    reasons: dict[str, object] = {
         f"its block ended as {response.outcome}": response.outcome != Outcome.OK,
         "the ground moves vertically, too": response.vertical is not None,
+        "the ground shakes it across the valley, too": response.cross is not None,
         "it has anchors": case.anchors,
         "its crack is inclined": case.crack.inclination,
         "it has several cracks": case.further_cracks,

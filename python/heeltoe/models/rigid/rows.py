@@ -1,4 +1,4 @@
-"""What many runs are asked to do, checked before any of them: a number that is none must not come back as a result."""
+"""The input of many runs, checked before any of them: no result may be made of an invalid number."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Rows:
     Attributes
     ----------
     numbers
-        (n, 21) of the blocks, in the order of :data:`heeltoe.kernel.block.BLOCK`.
+        (n, 22) of the blocks, in the order of :data:`heeltoe.kernel.block.BLOCK`.
     blocks
         (n,) blocks; none where only their numbers are known.
     which
@@ -46,7 +46,7 @@ class Rows:
     crest: Floats | None = None
 
     def twins(self, places: Integers, factor: float) -> Rows:
-        """Return some of them with all motions so many times as strong; nobody asks for their crest."""
+        """Return some of them with all motions scaled, without their crest."""
         blocks = [self.blocks[place] for place in places.tolist()] if self.blocks else ()
         return Rows(self.numbers[places], blocks, self.which[places], factor * self.scales[places])
 
@@ -64,7 +64,7 @@ def rows_of(
     InputError
         Naming field, row and value, where something cannot be used.
     """
-    expect(motions, Sequence, "not-a-list", "motions")
+    expect(motions, Sequence, "a list", "motions")
     for place, motion in enumerate(motions):
         parts = motion if isinstance(motion, tuple) else (motion,)
         if not 1 <= len(parts) <= 2 or not all(isinstance(part, GroundMotion) for part in parts):
@@ -74,7 +74,7 @@ def rows_of(
     if isinstance(blocks, np.ndarray):
         numbers = blocks
     else:
-        expect(blocks, Sequence, "not-a-list", "blocks")
+        expect(blocks, Sequence, "a list", "blocks")
         built = [_built(block, row) for row, block in enumerate(blocks)]
         numbers = np.array([block.parameters() for block in built]).reshape(-1, len(BLOCK))
     if numbers.ndim != 2 or numbers.shape[1] != len(BLOCK) or numbers.dtype.kind not in "fiu":
@@ -88,12 +88,12 @@ def rows_of(
 def check_limits(limits: Limits) -> None:
     """Refuse limits that end nothing."""
     if not (np.isfinite(limits.settle) and limits.settle >= 0.0):
-        raise InputError("blocks-limit", "limits.settle", limits.settle, bounds="a finite number, 0 or more")
+        raise InputError("out-of-range", "limits.settle", limits.settle, bound="of 0 or more, finite")
     if not 0.0 <= limits.silence <= LONGEST_SILENCE:
-        bounds = f"0 to {LONGEST_SILENCE:g} s"
-        raise InputError("blocks-limit", "limits.silence", f"{limits.silence:g}", bounds=bounds)
+        bound = f"from 0 to {LONGEST_SILENCE:g} s"
+        raise InputError("out-of-range", "limits.silence", f"{limits.silence:g}", bound=bound)
     if limits.event_limit < 1:
-        raise InputError("blocks-limit", "limits.event_limit", limits.event_limit, bounds="1 or more")
+        raise InputError("out-of-range", "limits.event_limit", limits.event_limit, bound="of 1 or more")
 
 
 def _built(entry: Block | Case, row: int) -> Block:
@@ -116,6 +116,7 @@ def _check_numbers(numbers: Floats) -> None:
         ("friction_static", friction < 0.0, "0 or more"),
         ("friction_kinetic", (kinetic < 0.0) | (kinetic > friction), "0 to friction_static"),
         ("restitution", (bounce < 0.0) | (bounce > 1.0), "0 to 1"),
+        ("rocking_loss", (column["rocking_loss"] < 0.0) | (column["rocking_loss"] > 1.0), "0 to 1"),
     ]
     failures = [(int(bad.argmax()), order) for order, (_, bad, _) in enumerate(wrong) if bad.any()]
     if failures:

@@ -1,4 +1,4 @@
-"""What a crack whose friction goes by a law, or that is rough, has been through, by the names of the contract."""
+"""State at the end of a crack with a friction law or asperities, by the names of the contract."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from heeltoe.result.numbers import BlockFrictionLaw, Roughness
 
 
 def law_result(case: Case, block: Block, run: BlockRun) -> BlockFrictionLaw | None:
-    """Return what the law has come to: how far the crack has slipped, and its friction under the static loads before
-    and after that; None of constant coefficients."""
+    """Return the state of the law at the end: how far the crack has slipped, and its friction under the static loads
+    before and after that; None of constant coefficients."""
     if case.crack.law is None or run.worn is None:
         return None
     law, stress = law_of(case.crack.law), block.normal_force / block.width
@@ -53,8 +53,8 @@ def law_histories(case: Case, block: Block, run: BlockRun) -> dict[str, Floats]:
 
 
 def roughness_result(crack: Crack, run: BlockRun) -> Roughness | None:
-    """Return what the asperities have come to: dilation, angle and friction along the mean plane before and after; None
-    of a crack that is not rough."""
+    """Return the state of the asperities at the end: dilation, angle and friction along the mean plane before and
+    after; None of a crack that is not rough."""
     rough = crack.roughness
     if rough is None or run.rough is None or run.worn is None:
         return None

@@ -21,7 +21,7 @@ Walk = Callable[[Case, Block, Shaking, Floats, "BlockRun | None"], BlockRun]
 
 
 def in_stages(case: Case, shaking: Shaking) -> bool:
-    """Whether drains may close between the motions of what shakes a case."""
+    """Whether drains may close between the motions of a case."""
     return bool(shaking.begins) and close_by_slip(case)
 
 
@@ -74,6 +74,6 @@ def _parts(shaking: Shaking) -> Iterator[Shaking]:
 
 
 def _wanted(shaking: Shaking, moments: Floats) -> Sequence[Floats]:
-    """Return the moments that are wanted of each stage; where one motion begins, after what changes then."""
+    """Return the requested moments of each stage; those at the begin of a motion lie after the changes then."""
     places = list(_Cut.of(shaking).places)
     return np.split(moments, np.searchsorted(moments, shaking.time[places], side="left"))

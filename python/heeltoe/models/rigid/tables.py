@@ -1,4 +1,4 @@
-"""What the rigid kernels found, by the names of the contract."""
+"""Results of the rigid kernels, by the names of the contract."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from heeltoe.result.contract import (
 )
 from heeltoe.result.crest import LOOKS_S, CrestMotion, CrestSeries, crest_series
 from heeltoe.result.histories import EventLog, Histories, computed_columns
-from heeltoe.result.numbers import AnchorForce, BlockNumbers, Energy
+from heeltoe.result.numbers import AnchorForce, BlockNumbers, CrossValley, Energy
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.quantity import computed
 from heeltoe.result.record import CrackResponse
@@ -61,7 +61,7 @@ def anchors_of(case: Case, run: BlockRun) -> list[AnchorForce]:
 
 
 def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
-    """Return the sources of what was used."""
+    """Return the sources of the methods used."""
     keys = ["rigid", "rocking"] + (["water"] if block.water.mass else [])
     if block.water.sloped:
         keys.append("sloped water")
@@ -71,6 +71,8 @@ def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
         keys.append(case.uplift.during_shaking)
     if not run.exact:
         keys.append("integration")
+    if run.crossing is not None:
+        keys.append("two components")
     if case.crack.law is not None:
         keys.append(f"law: {case.crack.law.name}")
     if case.crack.roughness is not None:
@@ -119,6 +121,23 @@ def numbers_of(
         bond=None if bonded is None else bonded.numbers,
         overturned_about=about if run.outcome == Outcome.OVERTURNED else None,
         anchors=anchors_of(case, run),
+        cross_valley=_across(run),
+    )
+
+
+def _across(run: BlockRun) -> CrossValley | None:
+    """Return what a block did across the valley; None where the ground does not shake that way."""
+    if run.crossing is None:
+        return None
+    row = run.crossing.summary
+    return CrossValley(
+        residual_slip_cross_m=row.slip + 0.0,
+        peak_slip_cross_left_m=row.slip_max + 0.0,
+        peak_slip_cross_right_m=row.slip_min + 0.0,
+        slip_path_m=row.path,
+        side_contacts=int(row.side_strikes),
+        time_at_side_s=row.time_at_side,
+        side_contact_impulse_n_s=row.side_impulse,
     )
 
 
@@ -133,9 +152,9 @@ def crack_response(
     started: bool = True,
     drainage: Sequence[float] = (),
 ) -> CrackResponse:
-    """Return what the crack below a block did; of a run that never started events and static state alone. Of the
-    `moments` of the run those `shown` (n,) are moments of the histories. `drainage` is what each motion of a sequence
-    met of its drainage."""
+    """Return the results of the crack below a block; a run that never started has events and static state alone. The
+    `moments` of the run that are `shown` (n,) are moments of the histories. `drainage` is the share that each motion of
+    a sequence meets."""
     bonded = bonded_block(block, shaking)
     every = histories_of(case, block, shaking, moments, run, bonded) if started else {}
     histories = Histories({name: values[shown] for name, values in every.items()})
@@ -157,8 +176,8 @@ def with_crest(
     moments: Floats,
     shown: Bools,
 ) -> tuple[list[CrackResponse], CrestMotion | None]:
-    """Return what cracks did with the motion of the crest, which goes with the blocks, one on the other, and its
-    largest numbers. Of the `moments` of the runs those `shown` are moments of the histories, and those of
+    """Return the results of cracks with the motion of the crest, which goes with the blocks, one on the other, and its
+    largest numbers. The `moments` of the runs that are `shown` are moments of the histories, and those of
     :func:`crest_moments` are among them."""
     if not all(crack.histories for crack in cracks):
         return list(cracks), None
@@ -243,6 +262,9 @@ def histories_of(
         rotation = np.arcsin(np.clip(rotation, -1.0, 1.0))
         rate = rate / np.maximum(np.cos(rotation), 1e-9)
     result |= computed_columns(Histories, column) | {"rotation_rad": rotation, "rotation_velocity_rad_s": rate}
+    if run.crossing is not None:
+        slip, velocity, friction = run.crossing.kept.T
+        result |= {"slip_cross_m": slip, "slip_cross_velocity_m_s": velocity, "friction_cross_n": friction}
     if bonded is not None:
         held, forces = held_histories(block, shaking, moments, bonded.until)
         result |= {name: np.where(held, force, result[name]) for name, force in forces.items()}
@@ -251,7 +273,7 @@ def histories_of(
     return result | roughness_histories(run)
 
 
-def events_of(run: BlockRun) -> dict[str, Any]:
+def events_of(run: BlockRun) -> dict[str, object]:
     """Return the events of the contract."""
     column = run.events
 

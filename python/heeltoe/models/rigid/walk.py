@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -55,11 +56,13 @@ def walk_with_drainage(
     def run(now: Case, block: Block, shaking: Shaking, moments: Floats, before: BlockRun | None) -> BlockRun:
         # Nothing varies below a block that does not move.
         what = varying(now, block) if not holds and (varies(now) or shaking.turning is not None) else None
+        across = None if shaking.cross is None else (block.concrete_mass, *(now.crack.side_gap or (math.inf, math.inf)))
         start, worn = (_loose(block), None) if before is None else start_of(before)
         if what is not None and before is not None and before.rough is not None:
             dilation, _, work = before.rough.end
             what = replace(what, dilated=(dilation, work))
-        return run_block(block.parameters(), shaking, moments, ends, start=start, varying=what, worn=worn)
+        numbers = block.parameters()
+        return run_block(numbers, shaking, moments, ends, start=start, varying=what, worn=worn, across=across)
 
     if in_stages(case, shaking):
         return walk_in_stages(case, block, shaking, wanted, run)

@@ -1,4 +1,4 @@
-"""What a reader of a rigid run must know, and what to do where it stopped."""
+"""Warnings of a rigid run, and remedies where it stopped."""
 
 from __future__ import annotations
 

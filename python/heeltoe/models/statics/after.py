@@ -1,4 +1,4 @@
-"""The static checks with what an earthquake leaves: the slip of a run, or a block that has overturned; between the
+"""The static checks after an earthquake: with the slip of a run, or a block that has overturned; between the
 motions of a sequence, whether the dam that one has left stands until the next."""
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _NO_CRACK = "this joint is no crack of the run, and has not slipped"
 def joints_after(
     case: Case, runs: Callable[[], Sequence[Response]], run_alone: Callable[[Case], Sequence[Response]] | None = None
 ) -> Joints:
-    """Judge a dam at each of its sections with what its earthquake has left: the slip of a crack is that of the run of
+    """Judge a dam after its earthquake at each of its sections: the slip of a crack is that of the run of
     the whole dam, by every door.
 
     Parameters
@@ -54,7 +54,7 @@ def joints_after(
 
 
 def statics_after(case: Case, *runs: Response) -> Statics:
-    """Judge the stability of a case with what its earthquake has left.
+    """Judge the stability of a case after its earthquake.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def about_the_sequence(
     case: Case, judged: tuple[Stage, ...], *, followed: bool, several: bool = False
 ) -> Iterator[Notice]:
     """Say where a motion meets a dam that is not at rest, that does not stand, or whose drains slip has closed; the run
-    has `followed` these, or not. Where there are `several` cracks it is said of which."""
+    has `followed` these, or not. Where there are `several` cracks each is named."""
     parts = len(case.aftershocks) + 1
     if judged and len(judged) < parts:
         yield Notice("sequence-ends", number=len(judged), name=judged[-1].name, left=parts - len(judged))

@@ -161,7 +161,7 @@ def _in_earthquake(case: Case, before: Solved) -> tuple[Contact, StillWater, str
 
 
 def _rarity(case: Case, earthquake: StaticsEarthquake) -> tuple[Loads, tuple[Sentence, ...]]:
-    """Return the loads that criteria take an earthquake for, and what is to be said of it.
+    """Return the load category of an earthquake by the criteria, and a remark on it.
 
     USACE EM 1110-2-2100 (2005) has the operating basis earthquake among the unusual loads and the maximum design
     earthquake among the extreme ones; criteria of the user's own may tell them apart, the others do not.

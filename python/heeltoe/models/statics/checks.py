@@ -1,4 +1,4 @@
-"""What is required of each load case beside what is there, each with a sentence."""
+"""Required and computed values of each load case, each with a sentence."""
 
 from __future__ import annotations
 
@@ -31,15 +31,15 @@ class Check(Block):
     value: Annotated[
         float | None,
         Number(
-            "What there is: a factor, the distance of the resultant from the middle of the contact over its width, or "
-            "a stress over the strength; null where there is none."
+            "Value of the check: a factor, the distance of the resultant from the middle of the contact over its "
+            "width, or a stress over the strength; null where it does not exist."
         ),
     ]
-    required: Annotated[float | None, Number("What is asked for, in the same measure; null where nothing is.")]
+    required: Annotated[float | None, Number("Required value, in the same measure; null without one.")]
     at_least: Annotated[bool, Number("Whether the value must be at least, not at most, the required one.")]
     met: Annotated[bool, Number("Whether it is.")]
     source: Annotated[str, Number("Document and paragraph.")] = "equilibrium"
-    note: Annotated[str, Number("What a reader must know about the required value.")] = ""
+    note: Annotated[str, Number("Remark on the required value.")] = ""
     sentence: Annotated[Sentence, Number("All this in words, with by how much.")]
 
     @property
@@ -48,8 +48,8 @@ class Check(Block):
     ) -> Annotated[
         float | None,
         Number(
-            "What is there over what is asked for, capacity over demand: 1 just meets it, 0 where the block does not "
-            "stand; null where there is nothing to compare."
+            "Capacity over demand: 1 just meets the requirement, 0 where the block does not stand; null without "
+            "a required value."
         ),
     ]:
         """Capacity over demand."""

@@ -121,7 +121,7 @@ class _State:
         self.contact, self.load, self.water = contact, load, water
 
     def at(self, heel: float, toe: float) -> tuple[float, float, float]:
-        """Return the normal force and the stresses at both ends of what is closed."""
+        """Return the normal force and the stresses at both ends of the closed part."""
         uplift, lever = self.water.act(self.water.pressure(heel, toe))
         low, high = self.contact.start + heel, self.contact.end - toe
         normal = -self.load.vertical - uplift
@@ -151,7 +151,7 @@ class _State:
         return (stress + self.strength(length, side)) * (self.contact.width - length) ** 2
 
     def first_safe(self, side: str) -> tuple[float | None, int]:
-        """Return the smallest opening from one end that stays as it is, and the iterations it took to find it."""
+        """Return the smallest stable opening from one end, and the iterations of the search."""
         from scipy.optimize import brentq
 
         iterations = 0

@@ -1,5 +1,4 @@
-"""What USACE, USBR, FERC and CDA, and the defaults of CADAM3D, require of a concrete gravity dam, as tables to choose
-from.
+"""Requirements of USACE, USBR, FERC and CDA, and the defaults of CADAM3D, for a concrete gravity dam, as tables.
 
 Each row names its document and paragraph. What a row rests on beside the document is in its note: numbers that were
 not compared with the print say so.

@@ -36,7 +36,7 @@ class Joint:
 
     @property
     def governing(self) -> Check | None:
-        """The check with the smallest margin of capacity over demand; None where nothing is asked for."""
+        """The check with the smallest margin of capacity over demand; None without a requirement."""
         return min(self._with_margin(), key=_margin, default=None)
 
     def governing_of(self, check: str) -> Check | None:
@@ -56,7 +56,7 @@ class Joints:
     Attributes
     ----------
     title
-        Of the case.
+        Title of the case.
     joints
         In the order in which the case lists them.
     """
@@ -82,7 +82,7 @@ class Joints:
 
     @property
     def warnings(self) -> tuple[Notice, ...]:
-        """What a reader must know, once where joints share it."""
+        """Warnings of all joints, shared ones once."""
         return by_gravity(dict.fromkeys(notice for joint in self.joints for notice in joint.statics.warnings))
 
     @property
@@ -138,7 +138,7 @@ def statics_of_sections(case: Case, judge: Judge = _by_the_case) -> Joints:
     InputError
         Where a section does not cut the dam in two, or something of the case has no place there.
     """
-    expect(case, Case, "not-a-case", "case")
+    expect(case, Case, "a case", "case")
     listed = case.statics.sections
     if not listed:
         own = {why: notice for notice in unused_fields(case, ("statics",)) if (why := _unused(notice))}

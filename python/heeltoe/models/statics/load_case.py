@@ -27,7 +27,7 @@ _NEWTON, _MOMENT = "N per metre of dam", "N m per metre of dam"
 class ForceNumbers(Block):
     """A force on the block, with its arms from the heel of the crack."""
 
-    name: Annotated[str, Number("What exerts the force.")]
+    name: Annotated[str, Number("Source of the force.")]
     horizontal_n: Annotated[float, Number("Its horizontal part, positive downstream.", _NEWTON)]
     height_m: Annotated[
         float | None,
@@ -43,7 +43,7 @@ class ForceNumbers(Block):
 
 
 class LoadCase(Block):
-    """What one case of loads does to the block above the crack. Per metre of dam, SI.
+    """Effect of one load case on the block above the crack. Per metre of dam, SI.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class LoadCase(Block):
     ]
     loads: Annotated[
         Loads,
-        Number('What the criteria take it for: "usual", "unusual", "extreme", "earthquake", "post-earthquake".'),
+        Number('Load category of the criteria: "usual", "unusual", "extreme", "earthquake", "post-earthquake".'),
     ]
     forces: Annotated[
         tuple[Resultant, ...], Number("One by one; the uplift as it is with the crack open as far as found.")
@@ -71,12 +71,15 @@ class LoadCase(Block):
     normal_force_n: Annotated[float, Number("Force across the crack, uplift taken off.", _NEWTON)]
     shear_force_n: Annotated[float, Number("Force along the crack, positive downstream.", _NEWTON)]
     friction: Annotated[float, Number("Coefficient used.")]
-    cohesive_force_n: Annotated[float, Number("Cohesion on what is bonded, closed and in compression.", _NEWTON)]
+    cohesive_force_n: Annotated[
+        float, Number("Cohesive force on the part that is bonded, closed and in compression.", _NEWTON)
+    ]
     sliding_factor: Annotated[
         float | None,
         Number(
-            "(cohesive force + friction times normal force) over shear force; null where nothing pushes. Of a crack "
-            "with kinks that along the straight line from heel to toe, or that on its pieces where it is smaller."
+            "(cohesive force + friction times normal force) over shear force; null without a push. For a crack "
+            "with kinks, the smaller of the factor along the straight line from heel to toe and the factor on "
+            "its pieces."
         ),
     ]
     friction_factor: Annotated[
@@ -95,26 +98,26 @@ class LoadCase(Block):
     resultant_zone: Annotated[str, Number('"middle third", "middle half", "base" of the contact, or "outside".')]
     heel_stress_pa: Annotated[
         float | None,
-        Number("Normal stress at the heel of what is closed: compression positive, water taken off.", "Pa"),
+        Number("Effective normal stress at the heel of the closed part: compression positive.", "Pa"),
     ]
     toe_stress_pa: Annotated[
         float | None,
-        Number("Normal stress at the toe of what is closed: compression positive, water taken off.", "Pa"),
+        Number("Effective normal stress at the toe of the closed part: compression positive.", "Pa"),
     ]
     contact_from_m: Annotated[float, Number("Where the contact begins, from the heel of the crack.", "m")]
     contact_to_m: Annotated[float, Number("Where it ends: the whole crack but what a slip has left.", "m")]
     cracked_length_m: Annotated[float, Number("How far the contact is open.", "m")]
     cracked_from: Annotated[str, Number("From which end it is open: heel or toe.")]
     compressed_length_m: Annotated[float, Number("How much of it is in compression.", "m")]
-    iterations: Annotated[int, Number("Of the search for the cracked length.")]
-    assumptions: Annotated[tuple[Sentence, ...], Number("What was taken for granted, a sentence each.")]
+    iterations: Annotated[int, Number("Iterations of the search for the cracked length.")]
+    assumptions: Annotated[tuple[Sentence, ...], Number("Assumptions, a sentence each.")]
     sources: Mapping[str, Sentence]
     ends_m: tuple[tuple[float, float], tuple[float, float]]
     pressures: Annotated[
         tuple[tuple[float, float], ...],
         Number(
-            "Of the water in the crack as far as it is found open: distance from the heel of the crack [m] and "
-            "pressure [Pa], straight in between; twice the same distance is a jump."
+            "Pressure of the water in the open part of the crack: distance from the heel [m] and pressure [Pa], "
+            "linear in between; the same distance twice is a jump."
         ),
     ]
     governs: Annotated[
@@ -134,8 +137,8 @@ class LoadCase(Block):
     pieces_bear: Annotated[
         str,
         Number(
-            'What the pieces of a crack with kinks bear: "more" or "less" than friction on that straight line, or "any '
-            'push" until they shear off; "" of a straight crack, where nothing pushes, and of faces that a slip has '
+            'Resistance of the pieces of a crack with kinks: "more" or "less" than friction on that straight line, or '
+            '"any push" until they shear off; "" for a straight crack, without a push, and for faces that a slip has '
             "moved apart."
         ),
     ] = ""
@@ -145,7 +148,7 @@ class LoadCase(Block):
     steepest_rise_rad: Annotated[
         float,
         Number(
-            "Of the closed pieces, against the straight line, in the direction in which the block is pushed; zero "
+            "Steepest rise of the closed pieces against the straight line, in the direction of the push; zero "
             "where `pieces_bear` is empty.",
             "rad",
         ),
@@ -205,8 +208,8 @@ Borne = Callable[[float], tuple[float, float]]
 
 @dataclass(frozen=True)
 class Question:
-    """What is known of a load case before it is solved: coefficient of friction, cohesion of the bonded part [Pa]; or
-    the law that says both by the mean normal stress [Pa] on what is in compression; whether the faces of the crack
+    """A load case before it is solved: coefficient of friction, cohesion of the bonded part [Pa]; or
+    the law that says both by the mean normal stress [Pa] on the compressed part; whether the faces of the crack
     still match."""
 
     name: str

@@ -38,19 +38,19 @@ class Statics(Shown):
     Attributes
     ----------
     title
-        Of the case.
+        Title of the case.
     criteria, structure, site_information
         What the checks are judged by.
     cases
         The load cases, one by one.
     checks
-        Every requirement with what is there.
+        Every requirement with its value.
     critical_acceleration_g
         Ground accelerations in g at which the block at rest starts to slide and to rock, each way by itself; infinite
         where no acceleration does it, negative where the static loads do. Cohesion does not count.
     critical_water_level_m
         Depth of the reservoir, from the lowest point of the section, at which the usual loads bring the factor of
-        sliding downstream to 1 ("sliding") and to what is required ("sliding_required"), open the crack through
+        sliding downstream to 1 ("sliding") and to the required factor ("sliding_required"), open the crack through
         ("overturning") and leave no normal force ("flotation"); None where no depth up to `highest_water_level_m` does.
         Cohesion counts in the first two.
     highest_water_level_m
@@ -166,7 +166,7 @@ def statics(
     InputError
         Where the crack does not cut the section in two.
     """
-    expect(case, Case, "not-a-case", "case")
+    expect(case, Case, "a case", "case")
     section, choice, rules = case.cut, case.statics, rules_of(case)
     warnings = [*case_warnings(case), *unused_fields(case, ("statics", *beside)), *_unread(case, rules)]
     before = usual(case)
@@ -214,7 +214,8 @@ def statics(
 
 
 def with_demand(judged: Statics, case: Case, demand: SpectralDemand) -> Statics:
-    """Return the checks of a case with those of an earthquake by its response spectrum, before what comes after it."""
+    """Return the checks of a case with those of an earthquake by its response spectrum, before the post-seismic
+    ones."""
     cases = [solved.load_case for solved in response_spectrum(case, usual(case), demand)]
     checks = [check for load_case in cases for check in check_case(load_case, case)]
     during = sum(load_case.loads != "post-earthquake" for load_case in judged.cases)
@@ -239,7 +240,7 @@ def _peak(case: Case, usual: LoadCase) -> float:
 
 
 def _warnings_of_cases(case: Case, cases: Sequence[LoadCase]) -> list[Notice]:
-    """Return what is to be said of the choices beside the load cases, the usual one first."""
+    """Return remarks on the choices, the usual load case first."""
     choice, notices, usual = case.statics, list(_of_pieces(cases)), cases[0]
     if usual.cracked_length_m:
         notices.append(Notice("crack-opens-statically", length_m=usual.cracked_length_m))
@@ -293,7 +294,7 @@ def _of_pieces(cases: Sequence[LoadCase]) -> Iterator[Notice]:
 
 
 def _unread(case: Case, rules: Rules) -> tuple[Notice, ...]:
-    """Say what is given and not asked for by the criteria."""
+    """Name given fields that the criteria do not use."""
     idle = [f"statics.{name}" for name in unread(rules.rows) if name in case.statics.model_fields_set]
     why = f'statics.criteria = "{rules.name}"'
     return (Notice("fields-idle", field=idle[0], fields=", ".join(idle), why=why),) if idle else ()

@@ -48,7 +48,7 @@ _CHOSEN = {
 
 @dataclass(frozen=True)
 class Rules:
-    """What judges a case.
+    """Criteria that judge a case.
 
     Attributes
     ----------
@@ -102,10 +102,10 @@ def _stamp(path: Path) -> tuple[int, int] | None:
 @lru_cache(maxsize=16)
 def _in_file(path: Path, name: str, stamp: tuple[int, int] | None) -> Rules:
     """Return what a file says, which is read once for all load cases and sections; again where it was written."""
-    return _read(read_fields(path, "criteria-file-missing"), name)
+    return _read(read_fields(path, "criteria in TOML, relative to the case file"), name)
 
 
-def _read(fields: Mapping[str, Any], name: str) -> Rules:
+def _read(fields: Mapping[str, object], name: str) -> Rules:
     """Return what a file says."""
     title = fields.get("title", name)
     law = fields.get("uplift_in_earthquake", "unchanged")
@@ -119,7 +119,7 @@ def _read(fields: Mapping[str, Any], name: str) -> Rules:
         if table in ("title", "uplift_in_earthquake"):
             continue
         if table not in _TABLES or not isinstance(values, Mapping):
-            raise InputError("criteria-table", f"{name}: {table}", known=", ".join(_TABLES))
+            raise InputError("not-a-choice", f"{name}: {table}", table, choices=f"one of {', '.join(_TABLES)}")
         rows += _rows(table, values, title, name)
     if not rows:
         raise InputError("criteria-empty", _FIELD, name)
@@ -138,7 +138,7 @@ def _rows(table: str, values: Mapping[str, Any], title: str, name: str) -> list[
         if loads == "source":
             continue
         if loads not in _LOADS:
-            raise InputError("criteria-loads", f"{name}: {table}.{loads}", known=", ".join(_LOADS))
+            raise InputError("not-a-choice", f"{name}: {table}.{loads}", loads, choices=f"one of {', '.join(_LOADS)}")
         number = isinstance(value, int | float) and not isinstance(value, bool)
         # Of the width, the resultant can be half away from the middle.
         most = 0.5 if check == "resultant" else 1.0 if check == "compression" else 100.0

@@ -1,4 +1,4 @@
-"""What the pieces of a crack that is not straight bear of the force along it: the block has to climb them."""
+"""Resistance of the pieces of a crack that is not straight to a force along it: the block has to climb them."""
 
 from __future__ import annotations
 

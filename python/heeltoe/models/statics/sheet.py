@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
@@ -31,7 +30,7 @@ class ForceLine:
     Attributes
     ----------
     name
-        What exerts the force.
+        Source of the force.
     horizontal_n, vertical_n
         Downstream and upward.
     height_m
@@ -216,7 +215,7 @@ def _whose(case: Case) -> str:
     return " and ".join(f"{name}'s" for name in dict.fromkeys(names)) or "no"
 
 
-def _uplift(case: Case) -> dict[str, Any]:
+def _uplift(case: Case) -> dict[str, object]:
     return {"pattern": case.uplift.pattern, "intensity": case.uplift.intensity}
 
 

@@ -14,7 +14,7 @@ _NEWTON = "N per metre of dam"
 
 
 class Push(Block):
-    """Forces on what is above a section."""
+    """Forces on the part above a section."""
 
     horizontal_n: Annotated[float, Number("Push downstream.", _NEWTON)]
     vertical_n: Annotated[float, Number("Push upward.", _NEWTON)]
@@ -40,11 +40,11 @@ class SpectralMode(Block):
     rigid_share: Annotated[
         float, Number("Part of its push that goes with the ground: 0 of a slow mode, 1 of one that follows at once.")
     ]
-    push: Annotated[Push, Number("Push of its inertia and moving water on what is above the crack.")]
+    push: Annotated[Push, Number("Push of its inertia and moving water on the part above the crack.")]
 
 
 class SpectralDemand(Block):
-    """Forces of an earthquake on what is above a section, at the first mode's largest push downstream."""
+    """Forces of an earthquake on the part above a section, at the first mode's largest push downstream."""
 
     spectrum: Annotated[str, Number("Name of the motion or of the design spectrum.")]
     peak_ground_acceleration_m_s2: Annotated[float, Number("Ordinate of the spectrum at period zero.", "m/s²")]

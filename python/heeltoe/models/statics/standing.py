@@ -1,4 +1,4 @@
-"""What the static check of the usual loads tells whoever runs an earthquake: whether the crack is open before."""
+"""Result of the static check of the usual loads for a run: whether the crack is open before."""
 
 from __future__ import annotations
 

@@ -1,0 +1,261 @@
+"""Shaking across the valley: slips of independent programs, what goes with it, and what says that it is left out."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from heeltoe import InputError, read_case, run
+from heeltoe.case.combinations import check
+from heeltoe.kernel.block import block, run_block
+from heeltoe.kernel.shaking import Shaking
+from heeltoe.models.run import rigid
+from heeltoe.motion.records import read_record
+from heeltoe.study.plan.file import Study
+from heeltoe.study.run.run import run_study
+from heeltoe.study.small.spread import with_spread
+from models.rigid.test_varying import rectangle
+
+G = 9.80665
+MASS = 10_706_000.0
+WITH_WATER = 16_539_333.0 + 1.0 / 3.0
+
+
+def typical(friction: float, kinetic: float | None = None) -> np.ndarray:
+    """Return the typical dam with a full reservoir and full uplift as a block that only slides."""
+    return block(
+        {
+            "mass_horizontal": WITH_WATER,
+            "mass_vertical": MASS,
+            "inertia": 1e12,
+            "heel_distance": 1e4,
+            "toe_distance": 1e4,
+            "static_horizontal": 49_033_250.0,
+            "static_vertical": -65_763_394.9,
+            "per_horizontal_horizontal": -WITH_WATER,
+            "per_vertical_vertical": -MASS,
+            "friction_static": friction,
+            "friction_kinetic": friction if kinetic is None else kinetic,
+        }
+    )
+
+
+def el_centro(records, along: int, across: int, sign: int, peak: float, seconds: float | None = 30.0) -> Shaking:
+    """Return both components scaled by one factor, straight between the samples, with 2 s of rest after them."""
+    pair = [
+        read_record(records / "ensemble" / f"imperial-valley-1940-elc-{name}.txt").acceleration
+        for name in (along, across)
+    ]
+    factor = peak * G / np.abs(pair[0]).max()
+    count = min(map(len, pair)) if seconds is None else round(seconds / 0.01) + 1
+    time = np.arange(count) * 0.01
+    x, y = (np.append(values[:count] * factor, [0.0, 0.0]) for values in pair)
+    return Shaking(np.append(time, [time[-1], time[-1] + 2.0]), sign * x, cross=y)
+
+
+def slips(numbers, shaking, gap: float = math.inf) -> tuple[float, float]:
+    """Return the slips along and across at the end [mm]."""
+    ran = run_block(numbers, shaking, np.empty(0), across=(MASS, gap, gap))
+    assert ran.outcome == "ok"
+    assert ran.summary.energy_residual < 1e-12
+    return 1e3 * ran.summary.slip, 1e3 * ran.crossing.summary.slip
+
+
+# Along, across, sign, peak [g], friction; slips along and across of an independent program [mm].
+REFERENCE = [
+    (180, 270, 1, 0.4, 1.0, 144.6053, -0.1729),
+    (270, 180, 1, 0.4, 1.0, 481.4710, -29.2676),
+    (180, 270, -1, 0.4, 1.0, 225.3276, 6.4145),
+    (270, 180, -1, 0.4, 1.0, 394.3203, 33.4039),
+    (180, 270, 1, 0.4, 1.2, 33.3761, 0.4206),
+    (270, 180, 1, 0.4, 1.2, 83.9169, -5.2801),
+    (180, 270, -1, 0.4, 1.2, 18.4118, 0.1397),
+    (270, 180, -1, 0.4, 1.2, 61.2356, 18.1996),
+    (180, 270, 1, 0.3, 1.0, 55.5199, 0.6076),
+    (270, 180, 1, 0.3, 1.0, 161.8445, -9.8827),
+    (180, 270, 1, 0.3, 1.2, 8.7803, -0.0240),
+    (270, 180, 1, 0.3, 1.2, 21.3017, -1.4114),
+    (180, 270, 1, 0.2, 1.0, 11.3368, 0.1091),
+    (270, 180, 1, 0.2, 1.0, 27.0244, -0.8990),
+    (180, 270, 1, 0.2, 1.2, 0.1612, -0.0039),
+    (270, 180, 1, 0.2, 1.2, 0.2677, -0.0284),
+]
+
+
+@pytest.mark.parametrize(("along", "across", "sign", "peak", "friction", "x", "y"), REFERENCE)
+def test_slips_of_el_centro_are_those_of_independent_programs(records, along, across, sign, peak, friction, x, y):
+    ran = slips(typical(friction), el_centro(records, along, across, sign, peak))
+    assert ran == pytest.approx((x, y), abs=6e-5)
+
+
+def test_static_and_kinetic_friction_and_neighbours_are_those_of_independent_programs(records):
+    whole = el_centro(records, 180, 270, 1, 0.4, None)
+    assert slips(typical(1.0, 0.8), whole) == pytest.approx((933.997572, -9.728947), abs=1e-6)
+    other = el_centro(records, 270, 180, 1, 0.4, None)
+    for gap, slip in ((0.0, 356.378933), (0.001, 413.404277), (0.003, 427.988195), (0.01, 442.273203)):
+        assert slips(typical(1.0), other, gap)[0] == pytest.approx(slip, abs=1e-6)
+
+
+def test_the_vertical_motion_goes_with_it(records):
+    # El Centro, up, from its fourth sample on, by the factor of the motion along the stream.
+    up = read_record(records / "elcentro-1940-up-nga2.txt").acceleration
+    shaking = el_centro(records, 180, 270, 1, 0.4)
+    factor = 0.4 * G / np.abs(shaking_peak(records)).max()
+    series = np.append(up[3 : 3 + 3001] * factor, [0.0, 0.0])
+    for sign, slip in ((1, 134.6978), (-1, 173.2265)):
+        moved = Shaking(shaking.time, shaking.horizontal, sign * series, cross=shaking.cross)
+        assert slips(typical(1.0), moved)[0] == pytest.approx(slip, abs=6e-5)
+
+
+def shaking_peak(records) -> np.ndarray:
+    return read_record(records / "ensemble" / "imperial-valley-1940-elc-180.txt").acceleration
+
+
+POINTS = [["0 s", "0 g"], ["0.2 s", "-0.9 g"], ["0.6 s", "0.9 g"], ["0.9 s", "-0.7 g"], ["1.2 s", "0 g"]]
+ACROSS = [["0 s", "0 g"], ["0.3 s", "0.8 g"], ["0.5 s", "-0.9 g"], ["1 s", "0.6 g"], ["1.2 s", "0 g"]]
+
+
+def slab(**more):
+    """Return a slab that slides both ways."""
+    motion = {"points": POINTS, "cross_valley": {"points": ACROSS}} | more.pop("motion", {})
+    return rectangle(20.0, 1.0, 0.4, motion=motion, **more)
+
+
+def test_a_run_says_what_the_shaking_across_the_valley_adds():
+    response = rigid(read_case(slab()))
+    across, alone = response.cross_valley, rigid(read_case(slab(motion={"cross_valley": "none"})))
+    without = across.without_cross_valley
+    assert without.residual_slip_m == alone.residual_slip_m
+    assert without.factor == pytest.approx(response.residual_slip_m / alone.residual_slip_m, rel=1e-14)
+    assert f"without it the dam slides {1e3 * abs(alone.residual_slip_m):.1f} mm" in response.to_json()["verdict"]
+    assert response.to_json()["cross_valley"]["without_cross_valley"]["factor"] == without.factor
+    histories = response.histories
+    assert histories.slip_cross_m[-1] == across.residual_slip_cross_m
+    assert histories.slip_cross_m.max() <= across.peak_slip_cross_left_m
+    assert histories.slip_cross_m.min() >= across.peak_slip_cross_right_m
+    assert across.slip_path_m >= np.hypot(np.diff(histories.slip_m), np.diff(histories.slip_cross_m)).sum() * (
+        1 - 1e-12
+    )
+    friction = np.hypot(histories.friction_force_n, histories.friction_cross_n)
+    normal = histories.normal_force_heel_n + histories.normal_force_toe_n
+    assert (friction <= 0.4 * normal * (1.0 + 1e-9)).all()
+    assert {"cross-valley-upright", "cross-valley-far"} <= {notice.code for notice in response.warnings}
+    assert alone.to_json()["cross_valley"] is None
+    assert "cross_valley_motion" not in alone.to_json()
+
+
+def test_neighbours_stop_it():
+    response = rigid(read_case(slab(crack={"side_gap": ["3 mm", "5 mm"]})))
+    across = response.cross_valley
+    assert across.peak_slip_cross_left_m <= 0.003
+    assert across.peak_slip_cross_right_m >= -0.005
+    assert across.side_contacts > 0
+    assert across.time_at_side_s > 0.0
+    assert across.side_contact_impulse_n_s > 0.0
+    assert read_case(slab(crack={"side_gap": "3 mm"})).crack.side_gap == (0.003, 0.003)
+    assert read_case(slab(crack={"side_gap": "free"})).crack.side_gap is None
+    held = rigid(read_case(slab(crack={"side_gap": "0 mm"})))
+    assert held.residual_slip_m == held.cross_valley.without_cross_valley.residual_slip_m
+    with pytest.raises(InputError, match="side_gap"):
+        read_case(slab(crack={"side_gap": "-3 mm"}))
+
+
+def test_a_still_ground_across_gives_the_same_bits():
+    still = {"cross_valley": {"points": [["0 s", "0 g"], ["1.2 s", "0 g"]]}}
+    one, two = rigid(read_case(slab(motion={"cross_valley": "none"}))), rigid(read_case(slab(motion=still)))
+    assert two.residual_slip_m == one.residual_slip_m
+    assert all(np.array_equal(two.histories[name], values) for name, values in one.histories.items())
+
+
+def test_it_is_scaled_as_the_motion_along_the_stream_or_by_itself():
+    case = read_case(slab(motion={"pga": "0.45 g"}))
+    assert rigid(case).cross.pga == pytest.approx(0.45 * G)
+    own = read_case(slab(motion={"pga": "0.45 g", "cross_valley": {"points": ACROSS, "pga": "0.2 g"}}))
+    assert rigid(own).cross.pga == pytest.approx(0.2 * G)
+
+
+def test_a_block_that_would_lift_has_no_result():
+    slender = rectangle(1.0, 4.0, 0.9, motion={"points": POINTS, "cross_valley": {"points": ACROSS}})
+    response = rigid(read_case(slender))
+    assert response.outcome == "lifts across"
+    assert not response.ok
+    assert "motion.cross_valley" in str(response.advice)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"crack": {"inclination": "5 deg"}},
+        {"crack": {"roughness": {"asperity_height": "5 mm", "wave_length": "200 mm"}}},
+        {"analysis": {"rotation": "finite"}},
+        {"aftershocks": [{"points": POINTS}]},
+    ],
+)
+def test_what_a_block_does_not_do_with_it_is_refused(changes):
+    with pytest.raises(InputError, match="shaking across the valley"):
+        check(read_case(slab(**changes)), "rigid")
+
+
+def test_tables_and_maps_refuse_it():
+    for user in ("decoupled", "table", "map", "rotation", "motions"):
+        with pytest.raises(InputError, match="shaking across the valley"):
+            check(read_case(slab()), user)
+
+
+def test_another_motion_beside_it_is_refused_or_comes_without_it():
+    case = read_case(slab())
+    with pytest.raises(InputError) as refused:
+        case.with_({"motion.points": [["0 s", "0 g"], ["0.2 s", "0.5 g"], ["0.4 s", "0 g"]]})
+    assert refused.value.code == "vertical-of-another"
+    alone = rigid(case, rigid(case).motion)
+    assert alone.cross is None
+    assert "cross-valley-not-given" in {notice.code for notice in alone.warnings}
+
+
+def test_an_elastic_dam_leaves_it_out_and_says_so():
+    elastic = slab(
+        concrete={"modulus": "20 GPa"}, rock="rigid", flexible={"elements_across": 2, "evidence": "none", "modes": 4}
+    )
+    response = run(read_case(elastic), "rigid,flexible")
+    grave = [notice.code for notice in response.warnings if notice.severity == "grave"]
+    assert "cross-valley-left-out" in grave
+    verdict = response.to_json()["verdict"]
+    assert "This leaves out the shaking across the valley" in verdict
+    assert "which adds" in verdict
+    assert response.beside.cross_valley is not None
+
+
+def test_rows_of_a_study_are_runs_in_both_assignments(tmp_path):
+    rng = np.random.default_rng(3)
+    envelope = np.sin(np.linspace(0.0, np.pi, 400))
+    for name in ("quake-000", "quake-090"):
+        values = "\n".join(f"{value:.6f}" for value in 0.8 * envelope * rng.normal(size=400))
+        (tmp_path / f"{name}.txt").write_text(f"# time step: 0.01 s\n# units: [g]\n{values}\n")
+    pair = [str(tmp_path / f"quake-{name}.txt") for name in ("000", "090")]
+    plain = rectangle(20.0, 1.0, 0.4)
+    study = {
+        "case": "slab",
+        "model": "rigid",
+        "method": "grid",
+        "motions": {"events": [{"name": "quake", "horizontal": pair}], "cross_valley": True, "both_signs": False},
+    }
+    rows = run_study(Study.of(study, tmp_path), tmp_path / "out", case=read_case(plain)).to_table().to_pylist()
+    assert len(rows) == 2
+    for row, (along, across) in zip(rows, (pair, pair[::-1]), strict=True):
+        motion = {"file": along, "sign": "recorded", "cross_valley": {"file": across}}
+        response = run(read_case(plain | {"motion": motion}), "rigid")
+        assert row["residual_slip_m"] == response.residual_slip_m
+        assert row["outcome"] == response.outcome
+    study["motions"]["events"][0]["horizontal"] = pair[:1]
+    with pytest.raises(InputError) as refused:
+        run_study(Study.of(study, tmp_path), tmp_path / "one", case=read_case(plain))
+    assert refused.value.code == "study-pair"
+
+
+def test_a_spread_keeps_it():
+    case = read_case(slab())
+    response = rigid(case)
+    spread = with_spread(response, case, 3).spread
+    assert spread.residual_slips_m[1] == response.residual_slip_m
