@@ -27,6 +27,33 @@ def test_the_last_few_are_kept():
     assert built == ["a", "b", "c", "b"]
 
 
+@pytest.mark.parametrize("at", ["before it is built", "while it is built"])
+def test_what_is_interrupted_is_built_by_the_next(at):
+    """Ctrl-C comes between any two calls: here while the oldest is put away."""
+    kept = Kept(1)
+
+    class Interrupting(dict):
+        armed = True
+
+        def __len__(self):
+            if self.armed and at.startswith("before"):
+                self.armed = False
+                raise KeyboardInterrupt
+            return super().__len__()
+
+    kept._entries = Interrupting()
+
+    def build():
+        if at.startswith("while"):
+            raise KeyboardInterrupt
+        return "dam"
+
+    with pytest.raises(KeyboardInterrupt):
+        kept.get("key", build)
+    with ThreadPoolExecutor(1) as pool:
+        assert pool.submit(kept.get, "key", lambda: "dam").result(10.0) == "dam"
+
+
 def test_threads_that_want_the_same_build_it_once():
     kept, built, together = Kept(4), [], threading.Barrier(8)
     go_on = threading.Event()

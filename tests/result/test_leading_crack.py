@@ -42,7 +42,10 @@ def test_a_sign_without_a_result_does_not_hide_what_the_other_does(two_cracks):
     from heeltoe.models.runner import numbers_of_sign
 
     failed = replace(two_cracks, outcome="large rotation", advice=None)
-    signs = (numbers_of_sign("recorded", failed, True), numbers_of_sign("reversed", two_cracks, False))
+    signs = (
+        numbers_of_sign("recorded", failed, (), governs=True),
+        numbers_of_sign("reversed", two_cracks, (), governs=False),
+    )
     text = verdict(replace(failed, signs=signs))
     assert text.startswith("No result to trust (large rotation)")
     assert "This is for the motion as recorded; reversed it slides" in text

@@ -1,1 +1,1 @@
-"""What every room stands on: arrays, a cache, files written whole, how a thing shows itself."""
+"""Foundations of all rooms: arrays, a cache, files written whole, display of objects."""

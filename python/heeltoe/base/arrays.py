@@ -17,7 +17,7 @@ Bools = NDArray[np.bool_]
 
 
 def finite(value: float) -> float | None:
-    """Return a number; None in the place of what is none, or endless."""
+    """Return a number; None for one that is not a number, or infinite."""
     return value if math.isfinite(value) else None
 
 
@@ -52,7 +52,7 @@ def where(holds: bool, this: float, that: float) -> float:
 
 
 def ratio(this: float, that: float) -> float:
-    """Return the quotient of two numbers, row by row of columns; zero over what is zero."""
+    """Return the quotient of two numbers, row by row of columns; zero where the divisor is zero."""
     if isinstance(this, float) and isinstance(that, float):
         return this / that if that else 0.0
     shape = np.broadcast_shapes(np.shape(this), np.shape(that))

@@ -154,7 +154,7 @@ def written(path: str | Path, field: str = "file", *, within: Path | None = None
 
 @contextmanager
 def temporary() -> Iterator[Path]:
-    """Yield a directory for what nobody shall see, which is not there afterwards.
+    """Yield a private directory that is removed afterwards.
 
     Raises
     ------
@@ -294,7 +294,7 @@ def _refusing(field: str, place: object) -> Iterator[None]:
 
 
 def _target(path: str | Path) -> Path | None:
-    """Return the regular file, there or not, that a path means, all links followed; None for what is none."""
+    """Return the regular file, existing or not, at the end of all links of a path; None for anything else."""
     if str(path).startswith(_OPEN):
         return None
     try:
@@ -359,7 +359,7 @@ def _locked(directory: Path) -> Iterator[None]:
 
 
 def _is_left(place: Path) -> bool:
-    """Whether nobody writes into a directory aside any more."""
+    """Whether no process writes into a temporary directory any more."""
     if sys.platform == "win32":
         return False
     try:

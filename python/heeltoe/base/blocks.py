@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 import types
-from collections.abc import Iterator, Mapping
+from collections.abc import ItemsView, Iterator, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cache
 from typing import Annotated, Any, Literal, NamedTuple, Union, dataclass_transform, get_args, get_origin, get_type_hints
@@ -27,7 +27,7 @@ LISTED = 6
 
 @dataclass(frozen=True)
 class Number:
-    """What a field of a block holds.
+    """Content of a field of a block.
 
     Attributes
     ----------
@@ -64,12 +64,19 @@ class Block(Mapping[str, Any]):
                 object.__setattr__(self, name, FrozenList(value))
 
     def __iter__(self) -> Iterator[str]:
-        for entry in entries(type(self)):
-            if not (entry.number.optional and getattr(self, entry.name) is None):
-                yield entry.name
+        return iter([name for name, _ in self.items()])
 
     def __len__(self) -> int:
-        return sum(1 for _ in self)
+        return len(self.items())
+
+    def items(self) -> ItemsView[str, Any]:
+        """Return names and values; optional ones that are None are left out."""
+        values = {}
+        for name, optional in _optional(type(self)).items():
+            value = getattr(self, name)
+            if value is not None or not optional:
+                values[name] = value
+        return values.items()
 
     def __getitem__(self, name: str) -> Any:
         optional = _optional(type(self))[name]
@@ -85,7 +92,7 @@ class Block(Mapping[str, Any]):
 
     def to_json(self) -> dict[str, Any]:
         """Return a dictionary of plain numbers, words, lists and dictionaries."""
-        return {name: plain_json(value) for name, value in self.items()}
+        return {name: value if type(value) in _PLAIN else plain_json(value) for name, value in self.items()}
 
 
 def plain_json(value: Any) -> Any:
@@ -114,7 +121,7 @@ def entries(kind: type) -> tuple[Entry, ...]:
     """Return what the JSON has of a block, in its order: fields, then properties, with a :class:`Number`."""
     hints = get_type_hints(kind, include_extras=True)
     entries = {item.name: hints[item.name] for item in fields(kind)}
-    for name, thing in vars(kind).items():
+    for name, thing in (item for owner in reversed(kind.__mro__) for item in vars(owner).items()):
         if isinstance(thing, property) and str(thing.fget.__annotations__.get("return")).startswith("Annotated"):
             entries[name] = get_type_hints(thing.fget, include_extras=True)["return"]
     rows = []
@@ -140,6 +147,7 @@ def _annotated(hint: Any) -> bool:
     return get_origin(hint) is Annotated
 
 
+@cache
 def ending_of(unit: str) -> str:
     """Return how the name of a number of this unit ends."""
     ending = unit.partition(" per ")[0].lower().replace("n m", "nm").replace("²", "2")
@@ -161,7 +169,7 @@ def numbers_in(kind: type, above: str = "") -> Iterator[tuple[str, str, str]]:
 
 
 def described(kind: type, above: str = "") -> Iterator[tuple[str, Number]]:
-    """Walk the paths of all keys of a block with what they hold; ``[]`` is a place in a list, ``*`` any name."""
+    """Walk the paths of all keys of a block with their content; ``[]`` is a place in a list, ``*`` any name."""
     for entry in entries(kind):
         path = f"{above}{entry.name}"
         yield path, entry.number

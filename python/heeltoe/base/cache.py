@@ -1,4 +1,4 @@
-"""The last few of what is dear to build: studies ask for the same again and again, from several threads."""
+"""A cache of the last few expensive objects, for studies that need the same ones again, from several threads."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ T = TypeVar("T")
 
 
 class Kept(Generic[T]):
-    """Keeps what was asked for last, by all that it depends on.
+    """Keeps the objects that were used last, by everything they depend on.
 
     Threads that ask for the same at once wait for one of them to build it. What cannot be built is not kept.
 
@@ -34,19 +34,21 @@ class Kept(Generic[T]):
 
     def get(self, key: Hashable, build: Callable[[], T]) -> T:
         """Return what belongs to a key, built if it is not there."""
-        with self._lock:
-            entry = self._entries.pop(key, None)
-            future = entry or Future()
-            self._entries[key] = future
-            if len(self._entries) > self._capacity:
-                del self._entries[next(iter(self._entries))]
-        if entry is None:
-            try:
+        future: Future[T] = Future()
+        try:
+            with self._lock:
+                entry = self._entries.pop(key, None)
+                self._entries[key] = entry or future
+                if len(self._entries) > self._capacity:
+                    del self._entries[next(iter(self._entries))]
+            if entry is None:
                 future.set_result(build())
-            except BaseException as error:
-                with self._lock:
-                    if self._entries.get(key) is future:
-                        del self._entries[key]
+        except BaseException as error:
+            # Also where it is interrupted before it builds: whoever asks next would wait for ever.
+            with self._lock:
+                if self._entries.get(key) is future:
+                    del self._entries[key]
+            if not future.done():
                 future.set_exception(error)
-                raise
-        return future.result()
+            raise
+        return (entry or future).result()

@@ -30,12 +30,12 @@ _FACES: dict[str, Any] = {}
 
 
 def hand_in(*, html: Callable[[object], str], plot: Plot) -> None:
-    """Take over what writes a thing as HTML, and what draws it."""
+    """Take over the functions that write an object as HTML and draw it."""
     _FACES.update(html=html, plot=plot)
 
 
 class Named:
-    """A thing that says which attribute may have been meant where it has none of a name."""
+    """An object that suggests an attribute where a name is misspelt."""
 
     # Type checkers would take any name for one that is there.
     if not TYPE_CHECKING:

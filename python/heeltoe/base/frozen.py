@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import ItemsView, Iterator, Mapping
 from typing import Any, NoReturn
 
 import numpy as np
@@ -56,6 +56,10 @@ class FrozenDict(Mapping[str, Any]):
 
     def __len__(self) -> int:
         return len(self._values)
+
+    def items(self) -> ItemsView[str, Any]:
+        """Return names and values."""
+        return self._values.items()
 
     def __repr__(self) -> str:
         return repr(self._values)

@@ -8,7 +8,7 @@ from typing import Any
 from heeltoe.errors.error import InputError
 
 
-def dataframe(columns: Mapping[str, Any]) -> Any:
+def dataframe(columns: Mapping[str, object]) -> Any:
     """Return columns of equal length as a ``pandas.DataFrame``.
 
     Raises
@@ -19,10 +19,10 @@ def dataframe(columns: Mapping[str, Any]) -> Any:
     try:
         from pandas import DataFrame
     except ImportError:
-        raise InputError("pandas-package", "to_pandas") from None
+        raise InputError("package-missing", "to_pandas", "pandas", install="pip install pandas") from None
     return DataFrame(dict(columns))
 
 
-def dataframe_of_rows(rows: Sequence[Mapping[str, Any]]) -> Any:
+def dataframe_of_rows(rows: Sequence[Mapping[str, object]]) -> Any:
     """Return rows with the same columns as :func:`dataframe` does."""
     return dataframe({name: [row[name] for row in rows] for name in rows[0]})

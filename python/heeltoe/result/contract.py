@@ -76,4 +76,6 @@ def ground_histories(shaking: Shaking, moments: Floats) -> dict[str, Floats]:
     histories = {"time_s": moments, "ground_acceleration_m_s2": horizontal}
     if shaking.up is not None:
         histories["vertical_ground_acceleration_m_s2"] = np.interp(moments, shaking.time, shaking.up)
+    if shaking.cross is not None:
+        histories["cross_ground_acceleration_m_s2"] = np.interp(moments, shaking.time, shaking.cross)
     return histories

@@ -31,8 +31,11 @@ class Histories(Columns):
     time_s: Annotated[Floats, Number("The moment.", "s")]
     ground_acceleration_m_s2: Annotated[Floats, Number("Acceleration of the ground, positive downstream.", "m/s²")]
     vertical_ground_acceleration_m_s2: Annotated[Floats, Number("The same upwards.", "m/s²")]
+    cross_ground_acceleration_m_s2: Annotated[
+        Floats, Number("Acceleration of the ground across the valley, positive to the left bank.", "m/s²")
+    ]
     ground_rotation_rad_s2: Annotated[
-        Floats, Number("Angular acceleration of what is under a block, where it turns.", "rad/s²")
+        Floats, Number("Angular acceleration of the ground under a block, where it turns.", "rad/s²")
     ]
     crack_acceleration_m_s2: Annotated[
         Floats, Number("Acceleration of the crack under the block of the chain, positive downstream.", "m/s²")
@@ -44,6 +47,11 @@ class Histories(Columns):
     slip_m: Annotated[Floats, Number("Slip of the part above the crack, positive downstream.", "m")]
     slip_velocity_m_s: Annotated[Floats, Number("Its velocity.", "m/s")]
     slip_acceleration_m_s2: Annotated[Floats, Number("Its acceleration.", "m/s²")]
+    slip_cross_m: Annotated[Floats, Number("Slip of a block across the valley, positive to the left bank.", "m")]
+    slip_cross_velocity_m_s: Annotated[Floats, Number("Velocity of that slip.", "m/s")]
+    friction_cross_n: Annotated[
+        Floats, Number("Friction on a block across the valley, positive to the left bank.", "N per metre of dam")
+    ]
     gap_heel_m: Annotated[Floats, Number("Opening of the crack at the upstream face.", "m")]
     gap_toe_m: Annotated[Floats, Number("Opening of the crack at the downstream face.", "m")]
     rotation_rad: Annotated[Floats, Number("Rotation, positive counter-clockwise: upstream, about the heel.", "rad")]
@@ -69,7 +77,7 @@ class Histories(Columns):
             "How high the flank of a rough crack is under the block, over the valley in which it stood at first.", "m"
         ),
     ]
-    asperity_angle_rad: Annotated[Floats, Number("Angle of the flanks of a rough crack, as worn as they are.", "rad")]
+    asperity_angle_rad: Annotated[Floats, Number("Angle of the worn flanks of a rough crack.", "rad")]
     plastic_work_j_m2: Annotated[
         Floats, Number("Work of friction on the asperities of a rough crack, per area.", "J/m²")
     ]
@@ -96,6 +104,10 @@ class Histories(Columns):
     friction_energy_j: Annotated[Floats, Number("Lost in friction up to here.", "J per metre of dam")]
     impact_energy_j: Annotated[Floats, Number("Lost in impacts up to here.", "J per metre of dam")]
     mode: Annotated[tuple[str, ...], Number("Mode of motion: rest, sliding, rocking, slide-rocking, drifting.")]
+
+
+#: Columns of the openings, at the upstream face before the downstream one.
+GAPS = tuple(name for name in Histories.__annotations__ if name.startswith("gap_"))
 
 
 class EventLog(Columns):

@@ -19,6 +19,7 @@ from heeltoe.base.arrays import Floats, Integers
 from heeltoe.base.blocks import Block, Number
 from heeltoe.result.contract import CRACKED, JOINT_METER_M, OPENINGS, PEAKS, RESIDUAL_SLIP, ROTATIONS, WIDTH
 from heeltoe.result.crest import ACCELERATION, CREST_PEAKS, DISPLACEMENT
+from heeltoe.result.histories import GAPS
 from heeltoe.result.outcome import Outcome
 
 Flags = NDArray[np.bool_]
@@ -41,7 +42,7 @@ LIMITS = {
     "opening": Limit("opening at either face", tuple(item.key for item in OPENINGS), ""),
     **{
         item.key.removesuffix("_m"): Limit(item.label, (item.key,), column)
-        for item, column in zip(OPENINGS, ("gap_heel_m", "gap_toe_m"), strict=True)
+        for item, column in zip(OPENINGS, GAPS, strict=True)
     },
     "cracked_length": Limit("cracked length", (CRACKED,), CRACKED),
     "rotation": Limit("rotation", ROTATIONS, "rotation_rad", "rad"),
@@ -76,6 +77,11 @@ class LimitCheck(Block):
         ),
     ] = None
 
+    friction: Annotated[
+        str | None,
+        Number("The friction of the band that has this result, where it is not the best estimate.", optional=True),
+    ] = None
+
     @property
     def unit(self) -> Annotated[str, Number("In what result and limit are counted: m, rad or g.")]:
         """In what it is counted."""
@@ -84,9 +90,7 @@ class LimitCheck(Block):
     @property
     def utilisation(
         self,
-    ) -> Annotated[
-        float | None, Number("The result over what is allowed; null where nothing is allowed, or without a result.")
-    ]:
+    ) -> Annotated[float | None, Number("The result over its limit; null without a limit or without a result.")]:
         """The result over what is allowed."""
         return self.value / self.allowed if self.allowed and self.value is not None else None
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from heeltoe.result.contract import CRACKED, WIDTH
 from heeltoe.result.crest import CREST_PEAKS, crest_peaks
@@ -30,10 +30,10 @@ def allowances(limits: Limits, gravity: float) -> dict[str, float]:
 
 def judge_response(limits: Limits, response: ResponseData) -> Judgement:
     """Return the judgement of a response, one row."""
-    columns: dict[str, Any] = {
-        key: [[math.nan if crack.numbers is None else getattr(crack.numbers, key) for crack in response.cracks]]
-        for key in _KEYS
-    }
+    cracks = [crack.numbers for crack in response.cracks]
+    columns = dict[str, list[list[float]]]()
+    for key in _KEYS:
+        columns[key] = [[math.nan if numbers is None else getattr(numbers, key) for numbers in cracks]]
     if any(_bonded(crack) for crack in response.cracks):
         columns[CRACKED] = [[_cracked(crack) for crack in response.cracks]]
     if response.crest is not None or not response.started:

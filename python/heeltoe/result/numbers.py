@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from heeltoe.base.blocks import Block, Number
 from heeltoe.result.quantity import Quantity, peak_time
+from heeltoe.units.sentences import Sentence
 
 # Not at run time: the numbers of a result need no case.
 if TYPE_CHECKING:
@@ -48,15 +49,13 @@ class AnchorForce(Block):
     peak_force_n: Annotated[
         float, Number("The largest force that it bears, tension and resistance to slip together.", _NEWTON)
     ]
-    capacity_n: Annotated[
-        float | None, Number("What it is good for, as the case says; null where the case does not.", _NEWTON)
-    ]
+    capacity_n: Annotated[float | None, Number("Capacity that the case gives; null without one.", _NEWTON)]
     final_tension_n: Annotated[float, Number("Its tension at the end of the run.", _NEWTON)]
     slack_s: Annotated[
         float | None,
         Number(
-            "When it goes slack for the first time: its prestress is gone. Null where it keeps some of it, or has "
-            "none.",
+            "Time at which the anchor first goes slack and its prestress is lost; null where it keeps some, or "
+            "has no prestress.",
             "s",
         ),
     ]
@@ -112,7 +111,7 @@ class BlockFrictionLaw(FrictionLawState):
     """The same under a rigid block."""
 
     integrated_time_s: Annotated[float, Number("Time that had to be integrated, for want of a closed form.", "s")]
-    integration_error_m: Annotated[float, Number("What that may have added to the slip.", "m")]
+    integration_error_m: Annotated[float, Number("Error of the slip by that.", "m")]
 
 
 class ElasticFrictionLaw(FrictionLawState):
@@ -161,7 +160,9 @@ class BlockBond(Block):
     ]
     breaks_by: Annotated[
         str | None,
-        Number("What breaks it: tension at the heel or toe, shear downstream or upstream; null where it holds."),
+        Number(
+            "Cause of its failure: tension at the heel or toe, shear downstream or upstream; null where the bond holds."
+        ),
     ]
     tensile_strength_used: Annotated[
         float, Number("Largest tension at heel or toe while it holds, as a share of the tensile strength.")
@@ -177,7 +178,7 @@ class Roughness(Block):
     asperity_height_m: Annotated[float, Number("Height of the asperities.", "m")]
     wave_length_m: Annotated[float, Number("Their wave length.", "m")]
     asperity_angle_before_rad: Annotated[float, Number("Angle of their flanks before the earthquake.", "rad")]
-    asperity_angle_after_rad: Annotated[float, Number("Angle of their flanks after it, as worn as they are.", "rad")]
+    asperity_angle_after_rad: Annotated[float, Number("Angle of their worn flanks at the end.", "rad")]
     apparent_friction_before: Annotated[float, Number("Friction along the mean plane before the earthquake.")]
     apparent_friction_after: Annotated[float, Number("Friction along the mean plane after it.")]
     residual_dilation_m: Annotated[float, Number("How far the crack is dilated in the end.", "m")]
@@ -185,7 +186,7 @@ class Roughness(Block):
     plastic_work_j_m2: Annotated[float, Number("Work of friction on the asperities, per area.", "J/m²")]
     slip_path_m: Annotated[float, Number("How far the crack has slipped, to and fro.", "m")]
     asperities_passed: Annotated[int, Number("How many crests were passed.")]
-    integration_error_m: Annotated[float, Number("What integration may have added to the slip.", "m")]
+    integration_error_m: Annotated[float, Number("Error of the slip by integration.", "m")]
 
 
 class ElasticGive(Block):
@@ -228,7 +229,7 @@ class CrackNumbers(Block):
     elevation_m: Annotated[
         float | None,
         Number(
-            "Of several cracks: elevation of the upstream end of this one above the lowest point of the section.",
+            "Elevation of the upstream end of the crack above the lowest point of the section.",
             "m",
             optional=True,
         ),
@@ -322,21 +323,54 @@ class CrackNumbers(Block):
     final_mode: Annotated[str, Number("Mode of motion at the end.")]
     final_slip_velocity_m_s: Annotated[float, Number("Slip velocity at the end, positive downstream.", "m/s")]
     crack_width_m: Annotated[float, Number("Width of the crack.", "m")]
-    friction: Annotated[
-        float | None, Number("Of several cracks: its coefficient of friction while it slips.", optional=True)
-    ] = None
+    friction: Annotated[float | None, Number("Coefficient of friction of the crack while it slips.", optional=True)] = (
+        None
+    )
     crack_energy: Annotated[
         CrackEnergy | None,
-        Number("Of several cracks: what of the energy of the dam is lost in this one.", optional=True),
+        Number("Energy that is lost in this crack.", optional=True),
     ] = None
     anchors: Annotated[
         list[AnchorForce] | None,
-        Number("Of each anchor: place, largest tension and capacity.", optional=True),
+        Number("Place, largest tension and capacity of each anchor.", optional=True),
     ] = None
 
 
 #: What a crack has where it is one of several.
 OF_SEVERAL = ("elevation_m", "friction", "crack_energy")
+
+
+class WithoutCrossValley(Block):
+    """The same block without the shaking across the valley."""
+
+    outcome: Annotated[str, Number("How it ends.")]
+    residual_slip_m: Annotated[float | None, Number("Its residual slip; null without a result.", "m")]
+    factor: Annotated[
+        float | None,
+        Number("Residual slip over that without the shaking across the valley; null where that is next to nothing."),
+    ]
+
+
+class CrossValley(Block):
+    """What a block did across the valley, positive to the left bank."""
+
+    residual_slip_cross_m: Annotated[
+        float, Number("Slip across the valley at the end, positive to the left bank.", "m")
+    ]
+    peak_slip_cross_left_m: Annotated[float, Number("Largest slip to the left bank on the way.", "m")]
+    peak_slip_cross_right_m: Annotated[
+        float, Number("Least slip across the valley on the way: negative where it is to the right bank.", "m")
+    ]
+    slip_path_m: Annotated[float, Number("Length of the path of the slip, along and across the valley together.", "m")]
+    side_contacts: Annotated[int, Number("How often the block comes to rest against a neighbour.")]
+    time_at_side_s: Annotated[float, Number("How long a neighbour holds the block across the valley.", "s")]
+    side_contact_impulse_n_s: Annotated[
+        float, Number("Impulse that the neighbours take across the valley.", "N s per metre of dam")
+    ]
+    without_cross_valley: Annotated[
+        WithoutCrossValley | None,
+        Number("The same block without that shaking; null where that was not run."),
+    ] = None
 
 
 class BlockNumbers(CrackNumbers):
@@ -345,19 +379,23 @@ class BlockNumbers(CrackNumbers):
     events: Annotated[int, Number("Changes of mode and impacts of a block.")]
     end_time_s: Annotated[float, Number("When the run ended.", "s")]
     rotation: Annotated[str, Number("Geometry of a block: small, p-delta or finite.")]
-    uplift_during_shaking: Annotated[str, Number("What the uplift does in the earthquake, as the case says.")]
+    uplift_during_shaking: Annotated[str, Number("Rule for uplift during the earthquake, from the case.")]
     drainage_by_motion: Annotated[
         list[float] | None,
         Number("Part of the drainage that each motion of a sequence meets; null where slip closes none."),
     ]
     friction_law: Annotated[
-        BlockFrictionLaw | None, Number("What the friction law of a crack has come to; null of coefficients.")
+        BlockFrictionLaw | None, Number("State of the friction law at the end; null for constant coefficients.")
     ]
     roughness: Annotated[
-        Roughness | None, Number("What the asperities of a rough crack have come to; null of a flat one.")
+        Roughness | None, Number("State of the asperities of a rough crack at the end; null for a flat one.")
     ]
     bond: Annotated[BlockBond | None, Number("How the bond of the joint below a rigid block fares; null of a crack.")]
     overturned_about: Annotated[str | None, Number("Corner about which a block has overturned; null where it has not.")]
+    cross_valley: Annotated[
+        CrossValley | None,
+        Number("What a block did across the valley; null where the ground does not shake that way."),
+    ] = None
 
 
 class CrackSpectrum(Block):
@@ -368,7 +406,7 @@ class CrackSpectrum(Block):
     ground_g: Annotated[list[float], Number("Spectral acceleration of the ground.", "g")]
     crack_g: Annotated[list[float], Number("Spectral acceleration of the crack.", "g")]
     transfer: Annotated[list[float], Number("Motion of the crack over that of the ground, at these periods.")]
-    bonded_transfer: Annotated[list[float], Number("The same of the intact dam.")]
+    bonded_transfer: Annotated[list[float], Number("Transfer function of the intact dam.")]
 
 
 class BondedMotion(Block):
@@ -386,7 +424,7 @@ class CrackMotionConvergence(Block):
 
     step_s: Annotated[float, Number("Step to which the motion of the crack was refined.", "s")]
     straightness: Annotated[float, Number("How far it is from straight lines between the steps, over its peak.")]
-    half_the_modes: Annotated[float, Number("What the slower half of the modes misses, over its peak.")]
+    half_the_modes: Annotated[float, Number("Error with the slower half of the modes, over the peak.")]
     coarser_step_s: Annotated[float, Number("Twice that step.", "s")]
     coarser_residual_slip_m: Annotated[float, Number("Residual slip with it.", "m")]
     change: Annotated[float, Number("By how much that changes the residual slip, as a share.")]
@@ -499,7 +537,7 @@ class Tension(StressPlace):
     read_from_crack_m: Annotated[
         float, Number("Nearer to the crack than this, and to other places without a bound, it is not read.", "m")
     ]
-    mesh: Annotated[TensionByMesh | None, Number("What another mesh makes of it; null where there is none.")]
+    mesh: Annotated[TensionByMesh | None, Number("The same tension with another mesh; null without one.")]
     compression: Annotated[StressPlace, Number("The largest principal compression, where and when.")]
 
 
@@ -547,7 +585,7 @@ class HeadlineWorth(RotationWorth):
 class EvidenceNumbers(Block):
     """How far step, mesh and 1 % of the shaking move a result."""
 
-    asked: Annotated[str, Number("Which evidence was asked for.")]
+    asked: Annotated[str, Number("Evidence that the case requests.")]
     converged: Annotated[bool, Number("Whether the residual slip is certain enough.")]
     no_limit: Annotated[
         bool,
@@ -556,7 +594,9 @@ class EvidenceNumbers(Block):
     value_is: Annotated[
         str, Number("Whether the numbers to trust are those of the run, or means over runs that scatter.")
     ]
-    moved_most_by: Annotated[str, Number("What moves the residual slip most: step, mesh, shaking or surroundings.")]
+    moved_most_by: Annotated[
+        str, Number("Largest cause of uncertainty of the residual slip: step, mesh, shaking or surroundings.")
+    ]
     allowed_m: Annotated[float, Number("Uncertainty that is allowed of a converged slip.", "m")]
     time_step_s: Annotated[float, Number("Time step of the run.", "s")]
     other_time_step_s: Annotated[float, Number("Time step of the run beside it.", "s")]
@@ -574,15 +614,15 @@ class EvidenceNumbers(Block):
     work: Annotated[float, Number("Cost of all runs, in runs of the first mesh and step.")]
     budget: Annotated[float, Number("Cost that is allowed.")]
     budget_spent: Annotated[bool, Number("Whether that ended the refinement.")]
-    residual_slip_m: Annotated[HeadlineWorth, Number("What the residual slip is worth.", "m")]
-    peak_slip_downstream_m: Annotated[HeadlineWorth, Number("What the peak slip downstream is worth.", "m")]
-    peak_slip_upstream_m: Annotated[HeadlineWorth, Number("What the peak slip upstream is worth.", "m")]
-    rocking_downstream_rad: Annotated[RotationWorth, Number("What the rotation downstream is worth.", "rad")]
-    rocking_upstream_rad: Annotated[RotationWorth, Number("What the rotation upstream is worth.", "rad")]
-    opening_upstream_m: Annotated[HeadlineWorth, Number("What the opening at the upstream face is worth.", "m")]
-    opening_downstream_m: Annotated[HeadlineWorth, Number("What the opening at the downstream face is worth.", "m")]
+    residual_slip_m: Annotated[HeadlineWorth, Number("Uncertainty of the residual slip.", "m")]
+    peak_slip_downstream_m: Annotated[HeadlineWorth, Number("Uncertainty of the peak slip downstream.", "m")]
+    peak_slip_upstream_m: Annotated[HeadlineWorth, Number("Uncertainty of the peak slip upstream.", "m")]
+    rocking_downstream_rad: Annotated[RotationWorth, Number("Uncertainty of the rotation downstream.", "rad")]
+    rocking_upstream_rad: Annotated[RotationWorth, Number("Uncertainty of the rotation upstream.", "rad")]
+    opening_upstream_m: Annotated[HeadlineWorth, Number("Uncertainty of the opening at the upstream face.", "m")]
+    opening_downstream_m: Annotated[HeadlineWorth, Number("Uncertainty of the opening at the downstream face.", "m")]
     cracked_length_m: Annotated[
-        HeadlineWorth | None, Number("What the cracked length of a joint is worth; null of a crack.", "m")
+        HeadlineWorth | None, Number("Uncertainty of the cracked length of a joint; null for a crack.", "m")
     ] = None
 
     @property
@@ -609,9 +649,9 @@ class ElasticCrack(CrackNumbers):
     ]
     friction_law: Annotated[
         ElasticFrictionLaw | None,
-        Number("What the friction law of a crack has come to; null of coefficients."),
+        Number("State of the friction law at the end; null for constant coefficients."),
     ]
-    joint: Annotated[BondState | None, Number("What has become of the bond of a joint; null of a crack.")]
+    joint: Annotated[BondState | None, Number("State of the bond of a joint at the end; null for a crack.")]
 
 
 class FacePressure(Block):
@@ -647,7 +687,7 @@ class ElasticDam(Block):
     time_step_s: Annotated[float, Number("Time step.", "s")]
     contact_iterations_per_step: Annotated[float, Number("Tries per step until the contact forces are found.")]
     contact_residual: Annotated[float, Number("Worst violation of the contact conditions, over the impulse.")]
-    uplift_during_shaking: Annotated[str, Number("What the uplift does in the earthquake, as the case says.")]
+    uplift_during_shaking: Annotated[str, Number("Rule for uplift during the earthquake, from the case.")]
     drainage_by_motion: Annotated[
         list[float] | None,
         Number("Part of the drainage that each motion of a sequence meets; null where slip closes none."),
@@ -669,7 +709,9 @@ class ElasticDam(Block):
     ]
     water_pressure: Annotated[
         list[FacePressure] | None,
-        Number("Of compressible water on each face: its extremes; not there without.", optional=True),
+        Number(
+            "Extremes of the pressure of compressible water on each face; left out without such water.", optional=True
+        ),
     ] = None
 
 
@@ -689,7 +731,8 @@ class SignNumbers(Block):
     governs: Annotated[bool, Number("Whether it is the worse way, whose numbers lead the result.")]
     outcome: Annotated[str, Number("How the run ended.")]
     elevation_m: Annotated[
-        float | None, Number("Of the crack that slips most; null where the run has no result.", "m", optional=True)
+        float | None,
+        Number("Elevation of the crack that slips most; null where the run has no result.", "m", optional=True),
     ]
     residual_slip_m: Annotated[
         float | None, Number("Its residual slip, positive downstream; null without a result.", "m", optional=True)
@@ -698,6 +741,36 @@ class SignNumbers(Block):
         float | None, Number("Largest opening of a crack at either face; null without a result.", "m", optional=True)
     ]
     limits_not_met: Annotated[int, Number("How many of the limits of the case it does not meet.")]
+
+
+#: Name of the friction that the crack states, in a band of others.
+BEST = "best"
+
+
+class FrictionTrial(Block):
+    """A run with one of the frictions that the crack may have."""
+
+    name: Annotated[str, Number("Which friction: best, or the field of `[crack.band]`.")]
+    friction: Annotated[Sentence, Number("The friction, in words.")]
+    outcome: Annotated[str, Number("How the run ended; of two signs of the motion the worse one.")]
+    residual_slip_m: Annotated[float | None, Number("Residual slip, positive downstream; null without a result.", "m")]
+    opening_m: Annotated[float | None, Number("Largest opening of a crack at either face; null without a result.", "m")]
+    limits_not_met: Annotated[int, Number("How many of the limits of the case it does not meet.")]
+    judged: Annotated[bool, Number("Whether it is the friction that the limits judge.")]
+
+
+class FrictionBand(Block):
+    """The same run with every friction that the crack may have."""
+
+    trials: Annotated[
+        list[FrictionTrial],
+        Number("The best estimate, which leads the result, and the others; of an elastic dam without evidence."),
+    ]
+
+    @property
+    def judged(self) -> FrictionTrial:
+        """The friction that the limits judge."""
+        return next(trial for trial in self.trials if trial.judged)
 
 
 class Spread(Block):

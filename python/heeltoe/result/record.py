@@ -21,7 +21,9 @@ from heeltoe.result.numbers import (
     BlockBond,
     Chosen,
     CrackNumbers,
+    CrossValley,
     Energy,
+    FrictionBand,
     FrictionLawState,
     Roughness,
     SignNumbers,
@@ -54,10 +56,11 @@ class Of(Generic[T]):
     def __get__(self, response: Numbered | None, owner: type) -> Self | T:
         if response is None:
             return self
-        for block in (response.numbers, response.of_dam) if response.numbers is not None else ():
-            if block is not None and hasattr(block, self._name):
-                value: T = getattr(block, self._name)
-                return value
+        numbers = response.numbers
+        block = numbers if numbers is None or hasattr(numbers, self._name) else response.of_dam
+        if block is not None and hasattr(block, self._name):
+            value: T = getattr(block, self._name)
+            return value
         raise AttributeError(f"a {owner.__name__} without a run, or of another model, has no {self._name!r}")
 
 
@@ -99,6 +102,7 @@ class Numbered(ABC):
     friction_law = Of[FrictionLawState | None]()
     roughness = Of[Roughness | None]()
     bond = Of[BlockBond | None]()
+    cross_valley = Of[CrossValley | None]()
     drainage_by_motion = Of[list[float] | None]()
     overturned_about = Of[str | None]()
 
@@ -169,15 +173,15 @@ class ResponseData(Numbered):
     model
         ``"rigid"``, ``"decoupled"`` or ``"flexible"``.
     title
-        Of the case.
+        Title of the case.
     outcome, advice
         How the run ended, and what to do about it where there is no result.
     warnings
         Everything a reader must know before using the numbers.
     energy
         The ledger; None where the run never started.
-    motion, vertical
-        The ground motions, as used.
+    motion, vertical, cross
+        The ground motions, as used: along the stream, upward and across the valley.
     gravity
         One g of the case [m/s2].
     cracks
@@ -202,6 +206,8 @@ class ResponseData(Numbered):
         How long the run goes on after the ground motion has ended, until the dam is at rest [s].
     signs
         What the motion does as recorded and reversed, where both were run: the response is that of the worse way.
+    friction_band
+        What other frictions of the crack do, where the case has a band of them.
     crest
         How the crest moves; None where the model does not say.
     """
@@ -214,6 +220,7 @@ class ResponseData(Numbered):
     energy: Energy | None
     motion: GroundMotion
     vertical: GroundMotion | None
+    cross: GroundMotion | None = None
     gravity: float
     cracks: tuple[CrackResponse, ...]
     asked: int = 0
@@ -226,6 +233,7 @@ class ResponseData(Numbered):
     seconds: float = 0.0
     silence_s: float = 0.0
     signs: tuple[SignNumbers, ...] = ()
+    friction_band: FrictionBand | None = None
     crest: CrestMotion | None = None
 
     #: Whether the parts of the dam are elastic, so that both ends of a crack shift with nothing happening to the dam.
@@ -234,7 +242,7 @@ class ResponseData(Numbered):
     def __post_init__(self) -> None:
         object.__setattr__(self, "outcome", Outcome(self.outcome))
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, object]:
         """Return the fields alone: what is made of them can be made again."""
         return {name: value for name, value in vars(self).items() if name != "summary"}
 
@@ -242,6 +250,11 @@ class ResponseData(Numbered):
     def ok(self) -> bool:
         """Whether the run ended with a result to trust."""
         return self.outcome.has_result
+
+    @property
+    def components(self) -> tuple[GroundMotion | None, ...]:
+        """The ground motions, as used: along the stream, upward and, where there is one, across the valley."""
+        return (self.motion, self.vertical) if self.cross is None else (self.motion, self.vertical, self.cross)
 
     @property
     def started(self) -> bool:

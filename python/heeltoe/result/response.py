@@ -85,15 +85,17 @@ class Response(ResponseData, Shown):
             **({} if self.spread is None else {"spread": self.spread.to_json()}),
             **({"sequence": [stage.to_json() for stage in self.sequence]} if self.sequence else {}),
             **({"signs": [way.to_json() for way in self.signs]} if self.signs else {}),
+            **({} if self.friction_band is None else {"friction_band": self.friction_band.to_json()}),
             "limits": [check.to_json() for check in self.limits],
             "motion": motion_json(self.motion, self.gravity),
             "vertical_motion": motion_json(self.vertical, self.gravity) if self.vertical else None,
+            **({} if self.cross is None else {"cross_valley_motion": motion_json(self.cross, self.gravity)}),
             "references": list(self.references),
             "build": build_info(),
             **({} if self.beside is None else self._side_by_side(self.beside)),
         }
 
-    def _side_by_side(self, beside: Response) -> dict[str, Any]:
+    def _side_by_side(self, beside: Response) -> dict[str, object]:
         return {"ratio": self.ratio(), "meaning": self.meaning(), "beside": beside.to_json()}
 
     def to_table(self) -> pa.Table:

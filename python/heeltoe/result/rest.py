@@ -74,7 +74,7 @@ def rests_from(response: ResponseData) -> float:
 
 def motion_end(response: ResponseData) -> float:
     """Return when the ground motion of a run ends [s]; what goes on after its run has no part in it."""
-    motions = [motion for motion in (response.motion, response.vertical) if motion is not None]
+    motions = [motion for motion in (response.motion, response.vertical, response.cross) if motion is not None]
     return min(response.end_time_s - response.silence_s, max(motion.duration for motion in motions))
 
 

@@ -17,6 +17,7 @@ from heeltoe.result.numbers import (
     ElasticCrack,
     ElasticDam,
     Energy,
+    FrictionBand,
     SignNumbers,
     Spread,
     Stage,
@@ -28,7 +29,7 @@ _TEXT, _TEXTS = {"type": "string"}, {"type": "array", "items": {"type": "string"
 _MODELS = ("rigid", "decoupled", "flexible")
 
 
-def run_schema() -> dict[str, Any]:
+def run_schema() -> dict[str, object]:
     """Return the schema: the keys that every result has, and those of the models by model.
 
     Units stand under ``unit`` beside the meaning, which is the ``description``.
@@ -37,7 +38,18 @@ def run_schema() -> dict[str, Any]:
         "type": "object",
         "properties": {**_of_every_run(), **_of_models()},
         "required": sorted(
-            _of_every_run().keys() - {"crest", "spread", "sequence", "signs", "ratio", "meaning", "beside"}
+            _of_every_run().keys()
+            - {
+                "crest",
+                "spread",
+                "sequence",
+                "signs",
+                "friction_band",
+                "cross_valley_motion",
+                "ratio",
+                "meaning",
+                "beside",
+            }
         ),
     }
     return {
@@ -48,7 +60,7 @@ def run_schema() -> dict[str, Any]:
     }
 
 
-def _of_models() -> dict[str, Any]:
+def _of_models() -> dict[str, object]:
     """Return the numbers of the crack of ``[crack]`` and of the dam; a run that never started has none."""
     properties: dict[str, Any] = {}
     for kind in (BlockNumbers, Chain, ElasticCrack, ElasticDam):
@@ -62,7 +74,7 @@ def _of_models() -> dict[str, Any]:
     return {name: schema for name, schema in properties.items() if name not in OF_SEVERAL} | several
 
 
-def _of_every_run() -> dict[str, Any]:
+def _of_every_run() -> dict[str, object]:
     motion = json_schema(MotionNumbers)
     # What is no number is left out, and `left_out` says why.
     static = {name: schema for name, schema in _properties(StaticState).items() if name != "critical_acceleration_g"}
@@ -84,9 +96,11 @@ def _of_every_run() -> dict[str, Any]:
         "spread": json_schema(Spread),
         "sequence": {"type": "array", "items": json_schema(Stage)},
         "signs": {"type": "array", "items": json_schema(SignNumbers)},
+        "friction_band": json_schema(FrictionBand),
         "limits": {"type": "array", "items": json_schema(LimitCheck)},
         "motion": motion,
         "vertical_motion": _or_null(motion),
+        "cross_valley_motion": motion,
         "references": _TEXTS,
         "build": {"type": "object", "additionalProperties": _TEXT},
         "ratio": {"type": "object", "properties": ratio},
@@ -100,5 +114,5 @@ def _properties(kind: type[Block]) -> dict[str, Any]:
     return properties
 
 
-def _or_null(schema: dict[str, Any]) -> dict[str, Any]:
+def _or_null(schema: dict[str, object]) -> dict[str, object]:
     return {"anyOf": [schema, {"type": "null"}]}

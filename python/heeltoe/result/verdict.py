@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
 from heeltoe.result.judge import LimitCheck
-from heeltoe.result.numbers import AssumedRock, BlockBond, BondState, RockTrial
+from heeltoe.result.numbers import BEST, AssumedRock, BlockBond, BondState, CrossValley, FrictionTrial, RockTrial
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.record import CrackResponse, ResponseData
 from heeltoe.result.rest import comes_to_rest, last_of, motion_end, rests_from
@@ -52,6 +52,7 @@ def verdict(response: ResponseData, units: str = "si", *, brief: bool = False) -
             _elastic_rocking(response) if brief else _openings(response, units),
             _other_cracks(response, units, brief),
             _elastic_end(response, units, brief),
+            _left_out_across(response),
             rock_sentence(response, units),
             tension_sentence(getattr(response, "tension", None), units),
         ]
@@ -59,11 +60,13 @@ def verdict(response: ResponseData, units: str = "si", *, brief: bool = False) -
         sentences = [
             _bond_of_block(response),
             _slip(response, units),
+            across_sentence(response, units),
             _rocking(response, units),
             _other_cracks(response, units, brief),
             _end(response),
         ]
-    sentences += [sequence_sentence(response.sequence, units), _signs(response, units), _limits(response, units)]
+    band = "" if brief else band_sentence(response, units)
+    sentences += [sequence_sentence(response.sequence, units), _signs(response, units), band, _limits(response, units)]
     return " ".join(sentence for sentence in sentences if sentence)
 
 
@@ -87,7 +90,38 @@ def _signs(response: ResponseData, units: str) -> str:
     return f"This is for the motion {words[own.sign]}; {words[other.sign]} {does}."
 
 
+def band_sentence(response: ResponseData, units: str = "si") -> str:
+    """Say what the dam does with the other frictions that its crack may have; nothing without a band."""
+    if response.friction_band is None:
+        return ""
+    return " ".join(
+        f"With a {trial.friction.text(units)} it {trial_text(trial, units)}."
+        for trial in response.friction_band.trials
+        if trial.name != BEST
+    )
+
+
+def trial_text(trial: FrictionTrial, units: str) -> str:
+    """Say what the dam does with one friction."""
+    if trial.outcome == Outcome.OVERTURNED:
+        return "overturns"
+    if trial.outcome == Outcome.KEEPS_SLIDING:
+        return "keeps sliding"
+    if trial.residual_slip_m is None:
+        return f"comes to no result ({trial.outcome})"
+    slip = abs(trial.residual_slip_m)
+    return f"slides {length(slip, units)} {_way(trial.residual_slip_m)}" if slip else "does not slide"
+
+
 def _limits(response: ResponseData, units: str) -> str:
+    """Say which of the limits that the user has set are met, and by which friction of a band."""
+    text = _limits_met(response, units)
+    if not text or response.friction_band is None:
+        return text
+    return f"The limits judge a {response.friction_band.judged.friction.text(units)}: {text}"
+
+
+def _limits_met(response: ResponseData, units: str) -> str:
     """Say which of the limits that the user has set are met."""
     if not response.limits:
         return ""
@@ -159,6 +193,44 @@ def _slip(response: ResponseData, units: str) -> str:
         return f"{dam} slides to and fro by up to {length(max(down, up), units)} and ends where it began."
     text = f"{dam} slides {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}"
     return text + _on_the_way(slip, down, up, LEAST_M, units) + "."
+
+
+def across_sentence(response: ResponseData, units: str = "si") -> str:
+    """Say what the shaking across the valley does to a block; nothing where there is none."""
+    across: CrossValley | None = getattr(response, "cross_valley", None)
+    if across is None:
+        return ""
+    slip = across.residual_slip_cross_m
+    bank = "left" if slip > 0.0 else "right"
+    sentences = []
+    if abs(slip) >= LEAST_M:
+        sentences.append(f"Across the valley it slides {length(abs(slip), units)} to the {bank} bank.")
+    adds, without = _share_across(across), across.without_cross_valley
+    if adds and without is not None and without.residual_slip_m is not None:
+        alone = length(abs(without.residual_slip_m), units)
+        sentences.append(f"The shaking across the valley {adds}: without it the dam slides {alone}.")
+    return " ".join(sentences)
+
+
+def _share_across(across: CrossValley) -> str:
+    """Say by how much the shaking across the valley changes the slip; nothing where that is not known."""
+    without = across.without_cross_valley
+    if without is None or without.factor is None:
+        return ""
+    share = 100.0 * (without.factor - 1.0)
+    if abs(share) < 0.5:
+        return "adds nothing"
+    return f"adds {share:.0f} %" if share > 0.0 else f"takes off {-share:.0f} %"
+
+
+def _left_out_across(response: ResponseData) -> str:
+    """Say that an elastic dam leaves out the shaking across the valley, and what that does to the block beside it."""
+    if not any(notice.code == "cross-valley-left-out" for notice in response.warnings):
+        return ""
+    across: CrossValley | None = getattr(response.beside, "cross_valley", None)
+    adds = "" if across is None else _share_across(across)
+    block = f", which {adds} to the slip of its rigid block" if adds.startswith("adds ") else ""
+    return f"This leaves out the shaking across the valley{block}."
 
 
 def joint_sentence(response: ResponseData, units: str = "si") -> str:

@@ -26,17 +26,17 @@ _FORMULA = r"^(?:[=@\t\r]|[+-][^\d.\s])"
 class MotionPart(Block):
     """One motion of a sequence."""
 
-    name: Annotated[str, Number("What the record is called.")]
+    name: Annotated[str, Number("Name of the record.")]
     pga_g: Annotated[float, Number("Its peak acceleration.", "g")]
     begins_s: Annotated[float, Number("When it begins, in the time of the whole run.", "s")]
     ends_s: Annotated[float, Number("When it ends.", "s")]
-    processing: Annotated[list[str], Number("What was done to it, in its order.")]
+    processing: Annotated[list[str], Number("Processing of the record, in order.")]
 
 
 class MotionNumbers(Block):
     """A ground motion, as used."""
 
-    name: Annotated[str, Number("What the record is called.")]
+    name: Annotated[str, Number("Name of the record.")]
     pga_g: Annotated[float, Number("Peak acceleration, without sign.", "g")]
     pgv_m_s: Annotated[float, Number("Peak velocity.", "m/s")]
     pgd_m: Annotated[float, Number("Peak displacement, by integration from rest.", "m")]
@@ -53,13 +53,11 @@ class MotionNumbers(Block):
         float | None, Number("Velocity at the end: what a sound record leaves is small.", "m/s", optional=True)
     ] = None
     source: Annotated[str, Number("File and version that the record was read from.")]
-    processing: Annotated[list[str], Number("What was done to the record, in its order.")]
-    parts: Annotated[
-        list[MotionPart] | None, Number("Of a sequence: its motions, one after the other.", optional=True)
-    ] = None
+    processing: Annotated[list[str], Number("Processing of the record, in order.")]
+    parts: Annotated[list[MotionPart] | None, Number("Motions of a sequence, in order.", optional=True)] = None
 
 
-def write_json(data: Mapping[str, Any], path: Path) -> None:
+def write_json(data: Mapping[str, object], path: Path) -> None:
     """Write the JSON of a result to `path`."""
     path.write_text(json_text(data) + "\n", encoding="utf-8")
 
@@ -91,7 +89,7 @@ def _without_formulas(table: pa.Table) -> pa.Table:
     return pa.Table.from_arrays(columns, schema=table.schema)
 
 
-def json_text(data: Mapping[str, Any]) -> str:
+def json_text(data: Mapping[str, object]) -> str:
     """Return strict JSON: what is not finite, as only a run without a result leaves it, is null."""
     return json.dumps(_finite(data), indent=2, ensure_ascii=False, allow_nan=False)
 
@@ -118,7 +116,7 @@ def critical_json(critical: Mapping[str, float]) -> tuple[dict[str, float], dict
     return finite, {f"critical_acceleration_g.{name}": _NO_ACCELERATION for name in critical if name not in finite}
 
 
-def static_json(state: StaticState) -> dict[str, Any]:
+def static_json(state: StaticState) -> dict[str, object]:
     """Return what the contract says about the static state: what is no number is left out, and why stands beside it."""
     static = state.to_json()
     critical, left_out = critical_json(state.critical_acceleration_g)
@@ -128,7 +126,7 @@ def static_json(state: StaticState) -> dict[str, Any]:
     return {"critical_acceleration_g": critical, "static": stated, "left_out": left_out}
 
 
-def motion_json(motion: GroundMotion, gravity: float) -> dict[str, Any]:
+def motion_json(motion: GroundMotion, gravity: float) -> dict[str, object]:
     """Return what the contract says about a ground motion; `gravity` is one g [m/s2]."""
     numbers = measures(motion, gravity)
     return MotionNumbers(
