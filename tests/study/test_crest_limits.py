@@ -16,6 +16,7 @@ from shared.studies import study_file
 
 DAM = """
 title = "Dam"
+rock = "rigid"
 [section]
 height = "40 m"
 base_width = "32 m"
@@ -29,6 +30,7 @@ friction = 0.9
 {crack}
 [reservoir]
 depth = "36 m"
+compressible = false
 [flexible]
 elements_across = 3
 evidence = "none"

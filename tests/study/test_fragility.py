@@ -446,7 +446,7 @@ def test_the_tables_of_an_opened_study(tmp_path):
     assert study.strength("arias")[1] == pytest.approx(9.0 * study.strength("arias")[0])
     with pytest.raises(InputError) as refused:
         study.strength("magnitude")
-    assert refused.value.code == "study-measure"
+    assert refused.value.code == "not-a-choice"
     with pytest.raises(InputError) as refused:
         _ = study.fragility
     assert refused.value.code == "study-no-fragility"

@@ -54,8 +54,8 @@ def test_weak_pulses_do_nothing():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"pulse": "square"}, "pulse: square is not a pulse; choose sine, half-sine or cosine"),
-        ({"count": 1}, "count: 1 is not a valid number of pulses; give 2 to 400"),
+        ({"pulse": "square"}, "pulse: square is not a choice; choose sine, half-sine or cosine"),
+        ({"count": 1}, "count: 1 is out of range; give a value from 2 to 400"),
     ],
 )
 def test_refused(options, message):

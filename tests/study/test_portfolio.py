@@ -31,6 +31,7 @@ limits = {{ residual_slip = ["20 mm"] }}
 """
 DAM = """
 title = "Dams"
+rock = "rigid"
 [section]
 height = "40 m"
 base_width = "32 m"
@@ -43,6 +44,7 @@ modulus = "20 GPa"
 friction = 1.0
 [reservoir]
 depth = "36 m"
+compressible = false
 [flexible]
 elements_across = 3
 evidence = "none"
@@ -157,7 +159,7 @@ def test_a_study_without_a_table_has_no_ranks(tmp_path):
         ("name, crack.friction\n", "dams-empty", "cases"),
         ("name\nA\n", "dams-empty", "cases"),
         ("name, motion.pga [g]\nA, 1\n", "study-motion-varies", "motion.pga"),
-        ("crack.friction, crack.friction\n1, 1\n", "study-twice", "cases"),
+        ("crack.friction, crack.friction\n1, 1\n", "listed-twice", "cases"),
     ],
 )
 def test_what_is_wrong_with_a_table_is_said(tmp_path, table, code, text):
@@ -170,7 +172,7 @@ def test_what_is_wrong_with_a_table_is_said(tmp_path, table, code, text):
 def test_a_table_must_be_there_and_readable(tmp_path):
     file = study(tmp_path)
     (tmp_path / "dams.csv").write_bytes(b"\xff\xfe\x00")
-    for code in ("dams-unreadable", "dams-missing"):
+    for code in ("file-unreadable", "file-missing"):
         with pytest.raises(InputError) as error:
             plan_of(heeltoe.read_study(file))
         assert error.value.code == code

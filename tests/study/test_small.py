@@ -79,11 +79,11 @@ def test_what_varies_may_be_spread_as_in_a_study_file():
     ("text", "code"),
     [
         ("crack.friction={from=0.8,to=1.2}", "study-count"),
-        ("crack.friction={from=0.8,count=3}", "distribution-incomplete"),
+        ("crack.friction={from=0.8,count=3}", "option-missing"),
         ("crack.friction={from=1.2,to=0.8,count=3}", "distribution-order"),
         ("crack.friction={from=0.8", "vary-form"),
         ("uplift.pattern={from=0.8,to=1.2,count=3}", "study-not-a-number"),
-        ("crack.friction={from=1,to=1.0000000001,count=3}", "vary-twice"),
+        ("crack.friction={from=1,to=1.0000000001,count=3}", "listed-twice"),
     ],
 )
 def test_spreads_that_are_none(text, code):
@@ -188,8 +188,8 @@ def test_a_run_without_a_result_has_its_row():
         (["crack.friction="], "vary-form"),
         (["=1,2"], "vary-form"),
         (["crack.friction=1,,2"], "vary-form"),
-        (["crack.friction=1", "crack.friction=2"], "vary-twice"),
-        (["crack.friction=1,1"], "vary-twice"),
+        (["crack.friction=1", "crack.friction=2"], "listed-twice"),
+        (["crack.friction=1,1"], "listed-twice"),
         ([f"crack.friction={','.join(map(str, range(MOST + 1)))}"], "vary-many"),
     ],
 )

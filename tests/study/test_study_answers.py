@@ -22,7 +22,7 @@ def compared(strengths, demand, event, traits, pieces=1):
             event[here],
             {name: each[here] for name, each in traits.items()},
         )
-    return result.as_dict()
+    return result.found()
 
 
 def saltelli(function, dimensions, count):
@@ -120,7 +120,7 @@ def test_the_indices_of_a_study(tmp_path):
     again = sobol_indices(slip, [*study.manifest["study"]["vary"], "motion", "strength"])
     assert again == rigid
     json.dumps(study.to_json(), allow_nan=False)
-    with pytest.raises(InputError, match="method: a study by sensitivity has no such answer"):
+    with pytest.raises(InputError, match="method: a study by sensitivity does not compute this"):
         study.tornado()
 
 

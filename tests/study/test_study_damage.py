@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import shutil
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -147,6 +148,17 @@ def test_a_study_without_runs_has_no_table(made, out):
         with pytest.raises(InputError) as refused:
             look()
         assert refused.value.code == "study-no-runs"
+
+
+def test_a_huge_study_that_has_hardly_begun_is_refused(made, out):
+    """An array of the thousand million runs that are still to come would take 8 GB; they are said instead."""
+    study = open_study(out)
+    walk = replace(study.walk, store=replace(study.walk.store, count=10**9))
+    for look in (lambda: walk.cube("residual_slip_m"), lambda: walk.worst("residual_slip")):
+        with pytest.raises(InputError) as refused:
+            look()
+        assert refused.value.code == "study-left"
+        assert "of 1,000,000,000" in str(refused.value)
 
 
 HOSTILE = {

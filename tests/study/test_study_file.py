@@ -62,7 +62,7 @@ REFUSED = {
     "a mode outside": (changed(DRAWN, "mode = 0.4", "mode = 0.95"), "restitution.mode", "between"),
     "no spread": (changed(DRAWN, 'std = "50 kg/m^3"', 'std = "0 kg/m^3"'), "density.std", "more than 0"),
     "a median below zero": (changed(DRAWN, "median = 0.4", "median = -0.4"), "friction.median", "more than 0"),
-    "half a distribution": (changed(DRAWN, "median = 0.4, ", ""), "median", "needs it"),
+    "half a distribution": (changed(DRAWN, "median = 0.4, ", ""), "median", "is required by"),
     "numbers of another distribution": (changed(DRAWN, "median = 0.4", "median = 0.4, std = 3"), "std", "lognormal"),
     "no number of samples": (changed(DRAWN, "samples = 60", ""), "samples", "required"),
     "samples of a grid": (changed(GRID, "[vary]", "samples = 3\n[vary]"), "samples", "draws"),

@@ -6,7 +6,7 @@ import pytest
 
 from heeltoe import read_study
 from heeltoe.base.cache import Kept
-from heeltoe.models.flexible.body.cost import Cost
+from heeltoe.models.cost import Cost
 from heeltoe.study.plan.plan import plan_of
 from heeltoe.study.run import run
 from heeltoe.study.run.run import Progress

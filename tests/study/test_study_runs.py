@@ -24,6 +24,7 @@ from shared.studies import DRAWN, GRID, rows, study_file
 
 ELASTIC = """
 title = "A coarse dam"
+rock = "rigid"
 [section]
 {section}
 [concrete]
@@ -33,6 +34,7 @@ elevation = "{level} m"
 friction = 0.6
 [reservoir]
 depth = "90 m"
+compressible = false
 [flexible]
 elements_across = 2
 evidence = "none"
@@ -259,7 +261,7 @@ def test_no_scheduler_and_no_package_are_said(tmp_path, monkeypatch):
     monkeypatch.setattr("heeltoe.study.run.schedule.find_spec", lambda name: None)
     with pytest.raises(InputError) as refused:
         list(run_on_workers(plan, [(0, 0, 1)], tmp_path))
-    assert refused.value.code == "study-package"
+    assert refused.value.code == "package-missing"
 
 
 class LostScheduler:

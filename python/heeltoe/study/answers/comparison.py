@@ -6,11 +6,13 @@ Efficiency and sufficiency after Luco and Cornell (2007), on a straight line thr
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from dataclasses import replace
+from typing import Annotated
 
 import numpy as np
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.blocks import Block, Number
 from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.study.run.aggregate import SHAKEN, Walk
 
@@ -18,6 +20,35 @@ from heeltoe.study.run.aggregate import SHAKEN, Walk
 _LEAST = 3
 #: A logarithm that varies less does not vary.
 _ALIKE = 1e-9
+
+
+class TraitLine(Block):
+    """How what a measure leaves over goes with a trait of the events."""
+
+    slope: Annotated[float, Number("How what is left over goes with it.")]
+    p: Annotated[float, Number("Probability of such a slope by chance.")]
+    events: Annotated[int, Number("How many events that is from.")]
+
+
+class MeasureFit(Block):
+    """How well a measure of strength foretells a slip."""
+
+    measure: Annotated[str, Number("Name of the measure.")]
+    efficiency: Annotated[float, Number("Scatter of the slip's logarithm about the line: less is better.")]
+    slope: Annotated[float | None, Number("Slope of the line.")]
+    sufficiency: Annotated[
+        Mapping[str, TraitLine | None],
+        Number("Whether the measure says all of the motion that matters: for each trait, null where unknown."),
+    ]
+
+
+class Compared(Block):
+    """Measures of strength compared, of one model."""
+
+    runs: Annotated[int, Number("How many runs are behind the lines.")]
+    at_rest: Annotated[int, Number("How many do not slide, and are left out.")]
+    unknown: Annotated[int, Number("How many have no result.")]
+    measures: Annotated[list[MeasureFit], Number("The measures, the most efficient first.")]
 
 
 class Comparison:
@@ -68,21 +99,16 @@ class Comparison:
             added = np.bincount(which, values[slides], self._events)
             self._trait[name] = self._trait.get(name, np.zeros(self._events)) + added
 
-    def as_dict(self) -> dict[str, Any]:
+    def found(self) -> Compared:
         """Return what has been found.
 
-        Returns
-        -------
-        dict
-            ``runs`` behind the lines; ``at_rest`` and ``unknown``, left out; ``measures``, the most efficient first,
-            each with its ``efficiency`` (standard deviation of the logarithm of the slip about the line), the ``slope``
-            of the line, and its ``sufficiency``: for each trait slope and p-value of what the line leaves over. Runs of
-            one event are no independent witnesses: that is held against the trait event by event, by their means.
+        Runs of one event are no independent witnesses: what the line leaves over is held against a trait event by
+        event, by their means.
         """
         count = int(self._runs.sum())
-        result = {"runs": count, "at_rest": self._at_rest, "unknown": self._unknown}
+        none = Compared(runs=count, at_rest=self._at_rest, unknown=self._unknown, measures=[])
         if count < _LEAST:
-            return {**result, "measures": []}
+            return none
         ran = self._runs > 0.0
         runs = self._runs[ran]
         events = {name: values[ran] / runs for name, values in self._trait.items()}
@@ -97,14 +123,14 @@ class Comparison:
             left = scatter - (slope or 0.0) * both
             over = self._demand[ran] / runs - mean - (slope or 0.0) * (sums.by_event[ran] / runs - middle)
             measures.append(
-                {
-                    "measure": name,
-                    "efficiency": float(np.sqrt(max(left, 0.0) / (count - (2 if varies else 1)))),
-                    "slope": slope,
-                    "sufficiency": {trait: _line(values, over) for trait, values in events.items()},
-                }
+                MeasureFit(
+                    measure=name,
+                    efficiency=float(np.sqrt(max(left, 0.0) / (count - (2 if varies else 1)))),
+                    slope=slope,
+                    sufficiency={trait: _line(values, over) for trait, values in events.items()},
+                )
             )
-        return {**result, "measures": sorted(measures, key=lambda measure: float(str(measure["efficiency"])))}
+        return replace(none, measures=sorted(measures, key=lambda measure: measure.efficiency))
 
 
 class _Sums:
@@ -123,7 +149,7 @@ class _Sums:
         self.both += float(x @ y)
 
 
-def compared(walk: Walk, demand: str) -> dict[str, dict[str, Any]]:
+def compared(walk: Walk, demand: str) -> dict[str, Compared]:
     """Compare measures of the strength of motions by how well they foretell a slip of the table, for each model."""
     motions = walk.manifest["motions"]
     comparisons = {model: Comparison(len(walk.manifest["events"])) for model in walk.models}
@@ -143,10 +169,10 @@ def compared(walk: Walk, demand: str) -> dict[str, dict[str, Any]]:
                 event[here],
                 {key: trait[here] for key, trait in known.items()},
             )
-    return {name: comparison.as_dict() for name, comparison in comparisons.items()}
+    return {name: comparison.found() for name, comparison in comparisons.items()}
 
 
-def _line(trait: Floats, over: Floats) -> dict[str, float] | None:
+def _line(trait: Floats, over: Floats) -> TraitLine | None:
     """Return slope and p-value of a line; None where too few events tell of one."""
     from scipy import stats
 
@@ -154,4 +180,4 @@ def _line(trait: Floats, over: Floats) -> dict[str, float] | None:
     if known.sum() < _LEAST or np.ptp(trait[known]) <= 1e-9:
         return None
     line = stats.linregress(trait[known], over[known])
-    return {"slope": float(line.slope), "p": float(line.pvalue), "events": int(known.sum())}
+    return TraitLine(slope=float(line.slope), p=float(line.pvalue), events=int(known.sum()))

@@ -33,7 +33,7 @@ class FitTest(Block):
         float, Number("Probability of one as large where the curve is right, from studies that the curve made.")
     ]
     fits: Annotated[bool, Number("Whether that is 5 % or more.")]
-    strength: Annotated[float, Number("Where the curve is farthest off, by what chance makes there, in SI.")]
+    strength: Annotated[float, Number("Strength at which the curve misses by most, relative to chance, in SI.")]
     share: Annotated[float, Number("Share of the runs that exceed there.")]
     fitted: Annotated[float, Number("The same by the curve.")]
 

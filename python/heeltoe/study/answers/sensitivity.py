@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import replace
+from typing import Annotated, TypedDict
 
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.blocks import Block, Number
 
 #: Resamples behind the intervals, and the probability that they mean.
 _RESAMPLES, CONFIDENCE = 500, 0.9
@@ -15,7 +17,51 @@ _RESAMPLES, CONFIDENCE = 500, 0.9
 _LEAST = 4
 
 
-def sobol_indices(values: Floats, names: Sequence[str], seed: int = 0) -> dict[str, Any]:
+class SobolIndex(Block):
+    """Sobol's indices of a field."""
+
+    name: Annotated[str, Number("The field, or `motion` or `strength`.")]
+    first: Annotated[float, Number("Share of the variance that it makes by itself.")]
+    first_interval: Annotated[list[float], Number("What that lies within.")]
+    total: Annotated[float, Number("Share of the variance that it makes together with all others.")]
+    total_interval: Annotated[list[float], Number("What that lies within.")]
+
+
+class Sobol(Block):
+    """Sobol's indices of a number, of one model."""
+
+    rows: Annotated[int, Number("How many rows are behind the indices.")]
+    left_out: Annotated[int, Number("How many rows are left out, as a run of theirs has no result.")]
+    confidence: Annotated[float, Number("Probability that the intervals mean.")]
+    indices: Annotated[list[SobolIndex], Number("The indices, the largest total first; none where nothing varies.")]
+
+
+class FieldValue(TypedDict):
+    """A value of a field as people write it, and the mean of the number with it."""
+
+    value: str
+    demand: float
+
+
+class FieldEffect(TypedDict):
+    """What the values of a field do by themselves, and how far they and the base case are apart."""
+
+    name: str
+    span: float
+    values: list[FieldValue]
+
+
+class Tornado(TypedDict):
+    """What each field does by itself, that of the largest span first: behind it are so many motions, others are left
+    out; without any there is no mean of the base case."""
+
+    motions: int
+    left_out: int
+    base: float | None
+    fields: list[FieldEffect]
+
+
+def sobol_indices(values: Floats, names: Sequence[str], seed: int = 0) -> Sobol:
     """Return Sobol's first and total indices.
 
     The first is estimated as of Saltelli et al. (2010), the total as of Jansen (1999); what they lie within is that of
@@ -30,18 +76,12 @@ def sobol_indices(values: Floats, names: Sequence[str], seed: int = 0) -> dict[s
         Of the d dimensions.
     seed
         Of the bootstrap.
-
-    Returns
-    -------
-    dict
-        How many ``rows`` are behind it and how many are ``left_out``; ``indices``, the largest total first: none where
-        the number does not vary.
     """
     whole = np.isfinite(values).all(axis=1)
     rows = values[whole]
-    result: dict[str, Any] = {"rows": len(rows), "left_out": len(values) - len(rows), "confidence": CONFIDENCE}
+    none = Sobol(rows=len(rows), left_out=len(values) - len(rows), confidence=CONFIDENCE, indices=[])
     if len(rows) < _LEAST or np.ptp(rows) == 0.0:
-        return {**result, "indices": []}
+        return none
     # About the mean: the estimators lose fewer digits there.
     rows = rows - rows[:, :2].mean()
     one, other, exchanged = rows[:, :1], rows[:, 1:2], rows[:, 2:]
@@ -54,16 +94,16 @@ def sobol_indices(values: Floats, names: Sequence[str], seed: int = 0) -> dict[s
     shares = [(1.0 - CONFIDENCE) / 2.0, (1.0 + CONFIDENCE) / 2.0]
     low_high = [np.nanquantile(draws, shares, axis=0) for draws in _indices(drawn, len(names))]
     indices = [
-        {
-            "name": name,
-            "first": float(first[0, place]),
-            "first_interval": low_high[0][:, place].tolist(),
-            "total": float(total[0, place]),
-            "total_interval": low_high[1][:, place].tolist(),
-        }
+        SobolIndex(
+            name=name,
+            first=float(first[0, place]),
+            first_interval=low_high[0][:, place].tolist(),
+            total=float(total[0, place]),
+            total_interval=low_high[1][:, place].tolist(),
+        )
         for place, name in enumerate(names)
     ]
-    return {**result, "indices": sorted(indices, key=lambda index: -float(str(index["total"])))}
+    return replace(none, indices=sorted(indices, key=lambda index: -index.total))
 
 
 def _indices(means: Floats, count: int) -> tuple[Floats, Floats]:
@@ -73,7 +113,7 @@ def _indices(means: Floats, count: int) -> tuple[Floats, Floats]:
     return means[:, :count] / variance, means[:, count : 2 * count] / variance
 
 
-def tornado(values: Floats, fields: Sequence[tuple[str, Sequence[str]]]) -> dict[str, Any]:
+def tornado(values: Floats, fields: Sequence[tuple[str, Sequence[str]]]) -> Tornado:
     """Return what each field does by itself.
 
     Parameters
@@ -83,23 +123,17 @@ def tornado(values: Floats, fields: Sequence[tuple[str, Sequence[str]]]) -> dict
         Motions in which any dam has no result are left out for all of them, so that like is held against like.
     fields
         Each with its values as people write them, in the order of the dams.
-
-    Returns
-    -------
-    dict
-        ``motions`` behind it and ``left_out``; the mean of the ``base`` case; ``fields``, that of the largest span
-        first, each with the mean at its ``values``.
     """
     whole = np.isfinite(values).all(axis=0)
-    result: dict[str, Any] = {"motions": int(whole.sum()), "left_out": int((~whole).sum())}
+    none: Tornado = {"motions": int(whole.sum()), "left_out": int((~whole).sum()), "base": None, "fields": []}
     if not whole.any():
-        return {**result, "base": None, "fields": []}
+        return none
     means = values[:, whole].mean(axis=1).tolist()
-    bars, start = [], 1
+    bars, start = list[FieldEffect](), 1
     for name, written in fields:
         here = means[start : start + len(written)]
         start += len(written)
         span = max(*here, means[0]) - min(*here, means[0])
-        pairs = [{"value": text, "demand": mean} for text, mean in zip(written, here, strict=True)]
+        pairs: list[FieldValue] = [{"value": text, "demand": mean} for text, mean in zip(written, here, strict=True)]
         bars.append({"name": name, "span": span, "values": pairs})
-    return {**result, "base": means[0], "fields": sorted(bars, key=lambda row: -float(str(row["span"])))}
+    return {**none, "base": means[0], "fields": sorted(bars, key=lambda row: -row["span"])}

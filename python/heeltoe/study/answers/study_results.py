@@ -18,17 +18,17 @@ from heeltoe.base.arrays import Floats, Integers
 from heeltoe.base.blocks import plain_json
 from heeltoe.base.display import Shown
 from heeltoe.case.paths import quantity_of
-from heeltoe.errors.error import InputError
+from heeltoe.errors.error import STUDY_PACKAGES, InputError
 from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.answers import bands, summary
-from heeltoe.study.answers.comparison import compared
+from heeltoe.study.answers.comparison import Compared, compared
 from heeltoe.study.answers.fragility import Curve, NotStanding, counted, curve, not_standing
 from heeltoe.study.answers.hazard import AnnualRate, annual
 from heeltoe.study.answers.likelihood import Tally
 from heeltoe.study.answers.portfolio import Ranks, portfolio_of, ranks_table
-from heeltoe.study.answers.sensitivity import sobol_indices, tornado
-from heeltoe.study.answers.suite import suite_of
+from heeltoe.study.answers.sensitivity import Sobol, Tornado, sobol_indices, tornado
+from heeltoe.study.answers.suite import SuiteAnswer, suite_of
 from heeltoe.study.plan.file import untitled
 from heeltoe.study.run.aggregate import SHAKEN, Walk
 from heeltoe.study.run.record import read_manifest
@@ -105,7 +105,7 @@ class StudyResults(Shown):
         try:
             import pandas  # noqa: F401
         except ImportError:
-            raise InputError("pandas-package", "to_pandas") from None
+            raise InputError("package-missing", "to_pandas", "pandas", install="pip install pandas") from None
         return self.to_table(columns).to_pandas()
 
     def duckdb(self) -> Any:
@@ -113,7 +113,7 @@ class StudyResults(Shown):
         try:
             import duckdb
         except ImportError:
-            raise InputError("study-package", "duckdb", "duckdb") from None
+            raise InputError("package-missing", "duckdb", "duckdb", install=STUDY_PACKAGES) from None
         connection = duckdb.connect()
         files = ", ".join("'{}'".format(path.replace("'", "''")) for path in self._files())
         connection.execute(f"create view runs as select * from read_parquet([{files}])")
@@ -135,7 +135,7 @@ class StudyResults(Shown):
             import pandas  # noqa: F401
             import xarray  # noqa: F401
         except ImportError:
-            raise InputError("study-package", "to_xarray", "xarray") from None
+            raise InputError("package-missing", "to_xarray", "xarray", install=STUDY_PACKAGES) from None
         table = self.to_pandas()
         table["motion"] = table["motion"].astype(str) + np.where(table["reversed"], ", turned round", "")
         along = [*self.manifest["study"]["vary"], "motion", *self._strength(table), "model"]
@@ -183,7 +183,7 @@ class StudyResults(Shown):
         return summary(self.walk)
 
     @cached_property
-    def suite(self) -> dict[str, Any] | None:
+    def suite(self) -> SuiteAnswer | None:
         """What a suite of records says: each record by its worse sign, the numbers over all of them, and the limits;
         None where the study is none, or has runs to come."""
         return suite_of(self.walk) if self.complete else None
@@ -221,8 +221,8 @@ class StudyResults(Shown):
     @property
     def limits_met(self) -> bool | None:
         """Whether a suite keeps all limits of the case, by every model; None where nothing says so."""
-        checks = [] if self.suite is None else [check for row in self.suite["models"] for check in row["limits"]]
-        return all(check["met"] for check in checks) if checks else None
+        checks = [] if self.suite is None else [check for row in self.suite.models for check in row.limits]
+        return all(check.met for check in checks) if checks else None
 
     @cached_property
     def fragility(self) -> list[Curve]:
@@ -286,12 +286,12 @@ class StudyResults(Shown):
         return {model: band for model, band in pairs_of_model if band["runs"]}
 
     @cached_property
-    def _compared(self) -> dict[str, dict[str, Any]]:
+    def _compared(self) -> dict[str, Compared]:
         return compared(self.walk, RESIDUAL_SLIP.key)
 
-    def compared(self, demand: str = RESIDUAL_SLIP.key) -> dict[str, dict[str, Any]]:
+    def compared(self, demand: str = RESIDUAL_SLIP.key) -> dict[str, Compared]:
         """Compare the measures of the strength of motions by how well they foretell a slip, for each model; see
-        :meth:`heeltoe.study.answers.comparison.Comparison.as_dict`.
+        :meth:`heeltoe.study.answers.comparison.Comparison.found`.
 
         Parameters
         ----------
@@ -300,7 +300,7 @@ class StudyResults(Shown):
         """
         return self._compared if demand == RESIDUAL_SLIP.key else compared(self.walk, demand)
 
-    def sensitivity(self, demand: str = RESIDUAL_SLIP.key) -> dict[str, dict[str, Any]]:
+    def sensitivity(self, demand: str = RESIDUAL_SLIP.key) -> dict[str, Sobol]:
         """Return Sobol's indices of a number for each model, without its sign; see
         :func:`heeltoe.study.answers.sensitivity.sobol_indices`. A dam that meets several motions counts by the mean.
 
@@ -318,7 +318,7 @@ class StudyResults(Shown):
         means = np.abs(self.walk.cube(demand)).mean(axis=(1, 2)).reshape(-1, len(names) + 2, len(study["model"]))
         return {model: sobol_indices(means[:, :, place], names) for place, model in enumerate(study["model"])}
 
-    def tornado(self, demand: str = RESIDUAL_SLIP.key) -> dict[str, dict[str, Any]]:
+    def tornado(self, demand: str = RESIDUAL_SLIP.key) -> dict[str, Tornado]:
         """Return what each field by itself does to a number for each model, without its sign; see
         :func:`heeltoe.study.answers.sensitivity.tornado`.
 
@@ -355,6 +355,7 @@ class StudyResults(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return what the study says, without its runs."""
+        method = self.manifest["study"]["method"]
         return {
             "title": self.title,
             "directory": str(self.store.directory) if self.kept else None,
@@ -362,13 +363,13 @@ class StudyResults(Shown):
             "complete": self.complete,
             "outcomes": self.outcomes,
             "summary": self.summary,
-            "suite": self.suite,
+            "suite": plain_json(self.suite),
             "portfolio": plain_json(self.portfolio),
             "fragility": None if self.manifest["study"]["fragility"] is None else plain_json(self.fragility),
             "hazard": plain_json(self.hazard),
-            "measures_compared": self.compared(),
-            "sensitivity": self.sensitivity() if self.manifest["study"]["method"] == "sensitivity" else None,
-            "one_at_a_time": self.tornado() if self.manifest["study"]["method"] == "one at a time" else None,
+            "measures_compared": plain_json(self.compared()),
+            "sensitivity": plain_json(self.sensitivity()) if method == "sensitivity" else None,
+            "one_at_a_time": plain_json(self.tornado()) if method == "one at a time" else None,
             "warnings": self.manifest["warnings"],
             "pilot": self.manifest["pilot"],
             "seconds": self.manifest.get("seconds"),

@@ -9,13 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
 from heeltoe.base.arrays import Floats, finite
-from heeltoe.result.contract import CRACKED
-from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judged
+from heeltoe.base.blocks import Block, Number
+from heeltoe.result.contract import CRACKED, RESIDUAL_SLIP
+from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judged, LimitCheck
 from heeltoe.study.plan.crack_columns import column_of
 from heeltoe.study.run.aggregate import Walk
 from heeltoe.units.parse import STANDARD_GRAVITY
@@ -28,6 +29,87 @@ SHARES = {"median": 0.50, "84%": 0.84}
 _SIGNS = ("recorded", "reversed")
 
 
+class SuiteLimit(LimitCheck):
+    """A number over the records of a suite beside what the case allows."""
+
+    elevation_m: Annotated[
+        float | None, Number("Of the bonded joint that is judged, where there are several cracks.", "m")
+    ] = None
+
+
+class SuiteJoint(Block):
+    """A bonded joint over the records."""
+
+    elevation_m: Annotated[float, Number("Elevation of the joint.", "m")]
+    statistics: Annotated[Mapping[str, float | None], Number("Cracked length of the joint over the records.", "m")]
+    records_cracked: Annotated[int, Number("In how many records the joint cracks.")]
+
+
+class GoverningRun(Block):
+    """The run of a suite that governs."""
+
+    motion: Annotated[str, Number("Record of that run.")]
+    sign: Annotated[str, Number("The sign that is the worse one.")]
+
+
+class SuiteRecord(Block):
+    """What a dam does in a record, by its worse sign; numbers without sign."""
+
+    motion: Annotated[str, Number("Which record.")]
+    event: Annotated[str, Number("The event of the record.")]
+    factor: Annotated[float, Number("Factor on the record as it is in its file.")]
+    pga_g: Annotated[float, Number("Peak of the record as it shakes the dam.", "g")]
+    sign: Annotated[str, Number("Its worse sign: recorded or reversed.")]
+    outcome: Annotated[str, Number("How that run ends.")]
+    residual_slip_m: Annotated[float | None, Number("Residual slip; null without a result.", "m")]
+    peak_slip_m: Annotated[float | None, Number("Largest slip either way.", "m")]
+    opening_upstream_m: Annotated[float | None, Number("Largest opening at the upstream face.", "m")]
+    opening_downstream_m: Annotated[float | None, Number("Largest opening at the downstream face.", "m")]
+    rotation_rad: Annotated[float | None, Number("Largest rotation either way.", "rad")]
+    cracked_length_m: Annotated[
+        float | None,
+        Number("Length of a bonded joint that is cracked in the end: the largest of all joints; null without.", "m"),
+    ] = None
+    crest_displacement_m: Annotated[
+        float | None, Number("Largest displacement of the crest; null where no limit is on it.", "m")
+    ] = None
+    crest_acceleration_g: Annotated[float | None, Number("Largest acceleration of the crest, likewise.", "g")] = None
+    joints_cracked_m: Annotated[
+        list[float | None],
+        Number("Length of each bonded joint that is cracked in the end, from the crest down.", "m"),
+    ]
+    other_sign_residual_slip_m: Annotated[
+        float | None, Number("Residual slip with the other sign; null without it.", "m")
+    ]
+    magnitude: Annotated[float | None, Number("Magnitude by the list of records or the event; null without one.")]
+    distance_m: Annotated[float | None, Number("From the fault to where it was recorded, likewise.", "m")]
+    vs30_m_s: Annotated[float | None, Number("Velocity of shear waves in the upper 30 m there, likewise.", "m/s")]
+    pulse_period_s: Annotated[float | None, Number("Period of the pulse in its velocity, likewise.", "s")]
+    governs: Annotated[bool, Number("Whether it is the worst of all records.")] = False
+
+
+class SuiteModel(Block):
+    """What a suite says by one model."""
+
+    model: Annotated[str, Number("Which model.")]
+    records: Annotated[
+        list[SuiteRecord], Number("What the dam does in each record, by its worse sign; numbers without sign.")
+    ]
+    statistics: Annotated[
+        Mapping[str, Mapping[str, float | None]], Number("Numbers over the records, each by its worse sign.")
+    ]
+    governing: Annotated[GoverningRun, Number("The run that governs.")]
+    joints: Annotated[list[SuiteJoint], Number("The bonded joints, from the crest down.")]
+    limits: Annotated[list[SuiteLimit], Number("The limits of the case.")]
+
+
+class SuiteAnswer(Block):
+    """What a suite of records says."""
+
+    judge: Annotated[str, Number("Which number over the records is held against the limits.")]
+    models: Annotated[list[SuiteModel], Number("The same by each model.")]
+
+
 class _Way(NamedTuple):
     """What a record does to the dam one way round: its judgement, the demands, SI, not a number where the run does not
     say, and how far each bonded joint has cracked [m]."""
@@ -38,25 +120,14 @@ class _Way(NamedTuple):
     joints: tuple[float, ...]
 
 
-def suite_of(walk: Walk) -> dict[str, Any] | None:
-    """Return the answer of a suite, model by model; None of a study that is none.
-
-    Parameters
-    ----------
-    walk
-        Through the runs of the study, all of which are there.
-
-    Returns
-    -------
-    dict
-        ``judge``, the number over the records that is held against the limits; ``models`` with the ``records``, the
-        ``statistics`` over them, the record that governs and the ``limits``, all SI and without signs.
-    """
+def suite_of(walk: Walk) -> SuiteAnswer | None:
+    """Return the answer of a suite, model by model, all SI and without signs; None of a study that is none. All runs of
+    the study are there."""
     rule = walk.manifest["study"].get("suite")
     if rule is None:
         return None
     judge = str(rule["judge"])
-    return {"judge": judge, "models": [_of_model(walk, name, judge) for name in walk.models]}
+    return SuiteAnswer(judge=judge, models=[_of_model(walk, name, judge) for name in walk.models])
 
 
 def _demands(walk: Walk) -> dict[str, str]:
@@ -64,13 +135,13 @@ def _demands(walk: Walk) -> dict[str, str]:
     return {key: limit for key, limit in DEMANDS.items() if limit not in absent}
 
 
-def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
+def _of_model(walk: Walk, model: str, judge: str) -> SuiteModel:
     ways = _ways(walk, model)
-    records: list[dict[str, Any]] = []
+    records: list[SuiteRecord] = []
     judged: list[Judged] = []
     for motion in walk.manifest["motions"]:
         name = motion["name"]
-        if motion["reversed"] and any(record["motion"] == name for record in records):
+        if motion["reversed"] and any(record.motion == name for record in records):
             continue
         signs = {sign: ways[name, sign] for sign in _SIGNS if (name, sign) in ways}
         if signs:
@@ -82,17 +153,16 @@ def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
     statistics = {key: _statistics(column) for key, column in values.items()}
     worth = (walk.manifest["pilot"] or {}).get("evidence")
     governs = max(range(len(records)), key=lambda place: judged[place].badness)
-    for place, record in enumerate(records):
-        record["governs"] = place == governs
+    records[governs] = replace(records[governs], governs=True)
     joints = []
     for place, joint in enumerate(walk.joints):
         cracked = np.array([_of_joint(*row, place) for row in zip(records, judged, strict=True)])
         joints.append(
-            {
-                "elevation_m": joint["elevation_m"],
-                "statistics": _statistics(cracked),
-                "records_cracked": int(((cracked > 0.0) & np.isfinite(cracked)).sum()),
-            }
+            SuiteJoint(
+                elevation_m=joint["elevation_m"],
+                statistics=_statistics(cracked),
+                records_cracked=int(((cracked > 0.0) & np.isfinite(cracked)).sum()),
+            )
         )
     known = worth if model == "flexible" else None
     limits = []
@@ -103,17 +173,17 @@ def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
             limits.append(_limit(name, allowed, statistics[key][judge], known))
             continue
         # Each bonded joint is judged by itself.
-        for joint in joints:
-            at = joint["elevation_m"] if walk.cracks > 1 else None
-            limits.append(_limit(name, allowed, joint["statistics"][judge], known, at))
-    return {
-        "model": model,
-        "records": records,
-        "statistics": statistics,
-        "governing": {"motion": records[governs]["motion"], "sign": records[governs]["sign"]},
-        "joints": joints,
-        "limits": limits,
-    }
+        for bonded in joints:
+            at = bonded.elevation_m if walk.cracks > 1 else None
+            limits.append(_limit(name, allowed, bonded.statistics[judge], known, at))
+    return SuiteModel(
+        model=model,
+        records=records,
+        statistics=statistics,
+        governing=GoverningRun(motion=records[governs].motion, sign=records[governs].sign),
+        joints=joints,
+        limits=limits,
+    )
 
 
 def _ways(walk: Walk, model: str) -> dict[tuple[str, str], _Way]:
@@ -138,37 +208,38 @@ def _ways(walk: Walk, model: str) -> dict[tuple[str, str], _Way]:
     return ways
 
 
-def _record(motion: Mapping[str, Any], sign: str, signs: Mapping[str, _Way]) -> dict[str, Any]:
+def _record(motion: Mapping[str, Any], sign: str, signs: Mapping[str, _Way]) -> SuiteRecord:
     """Return what a record does, by its worse sign."""
     way = signs[sign]
     other = next((signs[name] for name in signs if name != sign), None)
-    return {
-        "motion": motion["name"],
-        "event": motion["event"],
-        "factor": way.factor,
-        "pga_g": motion["measures"]["pga"] * way.factor / STANDARD_GRAVITY,
-        "sign": sign,
-        "outcome": str(way.judged.outcome),
-        **{key: finite(value) for key, value in way.demands.items()},
-        "joints_cracked_m": [finite(value) for value in way.joints],
-        "other_sign_residual_slip_m": None if other is None else finite(other.demands["residual_slip_m"]),
-        "magnitude": motion["traits"]["magnitude"],
-        "distance_m": motion["traits"]["distance_m"],
-        "vs30_m_s": motion.get("vs30_m_s"),
-        "pulse_period_s": motion.get("pulse_period_s"),
-    }
+    demands: dict[str, Any] = {key: finite(value) for key, value in way.demands.items()}
+    return SuiteRecord(
+        motion=motion["name"],
+        event=motion["event"],
+        factor=way.factor,
+        pga_g=motion["measures"]["pga"] * way.factor / STANDARD_GRAVITY,
+        sign=sign,
+        outcome=str(way.judged.outcome),
+        **demands,
+        joints_cracked_m=[finite(value) for value in way.joints],
+        other_sign_residual_slip_m=None if other is None else finite(other.demands[RESIDUAL_SLIP.key]),
+        magnitude=motion["traits"]["magnitude"],
+        distance_m=motion["traits"]["distance_m"],
+        vs30_m_s=motion.get("vs30_m_s"),
+        pulse_period_s=motion.get("pulse_period_s"),
+    )
 
 
-def _counted(record: Mapping[str, Any], judged: Judged, key: str) -> float:
+def _counted(record: SuiteRecord, judged: Judged, key: str) -> float:
     """Return a demand of a record, SI; a dam that fails and a run without a result count as infinitely much."""
     value = record[key]
     return math.inf if value is None or judged.failed else float(value)
 
 
-def _of_joint(record: Mapping[str, Any], judged: Judged, place: int) -> float:
+def _of_joint(record: SuiteRecord, judged: Judged, place: int) -> float:
     """Return how far a bonded joint has cracked in a record; a dam that fails and a run without a result count as
     infinitely far."""
-    value = record["joints_cracked_m"][place]
+    value = record.joints_cracked_m[place]
     return math.inf if value is None or judged.failed else float(value)
 
 
@@ -202,21 +273,13 @@ def _limit(
     value: float | None,
     worth: Mapping[str, Any] | None,
     elevation_m: float | None = None,
-) -> dict[str, Any]:
+) -> SuiteLimit:
     """Return how a number over the records stands to a limit; `worth` is the evidence of the record that has some, and
     the elevation that of the one of several cracks that is judged."""
     uncertainty = 0.0 if value is None or worth is None else _uncertainty(name, value, worth)
-    return {
-        "name": name,
-        "elevation_m": elevation_m,
-        "unit": LIMITS[name].unit,
-        "value": value,
-        "allowed": allowed,
-        "uncertainty": uncertainty,
-        "utilisation": None if value is None or not allowed else value / allowed,
-        "met": value is not None and value <= allowed,
-        "certain": value is None or not uncertainty or abs(value - allowed) > uncertainty,
-    }
+    return SuiteLimit(
+        name=name, value=value, allowed=allowed, failed=False, uncertainty=uncertainty, elevation_m=elevation_m
+    )
 
 
 def _uncertainty(name: str, value: float, worth: Mapping[str, Any]) -> float:
@@ -232,13 +295,13 @@ def _uncertainty(name: str, value: float, worth: Mapping[str, Any]) -> float:
     return float((size if uncertainty is None else uncertainty) * max(1.0, value / size if size else 1.0))
 
 
-def suite_spectra(walk: Walk, records: Sequence[Mapping[str, Any]]) -> dict[str, Any] | None:
+def suite_spectra(walk: Walk, records: Sequence[SuiteRecord]) -> dict[str, Any] | None:
     """Return the response spectra of the records as they shake the dam [m/s2], (records, periods), with their mean, and
     the target; None where the study keeps none."""
     spectra = walk.manifest.get("spectra")
     if spectra is None:
         return None
-    scaled = np.array([np.multiply(record["factor"], spectra["motions"][record["motion"]]) for record in records])
+    scaled = np.array([np.multiply(record.factor, spectra["motions"][record.motion]) for record in records])
     return {
         "damping": spectra["damping"],
         "period_s": np.array(spectra["period_s"]),

@@ -1,1 +1,1 @@
-"""What a study runs: its file, what varies, samples and motions."""
+"""The plan of a study: file, varied fields, samples and motions."""

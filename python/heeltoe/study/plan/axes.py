@@ -1,4 +1,4 @@
-"""What varies in a study: a field of the case with its values, or the distribution that they are drawn from."""
+"""An axis of a study: a field of the case with its values, or the distribution that they are drawn from."""
 
 from __future__ import annotations
 
@@ -121,7 +121,7 @@ def axis_of(
             values.append(value_of(_tried(case, axis, value, beside), path))
     problems.tell()
     if len({str(value) for value in values}) < len(values):
-        raise InputError("study-twice", f"vary.{path}", shown(list(entry)))
+        raise InputError("listed-twice", f"vary.{path}", shown(list(entry)))
     if quantity is None:
         return Axis(path, None, entry, None)
     # An acceleration remembers whether it was given in g.
@@ -129,7 +129,7 @@ def axis_of(
     return Axis(path, quantity, entry, numbers)
 
 
-def check_drawn(axis: Axis, values: NDArray[Any], case: Case, beside: Mapping[str, Any]) -> None:
+def check_drawn(axis: Axis, values: NDArray[Any], case: Case, beside: Mapping[str, object]) -> None:
     """Refuse a distribution of which something was drawn that the field cannot have.
 
     Raises
@@ -244,7 +244,7 @@ def beside(axis_path: str, vary: Mapping[str, tuple[Value, ...] | Distribution])
     return {path: entry[0] for path, entry in vary.items() if path != axis_path and not isinstance(entry, Distribution)}
 
 
-def _tried(case: Case, axis: Axis, value: Any, others: Mapping[str, Any]) -> Case:
+def _tried(case: Case, axis: Axis, value: Any, others: Mapping[str, object]) -> Case:
     """Return the case with a value, which it may refuse; taken by itself, and beside others if it needs them."""
     changes = axis.changes(value)
     try:

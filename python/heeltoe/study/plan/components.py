@@ -1,20 +1,24 @@
-"""The components of earthquakes among records: which are vertical and which belong together, by what the records say of
-themselves, and where they say nothing by their names."""
+"""The components of earthquakes among records: which are vertical and which belong together, by direction, station and
+time in the files, else by their names."""
 
 from __future__ import annotations
 
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from itertools import takewhile
 from pathlib import Path
 
-from heeltoe.errors.error import InputError
+from heeltoe.case.motion import Layout
+from heeltoe.case.suite import Suite
+from heeltoe.errors.error import InputError, shown
 from heeltoe.motion.check import way_of
 from heeltoe.motion.ground_motion import UNCORRECTED, GroundMotion
 from heeltoe.motion.records import read_channels
 from heeltoe.motion.records.catalog import PREFIX, find
+from heeltoe.motion.records.to_motion import HeaderFactor
+from heeltoe.study.plan.file import Motions
 from heeltoe.study.plan.search_results import Listed, listed_records
 
 # Last parts of the names of vertical components.
@@ -27,6 +31,35 @@ _ENDING = re.compile(r"\.(EW|NS|UD)[12]?", re.IGNORECASE)
 _SAID = 5
 #: Sign between a file and the number of one of its channels.
 CHANNEL = "#"
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How files of a study or a suite are read where they do not say it themselves.
+
+    Attributes
+    ----------
+    unit, time_step, layout, factor
+        As the fields of a study by these names.
+    """
+
+    unit: str | None = None
+    time_step: float | None = None
+    layout: Layout | None = None
+    factor: HeaderFactor | None = None
+
+    @classmethod
+    def of(cls, block: Motions | Suite) -> Reading:
+        """Return what a block of a study or of a case says."""
+        return cls(block.unit, block.time_step, block.layout, block.factor)
+
+    def channels(self, path: Path, *, assume: bool = True) -> list[GroundMotion]:
+        """Return the motions in a file, read so where it does not say it itself."""
+        options = {"unit": self.unit, "time_step": self.time_step, "layout": self.layout, "factor": self.factor}
+        return read_channels(path, **options, assume=assume, several=True)  # type: ignore[arg-type]
+
+
+NOTHING_SAID = Reading()
 
 
 @dataclass(frozen=True)
@@ -71,9 +104,7 @@ class Group:
     vertical: tuple[Component, ...]
 
 
-def components_of(
-    names: Sequence[str], directory: Path, *, unit: str | None = None, time_step: float | None = None
-) -> list[Component]:
+def components_of(names: Sequence[str], directory: Path, reading: Reading = NOTHING_SAID) -> list[Component]:
     """Return the components that files are or hold; those that are velocities or displacements are left out, and so is
     an uncorrected record beside the corrected one.
 
@@ -83,30 +114,31 @@ def components_of(
         Names of files, relative to `directory`, of records of the catalogue, or of motions made to order.
     directory
         Where paths start.
-    unit, time_step
-        Those of files that do not state them.
+    reading
+        How files are read that do not say it themselves.
     """
     listed = {
         name: row
         for folder in dict.fromkeys(Path(name).parent for name in names if not name.startswith(PREFIX))
         for name, row in listed_records(directory / folder).items()
     }
-    found = [part for name in names for part in _in_file(name, directory, listed, unit=unit, time_step=time_step)]
+    found = [part for name in names for part in _in_file(name, directory, listed, reading)]
     corrected = {said for said, _, uncorrected in found if said and not uncorrected}
     return [part for said, part, uncorrected in found if not (uncorrected and said in corrected)]
 
 
 def _in_file(
-    name: str, directory: Path, listed: Mapping[str, Listed], *, unit: str | None, time_step: float | None
+    name: str, directory: Path, listed: Mapping[str, Listed], reading: Reading
 ) -> Iterator[tuple[tuple[str, ...], Component, bool]]:
     """Walk the components of a file: all that a record says of itself, the component, and whether it is uncorrected."""
     file, channel = with_channel(name, directory)
     row = listed.get(Path(file).name.lower(), Listed())
     if file.startswith(PREFIX):
-        yield (), Component(name, name, is_vertical=False), False
+        # Each order is an earthquake of its own, whatever it ends with.
+        yield (), Component(name, name, is_vertical=False, earthquake=(name,)), False
         return
     try:
-        motions = read_channels(find(file, directory), unit=unit, time_step=time_step, assume=True)
+        motions = reading.channels(find(file, directory))
     except InputError as error:
         if error.code != "record-not-acceleration":
             # It is read once more where it is used, and refused there.
@@ -118,13 +150,57 @@ def _in_file(
             # Its channels are listed where it is read.
             yield (), Component(name, name, is_vertical=False), False
     for motion in motions:
-        own = name if channel is not None or len(motions) == 1 else f"{name}{CHANNEL}{motion.channel}"
-        way = row.way or way_of(motion.component)
-        earthquake = row.earthquake or _earthquake(motion)
-        said = (*earthquake, motion.component) if earthquake and motion.component else ()
-        vertical = way == "up" if way else _is_vertical_by_name(name)
-        is_uncorrected = any(notice.code == UNCORRECTED for notice in motion.warnings)
-        yield said, Component(name, own, vertical, earthquake, row), is_uncorrected
+        part = component_of(motion, name, several=channel is None and len(motions) > 1, row=row)
+        said = (*part.earthquake, motion.component) if part.earthquake and motion.component else ()
+        yield said, part, any(notice.code == UNCORRECTED for notice in motion.warnings)
+
+
+def component_of(motion: GroundMotion, name: str, *, several: bool, row: Listed | None = None) -> Component:
+    """Return what a motion of a file is as a component of an earthquake.
+
+    Parameters
+    ----------
+    motion
+        The motion.
+    name
+        Of its file.
+    several
+        Whether it is one of several in the file.
+    row
+        What a list says of the file.
+    """
+    listed = row or Listed()
+    way = listed.way or way_of(motion.component)
+    vertical = way == "up" if way else _is_vertical_by_name(name)
+    own = f"{name}{CHANNEL}{motion.channel}" if several else name
+    return Component(name, own, vertical, listed.earthquake or _earthquake(motion), listed)
+
+
+def check_asked(names: Sequence[str], directory: Path, reading: Reading) -> None:
+    """Refuse what is said of how files are read where each of them says it itself.
+
+    Raises
+    ------
+    InputError
+        For the field of a study.
+    """
+    for said in fields(reading):
+        value = getattr(reading, said.name)
+        without = replace(reading, **{said.name: None})
+        if value is not None and not any(_asks(name, directory, without) for name in names):
+            raise InputError("study-said-by-records", f"motions.{said.name}", shown(value))
+
+
+def _asks(name: str, directory: Path, reading: Reading) -> bool:
+    """Whether a file cannot be read so."""
+    file, _ = with_channel(name, directory)
+    if file.startswith(PREFIX):
+        return False
+    try:
+        reading.channels(find(file, directory), assume=False)
+    except InputError:
+        return True
+    return False
 
 
 def _earthquake(motion: GroundMotion) -> tuple[str, ...]:
@@ -145,7 +221,7 @@ def with_channel(name: str, directory: Path) -> tuple[str, str | None]:
 
 
 def grouped(components: Sequence[Component]) -> list[Group]:
-    """Return components as earthquakes, in the order of their first components."""
+    """Return components as earthquakes with a name each, in the order of their first components."""
     groups: dict[tuple[str, ...], list[Component]] = {}
     for part in components:
         groups.setdefault(part.earthquake or (_common(part.file),), []).append(part)
@@ -163,13 +239,14 @@ def grouped(components: Sequence[Component]) -> list[Group]:
         beside = next((other for other in kept if other != key and _are_one(kept[other], own)), None)
         if beside is not None:
             kept[beside] += kept.pop(key)
+    called = [_name_of_group(members) for members in kept.values()]
     return [
         Group(
-            _name_of_group(members),
+            name if called.count(name) == 1 else f"{name}-{called[: place + 1].count(name)}",
             tuple(part for part in members if not part.is_vertical),
             tuple(part for part in members if part.is_vertical),
         )
-        for members in kept.values()
+        for place, (name, members) in enumerate(zip(called, kept.values(), strict=True))
     ]
 
 

@@ -21,11 +21,14 @@ from pydantic import (
 
 from heeltoe.base.display import Shown
 from heeltoe.case.fields import Count, Fields, TimeSpan, Truth
+from heeltoe.case.motion import Layout
+from heeltoe.case.processing import CorrectionStep
 from heeltoe.case.quantities import AccelerationField, DimensionlessNumber, Duration, Length, Rotation, Slip, Velocity
 from heeltoe.case.read import read_fields
 from heeltoe.case.sentences import collected, first_error, gathered
 from heeltoe.case.suite import PeriodField, SuiteRule
 from heeltoe.errors.error import InputError, shown
+from heeltoe.motion.records.to_motion import HeaderFactor
 from heeltoe.units.parse import acceleration_unit
 from heeltoe.units.sentences import counted
 
@@ -87,10 +90,13 @@ class Distribution(Fields):
         }
         for name, value in fields.items():
             if value is None and name in needed:
-                yield InputError("distribution-incomplete", name, distribution=self.distribution)
+                yield InputError("option-missing", name, owner=f"the distribution {self.distribution}")
             if value is not None and name not in (*needed, *also):
                 yield InputError(
-                    "distribution-foreign", name, distribution=self.distribution, fields=", ".join((*needed, *also))
+                    "option-foreign",
+                    name,
+                    owner=f"the distribution {self.distribution}",
+                    remedy=f"; that has {', '.join((*needed, *also))}",
                 )
 
 
@@ -105,7 +111,7 @@ class Event(Fields):
     """Components of one earthquake at one place."""
 
     name: Annotated[str, Field(strict=True)] = ""
-    """What it is called; its first file where it is not given."""
+    """Name of the event (default: its first file)."""
     horizontal: Annotated[tuple[str, ...], BeforeValidator(_listed), Field(min_length=1, max_length=2)]
     """One or two horizontal components: files, relative to the study file, or names of the catalogue; a channel of a
     file of several as `FILE#2`."""
@@ -125,8 +131,8 @@ class Scale(Fields):
     """How strong the motions are."""
 
     measure: Literal["factor", "pga", "pgv", "sa", "arias"] = "pga"
-    """What `values` are: factors on the record; or what the scaled motion has: its peak acceleration, its peak
-    velocity, its spectral acceleration at `period` with 5 % damping, its Arias intensity."""
+    """Meaning of `values`: factors on the record, or a measure of the scaled motion: peak acceleration, peak velocity,
+    spectral acceleration at `period` with 5 % damping, Arias intensity."""
     period: PeriodField | None = None
     """Period of `sa`; "T1" for the first period of the dam, intact, with its water and its rock."""
     values: Values
@@ -151,18 +157,20 @@ class Motions(Fields):
     """The earthquakes; without them all runs meet that of the case."""
 
     folder: str | None = Field(default=None, strict=True, min_length=1)
-    """Every record in it; which of them are components of one event, and which are vertical, follows from what they say
-    of themselves (station, time, direction), and where they say nothing by their names, which differ in their last part
-    alone."""
+    """Folder of records, all of which are used. Station, time and direction in the files say which are components of
+    one event and which are vertical; where they are missing, names that differ in their last part do."""
     files: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
     """Records, grouped by their names as in a folder."""
     events: Annotated[tuple[Event, ...], Field(min_length=1)] | None = None
-    """Events with their components, said one by one."""
+    """Events with their components, listed one by one."""
     pairs: Truth = False
     """Two horizontal components of each event are expected; they keep the ratio of their strengths, since the factor of
     `scale` is that which the geometric mean of both needs, and count as one event wherever events are counted."""
     vertical: Truth = False
     """A vertical component of each event is expected and used."""
+    cross_valley: Truth = False
+    """Two horizontal components of each event are expected: each shakes the dams along the stream, with the other one
+    across the valley by the same factor. Blocks alone follow that."""
     both_signs: Truth | None = None
     """Each motion also reversed, as a run of its own: the default, unless the case says which way round its motion is
     (`motion.sign`)."""
@@ -178,6 +186,15 @@ class Motions(Fields):
     """Unit of the numbers in files that do not state it."""
     time_step: TimeSpan | None = None
     """Time between the numbers of files that do not state it."""
+    layout: Layout | None = None
+    """How the numbers of plain tables run whose headers do not say it: one series along the "rows", or each series down
+    one of the "columns"."""
+    factor: HeaderFactor | None = None
+    """Where the header of a file has a factor (a scale of a table, SCALE of SAC): "multiply" the numbers by it,
+    "divide" by it where it is a sensitivity, or leave numbers alone that "contain" it."""
+    processing: tuple[CorrectionStep, ...] = ()
+    """Steps of processing of every record in their order, before records are matched or scaled; uncorrected records
+    need a band-pass or a baseline."""
 
     @model_validator(mode="after")
     @gathered
@@ -195,7 +212,7 @@ class Motions(Fields):
 
 
 class FragilityLimits(Fields):
-    """What a dam is said to have failed beyond, each a list of limits."""
+    """Limits beyond which a dam counts as failed, each a list."""
 
     residual_slip: Annotated[tuple[Slip, ...], BeforeValidator(_listed)] = ()
     """Limits on the slip that remains, either way."""
@@ -227,7 +244,7 @@ class Fragility(Fields):
 
 
 class Hazard(Fields):
-    """The hazard at the site: how often a year the ground shakes more strongly than so much, by the measure of the
+    """The hazard at the site: how often a year the ground exceeds a strength, by the measure of the
     fragility curves."""
 
     curve: (
@@ -254,7 +271,7 @@ class Study(Shown, Fields):
     """Many runs of one dam: what varies, and how."""
 
     title: str = Field(default="", strict=True)
-    """What the results are called; the case's title where it is not given."""
+    """Title of the results (default: that of the case)."""
     case: str = Field(strict=True, min_length=1)
     """The base case: a file, relative to the study file."""
     cases: str | None = Field(default=None, strict=True, min_length=1)
@@ -329,7 +346,7 @@ class Study(Shown, Fields):
         if self.suite is not None and (self.cases or self.vary or self.drawn or self.motions is None):
             yield InputError("suite-one-dam", "suite")
         if len(set(self.model)) < len(self.model):
-            yield InputError("study-twice", "model", shown(list(self.model)))
+            yield InputError("listed-twice", "model", shown(list(self.model)))
         for place, (first, second, _) in enumerate(self.correlation if self.drawn else ()):
             for name in (first, second):
                 if not isinstance(self.vary.get(name), Distribution):
@@ -362,7 +379,7 @@ def read_study(source: str | PathLike[str]) -> Study:
         The first thing that is wrong, with the others.
     """
     path = Path(source)
-    fields = read_fields(path, "study-file-missing")
+    fields = read_fields(path, "a study file; `heeltoe examples` writes some")
     if "section" in fields and fields.keys().isdisjoint(("case", "cases")):
         raise InputError("case-no-study", str(path), name=path.name)
     return Study.of(fields, path.parent)

@@ -1,4 +1,4 @@
-"""The hazard curve of a study: how often a year the ground shakes more strongly than so much."""
+"""The hazard curve of a study: how often a year the ground exceeds a strength."""
 
 from __future__ import annotations
 

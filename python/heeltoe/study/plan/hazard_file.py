@@ -20,6 +20,13 @@ _YEARS = re.compile(r"(\d+(?:\.\d+)?)[\s-]*(?:years?|yrs?|y|a)\b")
 _PERIOD = re.compile(r"^sa\D{0,3}(\d*\.?\d+)")
 _PROBABILITY = re.compile(r"\b(?:poes?|pe|aep|prob\w*)\b")
 _RATE = re.compile(r"\b(?:rates?|afe|maf|mafe|frequency|freq|lambda)\b|1/(?:yr|year|a)\b")
+# What makes another number of a rate, of a probability, or of a strength.
+_LOGARITHM = re.compile(r"\b(?:log\s?_?(?:10|e)?|ln)(?:\b|(?=[\s_(\[]|pga|pgv|sa|afe))")
+_OTHER = re.compile(
+    r"non[\s-]?exceed|densit|occurrence|\b10\s?(?:\^|\*\*|-\d|e-?\d)|/\s?(?:day|d|week|month)\b"
+    r"|\b(?:per|a) (?:day|week|month|\d+)"
+)
+_ANY_PERIOD = re.compile(r"\bt\s?=\s?(\d*\.?\d+)|\bp?sa\b\D{0,3}(\d*\.?\d+)?")
 _OQ_TIME = re.compile(r"investigation_time=([\d.]+)")
 _OQ_MEASURE = re.compile(r"imt='([^']+)'")
 # Spectral ordinates of OpenQuake and of NSHMP are in g, velocities in cm/s.
@@ -58,7 +65,13 @@ def read_pairs(path: Path, field: str, quantity: str, measure: str, period: floa
     except InputError:
         raise
     except (OSError, ValueError) as error:
-        raise InputError("hazard-unreadable", "hazard.file", shown(str(path)), reason=reason_of(error)) from None
+        raise InputError(
+            "file-unreadable",
+            "hazard.file",
+            shown(str(path)),
+            reason=reason_of(error),
+            expected="a CSV file, relative to the study file",
+        ) from None
     found = _measure_of(name)
     if found is not None and (found[0] != measure or (found[1] and period and not math.isclose(found[1], period))):
         wanted = measure if period is None or measure != "sa" else f"sa at {period:g} s"
@@ -74,6 +87,8 @@ def _of_csv(path: Path, field: str, quantity: str) -> tuple[str, Pairs]:
         return _of_openquake(rows, float(time[1]), field)
     header = rows[0] if rows else []
     unit = _unit_of(header[0], quantity) if header else None
+    if header and _LOGARITHM.search(header[0].lower()):
+        raise InputError("heading-logarithm", field, shown(header[0]))
     if unit is None:
         raise InputError("hazard-header", field)
     rate = _rate_of(header[1] if len(header) > 1 else "", field)
@@ -146,7 +161,10 @@ def _measure_of(heading: str) -> tuple[str, float | None] | None:
         return "pgv", None
     if match := _PERIOD.match(text.replace("(", " ").replace("p", ".")):
         return "sa", float(match[1])
-    return ("sa", None) if re.match(r"sa\b|spectral acc", text) else None
+    if match := _ANY_PERIOD.search(text):
+        at = match[1] or match[2]
+        return "sa", float(at) if at else None
+    return ("sa", None) if "spectral acc" in text else None
 
 
 def _rate_of(heading: str, field: str) -> Callable[[float], float]:
@@ -157,9 +175,13 @@ def _rate_of(heading: str, field: str) -> Callable[[float], float]:
     text = heading.lower().replace("_", " ")
     share = 0.01 if "%" in text or "percent" in text or "per cent" in text else 1.0
     years = _YEARS.search(text)
+    if _LOGARITHM.search(text):
+        raise InputError("heading-logarithm", field, shown(heading))
+    if _OTHER.search(text):
+        raise InputError("hazard-heading", field, shown(heading))
     if "return period" in text or re.match(r"(?:rp|t)\s*[\[(]", text):
         return lambda value: 1.0 / value if value else math.inf
-    if _PROBABILITY.search(text) or "%" in text:
+    if _PROBABILITY.search(text) or (share != 1.0 and not _RATE.search(text)):
         span = float(years[1]) if years else 1.0 if re.search(r"annual|\baep\b|a year|per year", text) else None
         if span:
             return lambda value: _rate_of_probability(share * value, span, field)

@@ -24,9 +24,9 @@ from heeltoe.motion.check import check_moved, check_pair, check_scaling
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.intensity import intensity
 from heeltoe.motion.matching import match_known_band
-from heeltoe.motion.records.catalog import is_record
-from heeltoe.motion.targets import Target, target_of
-from heeltoe.study.plan.components import components_of, grouped, with_channel
+from heeltoe.motion.records import is_record
+from heeltoe.motion.targets import Target, file_of_target, target_of
+from heeltoe.study.plan.components import NOTHING_SAID, Reading, check_asked, components_of, grouped, with_channel
 from heeltoe.study.plan.file import Event, Motions
 from heeltoe.study.plan.problems import Problems
 from heeltoe.study.plan.search_results import Listed, is_list
@@ -52,6 +52,8 @@ class Shake:
         Of the shaking [s]; that of the horizontal motion where it is zero.
     about
         The event as the study has it; None of the motion of a case.
+    cross
+        Across the valley, as recorded [m/s2]; None where there is none.
     """
 
     name: str
@@ -62,6 +64,7 @@ class Shake:
     reference: float = 1.0
     end: float = 0.0
     about: Event | None = None
+    cross: GroundMotion | None = None
 
     def factor(self, strength: Floats, measure: str) -> Floats:
         """Return the factors that make the motion so strong."""
@@ -92,6 +95,8 @@ def shakes_of(motions: Motions, case: Case, directory: Path) -> tuple[tuple[Shak
         with problems:
             shakes += _shakes(motions, case, directory, number, event)
     problems.tell()
+    names = [name for event in events for name in (*event.horizontal, event.vertical) if name is not None]
+    check_asked(names, directory, Reading.of(motions))
     # Halves of letters are none that a table can hold.
     return tuple(replace(shake, name=harmless(shake.name)) for shake in _called_apart(shakes)), tuple(
         harmless(event.name) for event in events
@@ -110,6 +115,8 @@ def _shakes(motions: Motions, case: Case, directory: Path, number: int, event: E
     """Walk the motions of an event."""
     if motions.pairs and len(event.horizontal) != 2:
         raise InputError("study-pair", "motions.pairs", shown(event.name), count=len(event.horizontal))
+    if motions.cross_valley and len(event.horizontal) != 2:
+        raise InputError("study-pair", "motions.cross_valley", shown(event.name), count=len(event.horizontal))
     if motions.vertical and event.vertical is None:
         raise InputError("study-vertical", "motions.vertical", shown(event.name))
     horizontal, problems = list[GroundMotion](), Problems()
@@ -125,14 +132,18 @@ def _shakes(motions: Motions, case: Case, directory: Path, number: int, event: E
     problems.tell()
     if vertical is not None:
         horizontal = [motion.with_warnings(*check_pair(motion, vertical)) for motion in horizontal]
+        # What filters put before the records is not of one length.
+        lead = max(motion.lead for motion in (*horizontal, vertical))
+        horizontal, vertical = [motion.led_by(lead) for motion in horizontal], vertical.led_by(lead)
     if motions.match is not None:
         target = target_of(beside_file(motions.match, directory), "motions.match", case.gravity)
         horizontal = [_matched(motion, target, case.gravity) for motion in horizontal]
     references = [_reference(motions, motion, case) for motion in horizontal]
     if motions.pairs:
         references = [float(np.sqrt(np.prod(references)))] * 2
-    for motion, reference in zip(horizontal, references, strict=True):
-        shake = Shake(motion.name, number, motion, vertical, reference=reference, about=event)
+    across = horizontal[::-1] if motions.cross_valley else [None] * len(horizontal)
+    for motion, reference, cross in zip(horizontal, references, across, strict=True):
+        shake = Shake(motion.name, number, motion, vertical, reference=reference, about=event, cross=cross)
         yield shake
         if both_signs(motions, case):
             yield replace(shake, turned=True)
@@ -147,8 +158,9 @@ def _matched(motion: GroundMotion, target: Target, gravity: float) -> GroundMoti
 
 def beside_file(text: str, directory: Path) -> str:
     """Return the text of a target spectrum; a file that it names is relative to the study file."""
-    place = directory / os.path.expanduser(text)
-    return str(place) if os.path.isfile(place) else text
+    file, wanted = file_of_target(text, directory)
+    place = directory / os.path.expanduser(file)
+    return f"{place}#{wanted}" if wanted and os.path.isfile(place) else str(place) if os.path.isfile(place) else text
 
 
 def both_signs(motions: Motions | None, case: Case) -> bool:
@@ -180,36 +192,39 @@ def _read(
 ) -> GroundMotion:
     step = None if motions.time_step is None else f"{motions.time_step!r} s"
     file, channel = with_channel(name, directory)
+    how = {"channel": channel, "unit": motions.unit, "time_step": step, "layout": motions.layout}
     try:
-        source = Source.model_validate({"file": file, "channel": channel, "unit": motions.unit, "time_step": step})
+        source = Source.model_validate({"file": file, **how})
     except ValidationError as found:
         raise first_error(found, Source) from None
-    return read_source(source, case.gravity, directory, field, upward=upward, options_field="motions")
+    source = source.model_copy(update={"processing": motions.processing})
+    factor = motions.factor
+    return read_source(
+        source, case.gravity, directory, field, upward=upward, options_field="motions", header_factor=factor
+    )
 
 
 def _events(motions: Motions, directory: Path) -> Iterator[Event]:
-    """Walk the events; components of files without a word of which belong together are found by what they say."""
+    """Walk the events; components of files without a word of which belong together are found by their contents."""
     if motions.events is not None:
         for event in motions.events:
             yield event if event.name else event.model_copy(update={"name": Path(event.horizontal[0]).stem})
         return
     names = motions.files or records_of(motions.folder or "", directory)
-    parts = components_of(names, directory, unit=motions.unit, time_step=motions.time_step)
+    parts = components_of(names, directory, Reading.of(motions))
     groups = grouped(parts)
-    called = [group.name for group in groups]
-    for place, group in enumerate(groups):
+    for group in groups:
         if not group.horizontal:
             raise InputError("study-horizontal", "motions", shown(group.vertical[0].file))
         files = [part.file for part in (*group.horizontal, *group.vertical)]
         if len(group.vertical) > 1 or len(group.horizontal) > 2:
             raise InputError("study-components", "motions", shown(group.name), names=", ".join(files))
-        name = group.name if called.count(group.name) == 1 else f"{group.name}-{called[: place + 1].count(group.name)}"
         used = group.vertical[0].file if group.vertical and motions.vertical else None
-        yield _event(name, [part.file for part in group.horizontal], used, group.horizontal[0].listed)
+        yield _event(group.name, [part.file for part in group.horizontal], used, group.horizontal[0].listed)
 
 
 def _event(name: str, horizontal: Sequence[str], vertical: str | None, listed: Listed) -> Event:
-    """Return an event with what a list of records says of it."""
+    """Return an event with its entry of a list of records."""
     about = {
         "magnitude": listed.magnitude,
         "distance": listed.distance_m,
@@ -224,8 +239,7 @@ def suite_events(
     directory: Path,
     *,
     vertical: bool,
-    unit: str | None = None,
-    time_step: float | None = None,
+    reading: Reading = NOTHING_SAID,
 ) -> tuple[list[Event], list[str]]:
     """Return each horizontal record of a suite as an event by itself, with the entry of the case that it comes from.
 
@@ -249,9 +263,9 @@ def suite_events(
         found |= set(own) if is_folder else set()
     twice = [name for name in names if names.count(name) > 1]
     if twice:
-        raise InputError("study-twice", "motions", shown(twice[0]))
+        raise InputError("listed-twice", "motions", shown(twice[0]))
     rows = list[tuple[int, Event, str]]()
-    for group in grouped(components_of(names, directory, unit=unit, time_step=time_step)):
+    for group in grouped(components_of(names, directory, reading)):
         # Alone and by its file, a vertical component is what the user asks for; it is warned of.
         level = group.horizontal or tuple(part for part in group.vertical if part.given not in found)
         for part in level:

@@ -1,4 +1,4 @@
-"""What a study consists of, before anything runs: how many runs there are, and what each of them is."""
+"""The parts of a study before it runs: number and content of its runs."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from heeltoe.case.read import read_case
 from heeltoe.case.warnings import case_warnings, rock_warnings
 from heeltoe.errors.error import InputError
 from heeltoe.mechanics.beam import step_warnings
+from heeltoe.models.rigid.across import check_across
 from heeltoe.models.run import earthquake
 from heeltoe.motion.check import check as check_motion
 from heeltoe.motion.check import check_scaling
@@ -97,7 +98,7 @@ class Runs:
 
 @dataclass(frozen=True)
 class Pilot:
-    """How fine the flexible model is in a study: what the evidence of one run asked for.
+    """Fineness of the flexible model in a study, from the evidence of one run.
 
     Attributes
     ----------
@@ -258,7 +259,8 @@ class Plan:
         earthquakes = []
         for shake in self.shakes:
             horizontal = shake.horizontal.reversed() if shake.turned else shake.horizontal
-            earthquakes.append(Earthquake(horizontal, shake.vertical, shake.end or horizontal.duration))
+            end = shake.end or horizontal.duration
+            earthquakes.append(Earthquake(horizontal, shake.vertical, end, cross=shake.cross))
         return tuple(earthquakes)
 
     def warnings(self) -> list[str]:
@@ -302,6 +304,8 @@ class Plan:
             notices += [notice for shake in self.shakes for notice in step_warnings(self.case, shake.horizontal)]
         if "flexible" in self.study.model:
             notices += rock_warnings(self.case)
+            if any(shake.cross is not None for shake in self.shakes):
+                notices.append(Notice("cross-valley-left-out"))
         if self.pilot is not None and self.pilot.evidence is not None:
             single_runs = any(self.pilot_of(motion) is None for motion in range(len(self.shakes)))
             notices += _worth(self.pilot.evidence, single_runs=single_runs)
@@ -331,7 +335,7 @@ class Plan:
             factors = shake.factor(np.asarray(ends, dtype=np.float64), "factor" if scale is None else scale.path)
             yield from check_scaling(shake.horizontal, float(factors.max()))
             for factor in sorted({float(factors.min()), float(factors.max())}):
-                for motion in (shake.horizontal, shake.vertical):
+                for motion in (shake.horizontal, shake.vertical, shake.cross):
                     if motion is not None:
                         made = motion if factor == 1.0 else motion.scaled(factor)
                         yield from check_motion(made, self.case.gravity, allow_zero=True, field=field)
@@ -340,7 +344,7 @@ class Plan:
         """Return the pilot where it has made the run of a motion: of one dam at one strength."""
         return None if self.pilot is None or self.axes or self.scale is not None else self.pilot.of_motion(motion)
 
-    def motions_of_manifest(self) -> list[dict[str, Any]]:
+    def motions_of_manifest(self) -> list[dict[str, object]]:
         """Return the motions with their measures as recorded, SI; spectral accelerations at the periods that the study
         names, as ``"sa(0.3)"``."""
         study = self.study
@@ -405,7 +409,7 @@ class Plan:
 
     @cached_property
     def inputs(self) -> dict[str, str]:
-        """Hashes of all that the results depend on, by what each is called."""
+        """Hashes of everything that the results depend on, by name."""
         study = self.study.model_dump(mode="json", exclude={"title", "fragility", "hazard", "suite", "case", "motions"})
         unheard = _WORDS | ({"motion"} if self.study.motions else set())
         case = self.case.model_dump(mode="json", exclude=unheard)
@@ -525,13 +529,16 @@ def _target(study: Study, case: Case) -> Target | None:
 
 
 def _motions(study: Study, case: Case) -> tuple[tuple[Shake, ...], tuple[str, ...]]:
-    """Return the motions of a study and the names of their events: those of the case where it has none."""
+    """Return the motions of a study and the names of their events: by default those of the case."""
     if study.motions is None:
         base = earthquake(case)
-        shake = Shake(base.motion.name, 0, base.motion, base.vertical, end=base.end)
+        shake = Shake(base.motion.name, 0, base.motion, base.vertical, end=base.end, cross=base.cross)
         both = both_signs(None, case) and base.motion.pga > 0.0
         return (shake, replace(shake, turned=True)) if both else (shake,), (base.motion.name,)
     check(case, "motions")
+    if study.motions.cross_valley:
+        for model in study.model:
+            check_across(case, model)
     return shakes_of(study.motions, case, study.directory)
 
 
@@ -601,12 +608,12 @@ def _shake_content(shake: Shake) -> list[Any]:
     def digest(values: Floats) -> str:
         return hashlib.sha256(np.ascontiguousarray(values).tobytes()).hexdigest()
 
-    motions = [motion for motion in (shake.horizontal, shake.vertical) if motion is not None]
+    motions = [motion for motion in (shake.horizontal, shake.vertical, shake.cross) if motion is not None]
     return [shake.event, shake.reference, *([digest(motion.time), digest(motion.acceleration)] for motion in motions)]
 
 
 def _worth(evidence: Mapping[str, Any], *, single_runs: bool) -> Iterator[Notice]:
-    """Say what the base case's evidence says of the rows, which have none of their own where they are single runs."""
+    """Say what the base case's evidence says of the rows, which are single runs without evidence."""
     slip = evidence[RESIDUAL_SLIP.key]
     if evidence["value_is"] == "mean" and single_runs:
         yield Notice("study-scatter", value_m=slip["value"], run_m=slip["run"])

@@ -1,4 +1,4 @@
-"""What is wrong with a study, gathered until all of it can be told at once."""
+"""Errors of a study, gathered so that all are shown at once."""
 
 from __future__ import annotations
 

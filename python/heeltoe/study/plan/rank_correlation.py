@@ -88,7 +88,7 @@ def _values(keys: Keys) -> Floats:
 
 
 def _first(walk: Walk, groups: int, bits: int) -> tuple[Integers, Integers]:
-    """Count the numbers of each group by so many first bits, and those that are zero."""
+    """Count the numbers of each group by their first bits, and those that are zero."""
     counts, zeros = np.zeros(groups << bits, dtype=np.int64), np.zeros(groups, dtype=np.int64)
     for group, values in walk():
         if not group.size:

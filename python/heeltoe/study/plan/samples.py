@@ -45,7 +45,7 @@ class Samples:
         method: str,
         count: int | None,
         seed: int,
-        base: Mapping[str, Any] | None = None,
+        base: Mapping[str, object] | None = None,
         correlation: Sequence[tuple[str, str, float]] = (),
         more: int = 0,
     ) -> None:
@@ -100,7 +100,7 @@ class Samples:
         return columns
 
     def _shares(self, number: NDArray[np.int64]) -> Floats:
-        """Return shares from 0 to 1, one column for each axis and for what is drawn beside."""
+        """Return shares from 0 to 1, one column for each axis and for other draws."""
         if not self._dimensions:
             return np.zeros((number.size, 0))
         if self._method == "sensitivity":

@@ -107,7 +107,7 @@ def read_table(path: Path) -> DamTable:
                 raise InputError("dams-row", f"cases: row {number + 1}", len(dam), count=len(head))
     problems.tell()
     if len(set(head)) < len(head):
-        raise InputError("study-twice", "cases", shown(head))
+        raise InputError("listed-twice", "cases", shown(head))
     for place, title in enumerate(head):
         cells = [dam[place] for dam in dams]
         if title.lower() in (NAME, "dam"):
@@ -135,9 +135,13 @@ def _rows(path: Path) -> list[list[str]]:
     try:
         return read_csv_rows(path, _LARGEST)
     except FileNotFoundError:
-        raise InputError("dams-missing", "cases", shown(str(path))) from None
+        raise InputError(
+            "file-missing", "cases", shown(str(path)), expected="a CSV file, relative to the study file"
+        ) from None
     except (OSError, ValueError) as error:
-        raise InputError("dams-unreadable", "cases", shown(str(path)), reason=reason_of(error)) from None
+        raise InputError(
+            "file-unreadable", "cases", shown(str(path)), reason=reason_of(error), expected="a CSV file in UTF-8"
+        ) from None
 
 
 def _axis(title: str, cells: Sequence[str]) -> tuple[Axis, str]:

@@ -24,6 +24,8 @@ from heeltoe.units.parse import parse
 
 #: Runs that are looked at together; bytes of columns that are kept once they have been read.
 _TOGETHER, _KEPT = 65_536, 1 << 27
+#: So many runs have a place each in memory although some are still to come.
+_MOST_UNFINISHED = 10_000_000
 #: Of intervals where the study file has no fragility, which would say it.
 _CONFIDENCE = 0.9
 
@@ -81,7 +83,7 @@ class Walk:
 
     @property
     def limits(self) -> dict[str, float]:
-        """What the base case allows, by the name of the limit, SI, accelerations in g."""
+        """Limits of the base case by name, SI, accelerations in g."""
         limits = self.manifest["case"].get("limits") or {}
         absent = {*(() if self.crest else CREST_LIMITS), *(() if self.joints else ("cracked_length",))}
         known = {name: value for name, value in limits.items() if value is not None and name not in absent}
@@ -135,7 +137,7 @@ class Walk:
             name = f"sa({float(str(period).split()[0]):g})"
         known = ", ".join(self.manifest["motions"][0]["measures"])
         if any(name not in motion["measures"] for motion in self.manifest["motions"]):
-            raise InputError("study-measure", "measure", name, known=known)
+            raise InputError("not-a-choice", "measure", name, choices=f"one of {known}")
         return name
 
     @property
@@ -173,16 +175,18 @@ class Walk:
 
     def cube(self, name: str) -> Floats:
         """Return a number of all runs in an array of dams, motions of each, strengths of each motion, and models; not a
-        number where a run has no such result."""
+        number where a run has no result."""
         return self._cube((runs.whole("run"), runs.numbers(name)) for runs in self("run", name))
 
     def worst(self, limit: str) -> Floats:
-        """The same of the size of what a limit limits, of the crack that has most of it; infinite of a dam that has
-        failed."""
+        """Return the size of a limited number, at the crack where it is largest; infinite for a dam that has failed."""
         judged = ((runs.whole("run"), runs.judged(self, {limit: 0.0})) for runs in self("run", *self.judging([limit])))
         return self._cube((run, judgement.worst(limit)) for run, judgement in judged)
 
     def _cube(self, columns: Iterable[tuple[Integers, Floats]]) -> Floats:
+        if self.store.count > _MOST_UNFINISHED and (left := self.store.left):
+            there = max(self.store.count - left * self.store.size, 0)
+            raise InputError("study-left", str(self.store.directory), f"{there:,}", count=f"{self.store.count:,}")
         cube = np.full(self.store.count, np.nan)
         for run, values in columns:
             cube[run] = values
@@ -234,12 +238,12 @@ class Stretch:
         return np.where(self.table["reversed"].to_numpy(), ways[1], ways[0])
 
     def strength(self, measure: str) -> Floats:
-        """Return how strong the motion of each run is, (n,) SI, by what :meth:`Walk.measure` returns."""
+        """Return how strong the motion of each run is, (n,) SI, by the measure of :meth:`Walk.measure`."""
         values = np.array([motion["measures"][measure] for motion in self.manifest["motions"]], dtype=np.float64)
         return np.asarray(at_factor(values[self.motion], measure, self.numbers("factor")), dtype=np.float64)
 
     def numbers(self, name: str) -> Floats:
-        """Return a column of numbers, (n,); not a number where a run has none."""
+        """Return a column of numbers, (n,); not a number where a run has no number."""
         return np.asarray(self.table[name].to_numpy(), dtype=np.float64)
 
     def judged(self, walk: Walk, limits: Mapping[str, float]) -> Judgement:

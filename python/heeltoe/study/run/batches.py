@@ -23,6 +23,7 @@ from heeltoe.errors.error import InputError
 from heeltoe.kernel.block import BLOCK, OUTCOMES
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.mechanics.many import crack_widths, sound_blocks, sound_vectors
+from heeltoe.models.rigid.across import check_across
 from heeltoe.models.rigid.many import run_rows
 from heeltoe.models.rigid.model import run_rigid
 from heeltoe.models.rigid.rows import Rows
@@ -194,7 +195,8 @@ def _rigid(plan: Plan, runs: Runs, rows: Integers, results: PartResults, threads
     motions, which = np.unique(runs.motion[rows], return_inverse=True)
     earthquakes = [plan.earthquakes[motion] for motion in motions.tolist()]
     with results.timed("blocks"):
-        numbers, blocks, sound = _blocks(plan, values, samples.size)
+        across = any(earthquake.cross is not None for earthquake in earthquakes)
+        numbers, blocks, sound = _blocks(plan, values, samples.size, across=across)
         moves = _crest_moves(plan, values, blocks, samples.size) if plan.crest else None
     kept = sound[of_sample]
     rows, which, dam = rows[kept], which[kept], of_sample[kept]
@@ -299,12 +301,13 @@ def _dams(runs: Runs, rows: Integers) -> tuple[Integers, dict[str, NDArray[Any]]
 
 
 def _blocks(
-    plan: Plan, values: Mapping[str, NDArray[Any]], count: int
+    plan: Plan, values: Mapping[str, NDArray[Any]], count: int, *, across: bool
 ) -> tuple[Floats, list[Block], NDArray[np.bool_]]:
-    """Return the numbers of the blocks of some dams, the blocks where something varies as they move, and which of the
-    dams there are: the others are refused, and what stands in their places says nothing."""
+    """Return the numbers of the blocks of some dams, the blocks where something varies as they move or the ground
+    shakes them `across` the valley, and which of the dams there are: the others are refused, and what stands in their
+    places says nothing."""
     sound = np.ones(count, dtype=bool)
-    if values and not by_itself(plan.case) and values.keys() <= set(COLUMNS):
+    if values and not across and not by_itself(plan.case) and values.keys() <= set(COLUMNS):
         numbers, sound = sound_blocks(plan.case, values)
         return numbers, [], sound
     numbers = np.zeros((count, len(BLOCK)))
@@ -312,6 +315,8 @@ def _blocks(
     some = build_block(plan.case)
     for place, case in enumerate(_cases(plan, values, count)):
         try:
+            if case is not None and across:
+                check_across(case)
             block = None if case is None else build_block(case)
         except InputError:
             block = None
@@ -319,7 +324,8 @@ def _blocks(
             sound[place], block = False, some
         numbers[place] = block.parameters()
         blocks.append(block)
-    return numbers, blocks if any(by_itself(block.case) for block in blocks) else [], sound
+    alone = across or any(by_itself(block.case) for block in blocks)
+    return numbers, blocks if alone else [], sound
 
 
 def _cases(plan: Plan, values: Mapping[str, NDArray[Any]], count: int) -> Iterator[Case | None]:

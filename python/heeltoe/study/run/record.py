@@ -152,7 +152,7 @@ def read_manifest(directory: Path) -> dict[str, Any]:
     return dict(record)
 
 
-def _checksum(record: Mapping[str, Any]) -> str:
+def _checksum(record: Mapping[str, object]) -> str:
     return hashlib.sha256(json.dumps(record, sort_keys=True).encode()).hexdigest()
 
 

@@ -18,6 +18,7 @@ from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import build_block
+from heeltoe.models.cost import Cost, block_cost
 from heeltoe.models.flexible.evidence.evidence import trusted
 from heeltoe.models.flexible.evidence.refinement import Answer
 from heeltoe.models.flexible.model import answer_at_rest
@@ -45,6 +46,8 @@ _SHORT = 2.0
 _START = 3.0
 #: How much slower than estimated runs of a dam are on this machine, as it is now.
 _SPEEDS: Kept[float] = Kept(16)
+#: Bytes that a process takes without its runs.
+_PROCESS = 1.5e8
 _GOLDEN = 0.6180339887498949
 
 
@@ -75,7 +78,7 @@ class Progress:
 
 @dataclass(frozen=True, eq=False)
 class Outlook:
-    """What a study will be, before it runs.
+    """Expected size of a study, before it runs.
 
     Attributes
     ----------
@@ -87,12 +90,20 @@ class Outlook:
         That will run it.
     before
         Seconds until the first of them runs: the run with evidence where it is still to come, and worker processes.
+    memory
+        That all of its processes take together, estimated [B].
     """
 
     plan: Plan
     seconds_per_run: float
     cores: int
     before: float = 0.0
+    memory: float = 0.0
+
+    @property
+    def cost(self) -> Cost:
+        """Time and memory of all."""
+        return Cost(self.seconds, self.memory)
 
     @property
     def seconds(self) -> float:
@@ -146,6 +157,19 @@ def outlook(study: Study | Plan, cores: int) -> Outlook:
     return _outlook(plan, (monotonic() - began) / count, cores)
 
 
+def estimated_outlook(plan: Plan, cores: int) -> Outlook:
+    """As :func:`outlook`, without a run."""
+    dam, ends = plan.case.without_evidence(), {quake.run_end: quake for quake in plan.earthquakes}
+    costs = [_run_cost(dam, model, quake) for model in plan.study.model for quake in ends.values()]
+    return _outlook(plan, sum(cost.seconds for cost in costs) / len(costs), cores)
+
+
+def _run_cost(case: Case, model: str, quake: Earthquake) -> Cost:
+    if model == "flexible":
+        return analysing(case, quake.run_end, frame_step_of(quake.run_end, None))
+    return block_cost(model, quake.run_end, quake.motion.time.size)
+
+
 def quick_outlook(plan: Plan, cores: int) -> Outlook:
     """As :func:`outlook`, for someone who changes the study while it is counted: of elastic dams one run of each dam is
     tried, if it is short, and says how much slower than estimated this machine is; the rest is estimated."""
@@ -167,7 +191,7 @@ def quick_outlook(plan: Plan, cores: int) -> Outlook:
 
 
 def _outlook(plan: Plan, seconds_per_run: float, cores: int) -> Outlook:
-    """Return an outlook with what comes before the runs."""
+    """Return an outlook with the work before the runs."""
     before = 0.0 if _alone(plan, None) else _START
     if "flexible" in plan.study.model and plan.pilot is None:
         middle = plan.shakes[int(plan.runs(plan.count // 2, plan.count // 2 + 1).motion[0])]
@@ -177,11 +201,13 @@ def _outlook(plan: Plan, seconds_per_run: float, cores: int) -> Outlook:
             analysing(case, end, frame_step_of(end, None)).seconds for case in (plan.case, plan.case.without_evidence())
         )
         before += signs * seconds_per_run * plan.sizes[3] * whole / alone
-    return Outlook(plan, seconds_per_run, cores, before)
+    longest = max(plan.earthquakes, key=lambda quake: quake.run_end)
+    alone = max(_run_cost(plan.case, model, longest).memory for model in plan.study.model)
+    return Outlook(plan, seconds_per_run, cores, before, _PROCESS + cores * (alone + (_PROCESS if before else 0.0)))
 
 
 def _tries(plan: Plan) -> Iterator[tuple[int, int]]:
-    """Walk stretches of runs that stand for all. Those of elastic dams depend on the length of the motion and on
+    """Walk stretches of representative runs. Runs of elastic dams depend on the length of the motion and on
     whether the dam is at rest at its end, so a few from all over the study are tried; blocks many at once."""
     models = plan.sizes[3]
     if set(plan.study.model) == {"rigid"}:
@@ -220,7 +246,7 @@ def run_study(
     progress
         Told after each part.
     before
-        Told what there will be before anything runs.
+        Told what there will be before anything runs, of elastic dams once more when some have been tried.
 
     Returns
     -------
@@ -255,9 +281,13 @@ def _begun(plan: Plan, directory: Path, resume: bool, before: Callable[[Outlook]
         store = begin(plan, directory, 1, {}, resume=resume)
         keep_questions(directory, plan)
         return store, replace(plan, pilot=pilot_of(directory))
+    cores = os.cpu_count() or 1
     if "flexible" in plan.study.model:
+        # The run with evidence takes a while by itself.
+        if before is not None:
+            before(estimated_outlook(plan, cores))
         plan = replace(plan, pilot=pilot_run(plan))
-    expected = outlook(plan, os.cpu_count() or 1)
+    expected = outlook(plan, cores)
     if before is not None:
         before(expected)
     return begin(plan, directory, expected.size, columns_of(plan), resume=resume), plan

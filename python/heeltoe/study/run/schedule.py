@@ -1,4 +1,4 @@
-"""Who runs the parts of a study: this process, worker processes beside it, or a cluster."""
+"""Executors of the parts of a study: this process, worker processes, or a cluster."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from typing import Any
 
 import pyarrow as pa
 
-from heeltoe.errors.error import InputError, UnfinishedError
+from heeltoe.errors.error import STUDY_PACKAGES, InputError, UnfinishedError
 from heeltoe.study.plan.plan import Plan
 from heeltoe.study.run.batches import run_part
 
@@ -108,7 +108,7 @@ def run_on_workers(
 
 
 def check_workers(address: str | None) -> None:
-    """Make sure that there is somebody to run parts, before anything is written.
+    """Check that there are workers, before anything is written.
 
     Raises
     ------
@@ -116,7 +116,7 @@ def check_workers(address: str | None) -> None:
         Where Dask is not installed, or there is no scheduler at the address, or it has no workers.
     """
     if find_spec("distributed") is None:
-        raise InputError("study-package", "--scheduler", "dask")
+        raise InputError("package-missing", "--scheduler", "dask", install=STUDY_PACKAGES)
     if address is not None:
         client = _reached(address)
         try:

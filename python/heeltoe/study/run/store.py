@@ -22,6 +22,7 @@ import pyarrow.parquet as pq
 
 from heeltoe.base.atomic_files import check_directory, settle, written
 from heeltoe.errors.error import InputError
+from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.write import build_info
 from heeltoe.study.plan.plan import Pilot, Plan
@@ -141,7 +142,7 @@ class Store:
         if schema.names != list(self.columns) or file.metadata.num_rows != stop - start:
             return False
         filled = ["run", "sample", "reversed", "factor", "impacts", "slid_off", "undetermined"]
-        table = file.read([*filled, *self.words, "residual_slip_m"], use_threads=False)
+        table = file.read([*filled, *self.words, RESIDUAL_SLIP.key], use_threads=False)
         if any(table[name].null_count for name in (*filled, *self.words)):
             return False
         if not np.array_equal(table["run"].to_numpy(), np.arange(start, stop)):
@@ -150,7 +151,7 @@ class Store:
             return False
         with_result = pa.array([outcome.value for outcome in Outcome if outcome.has_result])
         result = pc.is_in(table["outcome"].cast(pa.string()), with_result)
-        return not pc.any(pc.and_(result, pc.is_null(table["residual_slip_m"]))).as_py()
+        return not pc.any(pc.and_(result, pc.is_null(table[RESIDUAL_SLIP.key]))).as_py()
 
     def _name(self, part: int, content: bytes) -> str:
         digest = hashlib.sha256(f"{self.fingerprint} {self.stretch(part)}".encode())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import weakref
 from collections.abc import Callable, Mapping, Sequence
@@ -18,19 +19,23 @@ from heeltoe.case.suite import Suite
 from heeltoe.errors.error import InputError
 from heeltoe.models.run import AUTO, check_model, models_of
 from heeltoe.study.answers.study_results import StudyResults
+from heeltoe.study.plan.components import Reading
 from heeltoe.study.plan.file import Event, Study
 from heeltoe.study.plan.motions import suite_events
 from heeltoe.study.run.run import Outlook, Progress, run_study
 
 Motions = str | os.PathLike[str] | Sequence[str | os.PathLike[str]]
+_READING = ("unit", "time_step", "layout", "factor", "processing")
 # Fields of the study of a suite, and what the case calls them.
 _FIELDS = {
     f"motions.{name}": f"suite.{field}"
     for name, field in (
         *(("scale.period", "period"), ("match", "match")),
-        *((name, name) for name in ("vertical", "unit", "time_step")),
+        *((name, name) for name in ("vertical", *_READING)),
     )
 }
+
+_OF_FILES = re.compile(rf"\bmotions\.({'|'.join(_READING)})\b")
 
 
 def run_suite(
@@ -91,7 +96,8 @@ def run_suite(
         if out is None:
             shutil.rmtree(place, ignore_errors=True)
         if isinstance(error, InputError):
-            renamed((error, *error.others), names)
+            for one in renamed((error, *error.others), names):
+                one.remedy = _OF_FILES.sub(r"suite.\1", one.remedy)
         raise
     if out is not None:
         return results
@@ -104,9 +110,7 @@ def run_suite(
 def _study_of(case: Case, model: str) -> tuple[Study, dict[str, str]]:
     """Return the study that a suite is, and how the case calls its fields."""
     rule, models = case.suite, models_of(case, model)[0]
-    events, paths = suite_events(
-        case.motions, case.base_directory, vertical=rule.vertical, unit=rule.unit, time_step=rule.time_step
-    )
+    events, paths = suite_events(case.motions, case.base_directory, vertical=rule.vertical, reading=Reading.of(rule))
     scale = None
     if rule.pga is not None:
         scale = {"measure": "pga", "values": [str(rule.pga)]}
@@ -125,6 +129,9 @@ def _study_of(case: Case, model: str) -> tuple[Study, dict[str, str]]:
                 "match": rule.match,
                 "unit": rule.unit,
                 "time_step": None if rule.time_step is None else f"{rule.time_step!r} s",
+                "layout": rule.layout,
+                "factor": rule.factor,
+                "processing": [step.model_dump(mode="json", exclude_unset=True) for step in rule.processing],
             },
             "suite": {"judge": rule.judge, "target": rule.target},
         },
@@ -175,6 +182,6 @@ def _listed(motions: Motions) -> list[str]:
 
 
 def _absolute(name: str) -> str:
-    """Return where a file or a folder is; a name of the catalogue stays as it is."""
+    """Return the path of a file or a folder; a name of the catalogue is returned unchanged."""
     path = os.path.expanduser(name)
     return str(Path(path).resolve()) if os.path.exists(path) else name

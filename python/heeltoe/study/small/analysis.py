@@ -21,7 +21,7 @@ def analyse(
     spread: int | Literal["cheap"] | None = None,
     say: Say = lambda text: None,
 ) -> Response:
-    """Run what is asked for.
+    """Run a case with the options of a command.
 
     Parameters
     ----------

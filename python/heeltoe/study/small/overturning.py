@@ -24,9 +24,11 @@ from heeltoe.base.display import Shown
 from heeltoe.base.frozen import ReadOnlyArrays
 from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
+from heeltoe.case.warnings import drawing_text
 from heeltoe.errors.error import InputError, expect
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, CriticalAccelerations, build_block
+from heeltoe.models.cost import Cost
 from heeltoe.models.rigid.walk import walk
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.write import build_info
@@ -35,6 +37,8 @@ from heeltoe.result.write import build_info
 ENDS = ("does not rock", "rocks and stands", "overturns after an impact", "overturns without impact", "no result")
 _MOST = 400
 _PIECES = 200
+# Seconds and bytes of a pulse.
+_OF_PULSE = 4e-4, 1e3
 # What overturns does so within so many times 1/p, with p of :attr:`OverturningMap.frequency_parameter_1_s`.
 _WAIT = 12.0
 
@@ -42,7 +46,7 @@ _WAIT = 12.0
 class SafeGap(NumbersBlock):
     """Pulses that a block stands although weaker ones of the frequency overturn it."""
 
-    frequency_hz: Annotated[float, Number("Of the pulse.", "Hz")]
+    frequency_hz: Annotated[float, Number("Frequency of the pulse.", "Hz")]
     from_g: Annotated[float, Number("The least amplitude of the gap.", "g")]
     to_g: Annotated[float, Number("The largest amplitude of the gap.", "g")]
 
@@ -50,17 +54,17 @@ class SafeGap(NumbersBlock):
 class OverturningMap(Shown, ReadOnlyArrays, NumbersBlock):
     """Ends of a block in pulses of many frequencies and amplitudes."""
 
-    title: Annotated[str, Number("Of the case.")]
+    title: Annotated[str, Number("Title of the case.")]
     pulse: Annotated[str, Number("Shape of the pulses: `sine` (one full one), `half-sine` or `cosine` (one full one).")]
     frequency_hz: Annotated[Floats, Number("Their frequencies.", "Hz")]
     amplitude_g: Annotated[Floats, Number("Amplitudes of their acceleration.", "g")]
-    ends: Annotated[tuple[str, ...], Number("What a pulse may do to the block, in words.")] = ENDS
+    ends: Annotated[tuple[str, ...], Number("Possible outcomes of a pulse, in words.")] = ENDS
     end: Annotated[
-        NDArray[np.int8], Number("What each pulse does, by frequency and amplitude (f, a), counting `ends`.")
+        NDArray[np.int8], Number("Outcome of each pulse, by frequency and amplitude (f, a), as an index into `ends`.")
     ]
     least_g: Annotated[
         tuple[float | None, ...],
-        Number("Of each frequency the least amplitude that overturns the block; null where none does.", "g"),
+        Number("Least amplitude that overturns the block at each frequency; null where none does.", "g"),
     ]
     safe_gap: Annotated[
         tuple[SafeGap, ...],
@@ -71,6 +75,7 @@ class OverturningMap(Shown, ReadOnlyArrays, NumbersBlock):
         Number("p of the block about the corner it overturns most easily about, the square root of m g R / I.", "1/s"),
     ]
     slenderness_rad: Annotated[float, Number("Angle at which its centroid is above that corner.", "rad")]
+    drawing: Annotated[str, Number("Which outline of a drawing is the dam; empty where the section is not drawn.")] = ""
 
     def to_json(self) -> dict[str, Any]:
         """Return plain numbers, strings and lists."""
@@ -115,11 +120,11 @@ def overturning_map(
     InputError
         Where the pulse is none of these, or there are too many, or the block stands not even without a pulse.
     """
-    expect(case, Case, "not-a-case", "case")
+    expect(case, Case, "a case", "case")
     if pulse not in ("sine", "half-sine", "cosine"):
-        raise InputError("pulse-kind", "pulse", pulse)
+        raise InputError("not-a-choice", "pulse", pulse, choices="sine, half-sine or cosine")
     if not 2 <= count <= _MOST:
-        raise InputError("pulse-count", "count", count, most=_MOST)
+        raise InputError("out-of-range", "count", count, bound=f"from 2 to {_MOST}")
     if case.analysis.rotation == "small":
         case = case.model_copy(update={"analysis": case.analysis.model_copy(update={"rotation": "finite"})})
     block, critical = _standing(case)
@@ -152,7 +157,13 @@ def overturning_map(
         safe_gap=tuple(_safe_gap(hertz, sizes, falls)),
         frequency_parameter_1_s=rate,
         slenderness_rad=slenderness,
+        drawing=drawing_text(case),
     )
+
+
+def map_cost(count: int) -> Cost:
+    """Return what a map of so many frequencies and amplitudes takes."""
+    return Cost(_OF_PULSE[0] * count**2, _OF_PULSE[1] * count**2)
 
 
 def _safe_gap(frequencies: Floats, amplitudes: Floats, falls: NDArray[np.bool_]) -> Iterator[SafeGap]:

@@ -70,7 +70,7 @@ def with_response_spectrum(joints: Joints, spectrum: str = OF_MOTION, *, field: 
     InputError
         Where the spectrum, the motion or the modulus cannot be used, or the dam has no first mode.
     """
-    expect(joints, Joints, "not-checks", "joints")
+    expect(joints, Joints, "static checks", "joints")
     result = _spectrum_of(joints.joints[0].case, spectrum, field)
 
     def judged(joint: Joint) -> Joint:

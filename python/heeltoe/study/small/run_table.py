@@ -22,7 +22,8 @@ from heeltoe.case.paths import quantity_of
 from heeltoe.case.read import Source, read_case
 from heeltoe.case.sentences import first_error
 from heeltoe.errors.error import InputError, shown
-from heeltoe.models.flexible.body.cost import Cost, check_cost
+from heeltoe.models.cost import Cost
+from heeltoe.models.flexible.body.cost import check_cost
 from heeltoe.result.contract import CRACKED, HEADLINES, SLIPS_BY_MODE
 from heeltoe.result.response import Response
 from heeltoe.result.write import build_info
@@ -34,6 +35,8 @@ from heeltoe.units.parse import DIMENSIONS
 
 #: More runs than this are a study, not a table.
 MOST = 32
+# So many cases of a table say what all take; seconds to read one, bytes that are kept of one.
+_LOOKED_AT, _READ, _KEPT = 4, 0.01, 1e6
 
 Run = Callable[[Case], Response]
 
@@ -74,7 +77,7 @@ class Table(ABC):
         """Return the same as a ``pandas.DataFrame``."""
         return dataframe_of_rows(self.rows())
 
-    def runs_json(self, runs: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
+    def runs_json(self, runs: Iterable[Mapping[str, object]]) -> dict[str, object]:
         """Return runs in full, with the values that belong to them."""
         return {
             "varied": {axis.path: list(axis.values) for axis in self.axes},
@@ -102,12 +105,12 @@ class SmallStudy(Table, Shown):
 
     @property
     def title(self) -> str:
-        """Of the case."""
+        """Title of the case."""
         return self.responses[0].title
 
     @property
     def cracks(self) -> int:
-        """How many cracks the dams have; none are told of where all of them have one."""
+        """Numbers of cracks of the dams; empty where all of them have one."""
         return max(len(response.cracks) if response.several else 0 for response in self.responses)
 
     @property
@@ -153,7 +156,7 @@ def parse_axes(texts: Sequence[str], field: str = "--vary") -> tuple[Axis, ...]:
         if not all(values):
             raise InputError("vary-form", field, shown(text))
         if path in [other.path for other in axes] or len(set(values)) < len(values):
-            raise InputError("vary-twice", field, shown(path))
+            raise InputError("listed-twice", field, shown(path))
         # As written: the case reads them, as it reads its own file.
         axes.append(Axis(path, None, values, None))
     runs = Samples(axes, "grid", None, 0).count
@@ -229,6 +232,24 @@ def cases_of(
         for cell in cells
     ]
     return cells, cases
+
+
+def table_cost(
+    source: Source, changes: Sequence[Change], axes: Sequence[Axis], cost: Callable[[Case], Cost | None]
+) -> Cost | None:
+    """Return about what a table costs with the reading of its cases, by a few of them; None where one is refused."""
+    samples = Samples(axes, "grid", None, 0)
+    looked = np.unique(np.linspace(0, samples.count - 1, _LOOKED_AT).astype(np.int64))
+    columns, _ = samples.at(looked)
+    costs = []
+    for cell in zip(*columns.values(), strict=True):
+        case = read_case(source, [*changes, *(f"{path}={value}" for path, value in zip(columns, cell, strict=True))])
+        costs.append(cost(case))
+    known = [one for one in costs if one is not None]
+    if not known or len(known) < len(costs):
+        return None
+    together = sum(one.seconds for one in known) / len(known) + _READ
+    return Cost(samples.count * together, max(one.memory for one in known) + _KEPT * samples.count)
 
 
 def check_together(cases: Sequence[Case], cost: Callable[[Case], Cost | None]) -> None:

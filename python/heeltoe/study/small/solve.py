@@ -22,8 +22,10 @@ from heeltoe.base.display import Shown
 from heeltoe.case.model import Case
 from heeltoe.case.paths import bounds_of, quantity_of, value_of
 from heeltoe.case.read import Source, read_case
+from heeltoe.case.warnings import drawing_text
 from heeltoe.errors.error import InputError, shown
-from heeltoe.models.run import AUTO, check_model, models_of, run
+from heeltoe.models.cost import Cost
+from heeltoe.models.run import AUTO, check_model, models_of, run, wish_cost
 from heeltoe.result.judge import LIMITS
 from heeltoe.result.response import Response
 from heeltoe.result.write import build_info
@@ -36,6 +38,8 @@ _LENGTHS = tuple(name for name, limit in LIMITS.items() if limit.unit == "m" and
 
 #: Values at which a range is looked at, and the widest bracket of a crossing as a part of the range.
 SCANNED, _CLOSE = 9, 2e-4
+# Runs that usually close in a crossing.
+_CLOSING = 7
 #: More runs than these close in no crossing: it is a jump.
 _MOST = 24
 # A result that falls and rises again by more than this part of the largest is not monotonic.
@@ -46,10 +50,10 @@ _LEAST_M = 1e-6
 
 
 class Point(Block):
-    """What a value of the field does."""
+    """Result of a value of the field."""
 
-    value: Annotated[float, Number("Of the field.")]
-    result_m: Annotated[float | None, Number("What the limit limits, by the worse sign; null without a result.", "m")]
+    value: Annotated[float, Number("Value of the field.")]
+    result_m: Annotated[float | None, Number("Limited result, by the worse sign; null without a result.", "m")]
     uncertainty_m: Annotated[float, Number("How far that may be off by its evidence.", "m")] = 0.0
     met: Annotated[bool, Number("Whether the limit is met.")]
     sign: Annotated[str, Number("The sign that governs; empty where the case names it.")]
@@ -81,13 +85,13 @@ class Solved(Shown, Block):
         What the field holds, a key of :data:`heeltoe.units.parse.DIMENSIONS`.
     """
 
-    title: Annotated[str, Number("Of the case.")]
+    title: Annotated[str, Number("Title of the case.")]
     model: Annotated[str, Number("Which model answers.")]
     field: Annotated[str, Number("The field that is solved for.")]
     quantity: str
     unit: Annotated[str, Number("SI unit of its values; empty of a number.")]
     limit: Annotated[str, Number("The field of limits that is to be just met.")]
-    allowed_m: Annotated[float, Number("What that allows.", "m")]
+    allowed_m: Annotated[float, Number("Value of the limit.", "m")]
     crossings: Annotated[
         tuple[Crossing, ...],
         Number(
@@ -101,6 +105,7 @@ class Solved(Shown, Block):
         Number("The runs: the scan, and those that closed in the crossings, in the order of their values."),
     ]
     refused: Annotated[tuple[float, ...], Number("Values of the scan that the case refuses.")]
+    drawing: Annotated[str, Number("Which outline of a drawing is the dam; empty where the section is not drawn.")] = ""
 
     def to_json(self) -> dict[str, Any]:
         """Return plain numbers, strings and lists."""
@@ -170,7 +175,15 @@ def solve(
         one_way=_goes_one_way(scan),
         points=tuple(sorted(search.points.values(), key=lambda point: point.value)),
         refused=tuple(search.refused),
+        drawing=drawing_text(case),
     )
+
+
+def search_cost(case: Case, model: str = AUTO) -> Cost | None:
+    """Return about what a search with one crossing takes."""
+    better = models_of(case, model)[0][-1]
+    alone, whole = wish_cost(case.without_evidence(), better), wish_cost(case, better)
+    return None if alone is None or whole is None else alone.times(SCANNED + _CLOSING) + whole
 
 
 def _quoted(length_m: float) -> str:

@@ -91,11 +91,12 @@ def with_spread(response: R, case: Case, runs: int = RUNS, *, progress: Progress
     InputError
         Where the number of runs cannot be used.
     """
-    expect(case, Case, "not-a-case", "case")
-    expect(response, Response, "not-a-response", "response")
+    expect(case, Case, "a case", "case")
+    expect(response, Response, "a response", "response")
     runs = check_runs(runs, "runs")
     scales = np.linspace(WEAKEST, STRONGEST, runs)
     ground = earthquake(case, response.motion, response.vertical).silent(response.silence_s)
+    ground = replace(ground, cross=response.cross)
     step = None
     if isinstance(response, FlexibleResponse):
         # Here, so that the block need not wait for the elastic parts.
@@ -132,7 +133,7 @@ _Headlines = tuple[dict[str, Floats], NDArray[np.bool_]]
 def _rigid(case: Case, shaking: Shaking, scales: Floats, leads: int, progress: Progress | None) -> _Headlines:
     """Return the headline numbers of a block above the crack that `leads`, and which of the runs have a result."""
     block, width = build_block(case), build_block(case.single_crack_cases[leads]).width
-    if by_itself(case) or shaking.turning is not None or case.further_cracks:
+    if by_itself(case) or shaking.turning is not None or shaking.cross is not None or case.further_cracks:
         rows = _walked(case, block, shaking, scales, leads, progress)
     else:
         many = np.tile(block.parameters(), (scales.size, 1))

@@ -1,4 +1,4 @@
-"""Static checks as they are asked for: at every section, with the slip of a run, and for a table of dams."""
+"""Static checks on request: at every section, with the slip of a run, and for a table of dams."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import Any
 
 from heeltoe.case.model import Case
 from heeltoe.case.read import Source
-from heeltoe.models.run import AUTO, cost_of, run
+from heeltoe.models.cost import Cost
+from heeltoe.models.run import AUTO, cost_of, record_cost, run, wish_cost
 from heeltoe.models.statics.after import joints_after, without_own_slip
 from heeltoe.models.statics.joints import Joints, statics_of_sections
 from heeltoe.models.statics.model import statics
@@ -18,6 +19,8 @@ from heeltoe.study.small.response_spectrum import with_response_spectrum
 from heeltoe.study.small.run_table import Table, cases_of, check_together
 
 Say = Callable[[str], None]
+# Seconds of the checks themselves.
+_CHECKED = 0.5
 #: Runs that have been made, the better model first, by the model that was asked for and all that a run depends on.
 Made = dict[tuple[str, str], tuple[Response, ...]]
 
@@ -83,6 +86,15 @@ def judge(
     return with_response_spectrum(judged, spectrum, field="--spectrum")
 
 
+def statics_cost(case: Case, after: After) -> Cost | None:
+    """Return what the earthquake of the post-seismic case takes, and the checks beside it; None where it is refused."""
+    if not after.runs(case):
+        return Cost(_CHECKED)
+    cost = record_cost(case) + Cost(_CHECKED)
+    alone = wish_cost(case, after.model or AUTO)
+    return None if alone is None else cost + alone
+
+
 def _judge(case: Case, after: After, say: Say, made: Made) -> Joints:
     slip_m = after.slip_m
     if slip_m is not None:
@@ -125,7 +137,7 @@ class StaticsTable(Table):
 
     @property
     def title(self) -> str:
-        """Of the case."""
+        """Title of the case."""
         return self.dams[0].title
 
     @property
@@ -143,7 +155,7 @@ class StaticsTable(Table):
         return {"model": "statics", "title": self.title, "ok": self.ok, **self.runs_json(runs)}
 
 
-def statics_json(joints: Joints) -> dict[str, Any]:
+def statics_json(joints: Joints) -> dict[str, object]:
     """Return the JSON of the checks at many sections, or of those at the only one by themselves."""
     return joints.to_json() if len(joints.joints) > 1 else joints.joints[0].statics.to_json()
 
