@@ -21,10 +21,11 @@ from heeltoe import (
     with_spread,
 )
 from heeltoe.case.read import case_schema
+from heeltoe.case.thesis import THESIS_FIELDS
 from heeltoe.errors.error import InputError
 from heeltoe.models.statics.joints import statics_of_sections
 from heeltoe.study.plan.file import Study
-from heeltoe.views.explain.find import everything, explain
+from heeltoe.views.explain.find import everything, explain, related, usual_names
 from heeltoe.views.explain.meaning import KINDS
 from shared.command import command
 from shared.dams import FAST, HEIGHT, KOYNA, SLENDER, example
@@ -84,6 +85,15 @@ def results(tmp_path_factory, study):
             example("typical-base", *FAST, "flexible.evidence=step").with_({"crack.bond": BOND}), "both"
         ).to_json(),
         "rough": run(example("rough-crack", *FAST), "rigid").to_json(),
+        "across": run(
+            example("typical-base", *FAST, "motion.cross_valley.file=elcentro-1940-270-nga"), "rigid"
+        ).to_json(),
+        "band": run(
+            example("typical-base", *FAST, "limits.residual_slip=1mm").with_(
+                {"crack.band": {"low": 0.8, "judge": "low"}}
+            ),
+            "rigid",
+        ).to_json(),
         "aftershocks": run(example("aftershocks", *FAST), "rigid").to_json(),
         "decoupled": run(koyna, "decoupled").to_json(),
         "spread": with_spread(block, read_case(HEIGHT, FAST), 2).to_json(),
@@ -139,11 +149,14 @@ def test_every_key_that_is_explained_is_there(results):
         "joints[].statistics",
     }
     bonded = {f"suite.models[].{name}" for name in of_joints}
+    # A suite is judged by the best estimate of a band.
+    bonded.add("suite.models[].limits[].friction")
     # What only a run that is turned by hand, a match, a shelf of runs or a study of several cracks has.
     seldom = {"misfit.rms", "misfit.largest", "varied", "spread.time_step_s", "safe_gap[].frequency_hz"}
     seldom |= {"safe_gap[].from_g", "safe_gap[].to_g", "warnings[].quantities.*", "summary[].cracks"}
     names = {item.name for item in everything() if _is_key(item) and not item.name.endswith("[]")}
-    assert sorted(names - met - seldom - bonded) == []
+    sobol = {name for name in names if name.startswith("sensitivity.*.")}
+    assert sorted(names - met - seldom - bonded - sobol) == []
 
 
 def _is_key(meaning):
@@ -194,7 +207,7 @@ def test_every_field_is_explained_with_a_sentence():
         ("residual_slip_m", ["m", "heeltoe run --json"]),
         ("energy.input_j", ["J per metre of dam"]),
         ("vary.*.from", ["a value of the field that varies"]),
-        ("flexible.title", ["Of the case."]),
+        ("flexible.title", ["Title of the case."]),
     ],
 )
 def test_what_is_said_of_a_name(name, holds):
@@ -231,6 +244,41 @@ def test_a_part_of_a_name_that_is_misspelled_finds_fields_with_it():
         explain("drian")
     for name in ("uplift.drain_position", "uplift.drain_x", "uplift.drain_efficiency"):
         assert f'"{name}"' in str(refused.value)
+
+
+# Words of section 3 of the design: what only the thesis needs, and the fields of one crack or motion again.
+def test_fields_of_the_thesis_and_repeated_ones_are_out_of_sight_until_they_are_named(tmp_path):
+    usual = {meaning.name for meaning in usual_names()}
+    for name in sorted(THESIS_FIELDS):
+        assert name not in usual
+        assert name in {meaning.name for meaning in everything()}
+        assert [meaning.name for meaning in explain(name)] == [name]
+    shown = [meaning for meaning in usual_names() if meaning.kind == "field of a case" and not meaning.parts]
+    assert len(shown) <= 215
+    assert "aftershocks[].pause" in usual
+    assert "aftershocks[].pga" not in usual
+    text = " ".join(command("explain", "flexible", cwd=tmp_path).stdout.split())
+    assert "  flexible.newmark_gamma" not in text
+    assert "docs/thesis.md: damping, damping_on_water" in text
+    assert "flexible.newmark_gamma" in command("explain", "flexible", "--all", cwd=tmp_path).stdout
+    listed = command("explain", "further_cracks", cwd=tmp_path).stdout
+    assert "and the fields of crack: heeltoe explain crack" in listed
+    assert "further_cracks[].elevation" not in listed
+
+
+def test_a_word_of_a_name_finds_the_fields_with_it():
+    names = [meaning.name for meaning in explain("drain")]
+    assert names[:3] == ["uplift.drain_position", "uplift.drain_x", "uplift.drain_efficiency"]
+    assert {meaning.kind for meaning in explain("drain")} == {"field of a case"}
+
+
+def test_other_names_with_the_word_follow(tmp_path):
+    names = related("slip", explain("slip"))
+    assert names[0].startswith(("limits.", "statics."))
+    assert {"limits.residual_slip", "limits.peak_slip", "residual_slip_m"} <= set(names)
+    text = " ".join(command("explain", "slip", cwd=tmp_path).stdout.split())
+    assert "See also" in text
+    assert "limits.residual_slip" in text
 
 
 def test_the_bare_command_fits_a_screen_or_two(tmp_path):

@@ -93,9 +93,9 @@ def test_the_numbers_of_both_systems_agree(both, rocking):
 
 
 def test_units_that_nobody_knows(both):
-    with pytest.raises(InputError, match="not a system of units") as refused:
+    with pytest.raises(InputError, match="choose si or us") as refused:
         response_figure(both.beside, "imperial")
-    assert refused.value.code == "unknown-units"
+    assert refused.value.code == "not-a-choice"
 
 
 @pytest.mark.parametrize(

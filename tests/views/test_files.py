@@ -151,7 +151,7 @@ def test_an_interrupted_run_leaves_nothing_behind(error, block, tmp_path, monkey
 def test_units_that_nobody_knows_leave_nothing_behind(block, tmp_path):
     with pytest.raises(InputError) as refused:
         write_all(block, tmp_path / "new", units="cubits")
-    assert refused.value.code == "unknown-units"
+    assert refused.value.code == "not-a-choice"
     assert contents(tmp_path) == {}
 
 

@@ -123,7 +123,7 @@ def test_page_one_says_what_the_terminal_and_the_static_checks_say(file, termina
     answer, text = terminal
     case = read_case(file)
     page = words(Reader(html(build_report(case, run(case)))).text)
-    page, _, _ = page.partition("What it leaves to the program")
+    page, _, _ = page.partition("Fields left to the program")
     assert answer["verdict"] in page
     assert answer["verdict"] in text
     for at, slip in slips_of(answer).items():

@@ -314,11 +314,11 @@ def test_packages_that_are_missing_are_named(monkeypatch, tmp_path, block):
     monkeypatch.setattr("heeltoe.views.report.write.find_spec", lambda name: None)
     with pytest.raises(InputError) as result:
         check_packages()
-    assert result.value.code == "report-package"
+    assert result.value.code == "package-missing"
     assert "pip install jinja2 typst" in str(result.value)
     with pytest.raises(InputError) as result:
         write_report(*block, tmp_path, kinds=("docx",))
-    assert result.value.code == "report-kind"
+    assert result.value.code == "not-a-choice"
     assert list(tmp_path.iterdir()) == []
 
 

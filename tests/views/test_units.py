@@ -35,7 +35,7 @@ def test_units_there_are_none_of_are_refused():
     for words in (("periods",), ("overturning",), ("animate",), ("run",), ("study",)):
         process = command(*words, BASE, "--units", "imperial")
         assert (process.returncode, process.stdout) == (2, "")
-        assert "--units: imperial is not a system of units" in process.stderr
+        assert "--units: imperial is not a choice" in process.stderr
     assert "units" in command("run", BASE, "--set", "units=imperial").stderr
 
 

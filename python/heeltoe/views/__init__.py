@@ -1,1 +1,1 @@
-"""What people see: words, figures, terminal, files, animation, notebook, report."""
+"""Output for people: words, figures, terminal, files, animation, notebook, report."""

@@ -1,4 +1,4 @@
-"""What a notebook shows of a case, a motion and a result: a small table with units, and a drawing."""
+"""Display of a case, a motion and a result in a notebook: a small table with units, and a drawing."""
 
 from __future__ import annotations
 

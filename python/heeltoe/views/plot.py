@@ -32,7 +32,7 @@ def plot(thing: object, name: str | None, path: str | PathLike[str] | None, unit
     units = unit_system(units or (thing.units if isinstance(thing, Case) else "si")).name
     place = None if path is None else Path(path)
     if place is not None and place.suffix.lower() not in _ENDINGS:
-        raise InputError("figure-format", "path", place)
+        raise InputError("file-ending", "path", place, kind="a figure", endings=".png, .svg or .pdf")
     figures = _figures(thing, units)
     if not figures:
         raise InputError("figure-nothing", "plot", getattr(thing, "outcome", ""))

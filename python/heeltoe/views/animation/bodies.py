@@ -96,7 +96,7 @@ class Part:
         return moved.reshape(-1, len(points), 2)
 
     def drawn(self, frame: int, exaggeration: float) -> Floats:
-        """Return where the points (n, 2) are drawn [m], displaced so many times as far."""
+        """Return where the points (n, 2) are drawn [m], with exaggerated displacements."""
         moved: Floats = self.points + exaggeration * np.tensordot(self.amplitudes[frame], self.shapes, axes=1)
         return moved
 

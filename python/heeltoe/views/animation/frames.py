@@ -17,7 +17,7 @@ from heeltoe.errors.sanitize import plain
 from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.result.history import LEAST_DAMAGE, CrackHistory, node_lengths
 from heeltoe.models.flexible.result.response import FlexibleResponse
-from heeltoe.result.histories import Histories
+from heeltoe.result.histories import GAPS, Histories
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Units, unit_system
@@ -214,7 +214,7 @@ def _anchor_line(anchor: Anchor, case: Case, parts: tuple[Part, ...]) -> AnchorL
 
 
 def chosen_exaggeration(response: Response, parts: tuple[Part, ...], section: CutSection) -> float:
-    """Return the exaggeration that shows the motion of the parts well; an overturned dam is drawn as it is."""
+    """Return the exaggeration that shows the motion of the parts well; an overturned dam is drawn to scale."""
     largest = max(float(np.abs(part.displacements(part.outline)).max()) for part in parts)
     return 1.0 if response.outcome == Outcome.OVERTURNED else automatic(largest, section)
 
@@ -332,8 +332,8 @@ def _traces(response: Response, within: NDArray[np.bool_], units: Units) -> tupl
     else:
         shaken = accelerations("ground acceleration", ("ground", "", ground))
     shaken += metres("slip", ("slip", "", "slip_m"))
-    if max(float(histories[key][within].max()) for key in ("gap_heel_m", "gap_toe_m")) > _NO_OPENING:
-        shaken += metres("opening", ("heel", "heel", "gap_heel_m"), ("toe", "toe", "gap_toe_m"))
+    if max(float(histories[key][within].max()) for key in GAPS) > _NO_OPENING:
+        shaken += metres("opening", *((end, end, key) for end, key in zip(("heel", "toe"), GAPS, strict=True)))
     return shaken
 
 

@@ -1,4 +1,4 @@
-"""What an animation looks like: colours that readers with colour-blindness can tell apart (after Okabe and Ito)."""
+"""Style of animations: colours that readers with colour-blindness can tell apart (after Okabe and Ito)."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ def write_page(scene: Scene, speed: float, path: Path) -> None:
     path.write_text("".join(content.get(piece, piece) for piece in pieces), encoding="utf-8")
 
 
-def page_data(scene: Scene, speed: float) -> dict[str, Any]:
+def page_data(scene: Scene, speed: float) -> dict[str, object]:
     """Return what the page shows: the scene, the histories beside it, and how fast it starts."""
     every = max(1, -(-scene.history_times.size // _MOST_SAMPLES))
     return scene_data(scene) | {
@@ -67,7 +67,7 @@ def page_data(scene: Scene, speed: float) -> dict[str, Any]:
     }
 
 
-def scene_data(scene: Scene) -> dict[str, Any]:
+def scene_data(scene: Scene) -> dict[str, object]:
     """Return what the player draws: plain numbers and texts, and arrays as :func:`packed`."""
     ground = scene.traces[0].values
     peak = float(np.abs(ground).max()) or 1.0
@@ -108,13 +108,13 @@ def _part_data(part: Part) -> dict[str, Any]:
     }
 
 
-def packed(values: NDArray[Any], kind: str) -> dict[str, Any]:
+def packed(values: NDArray[Any], kind: str) -> dict[str, object]:
     """Return an array as text: its kind, its shape, and its numbers, little-endian, in base64."""
     plain = np.ascontiguousarray(values, dtype=np.dtype(kind).newbyteorder("<"))
     return {"kind": kind, "shape": list(values.shape), "data": b64encode(plain.tobytes()).decode("ascii")}
 
 
-def _script_text(data: dict[str, Any]) -> str:
+def _script_text(data: dict[str, object]) -> str:
     """Return JSON in which no text can end the script that it stands in."""
     text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")

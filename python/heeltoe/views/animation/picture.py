@@ -218,7 +218,7 @@ class _View:
         self.overlays.append(move)
 
     def add_crack(self) -> None:
-        """Add forces and dots of the crack, with what they mean below the picture."""
+        """Add forces and dots of the crack, with their legend below the picture."""
         self.detailed = True
         scene = self.scene
         upper = scene.parts[scene.above]

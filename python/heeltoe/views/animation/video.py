@@ -45,7 +45,7 @@ def ffmpeg() -> ModuleType:
     try:
         import imageio_ffmpeg
     except ImportError:
-        raise InputError("animation-package", ".mp4") from None
+        raise InputError("package-missing", ".mp4", "imageio-ffmpeg", install="pip install imageio-ffmpeg") from None
     return imageio_ffmpeg  # type: ignore[no-any-return]
 
 

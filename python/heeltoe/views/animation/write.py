@@ -1,4 +1,4 @@
-"""Writing an animation: what is asked for is checked, the scene is built, and the file appears whole or not at all."""
+"""Writing an animation: the options are checked, the scene is built, and the file appears whole or not at all."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from heeltoe.base.arrays import Floats
 from heeltoe.base.atomic_files import written
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError, expect
+from heeltoe.models.cost import Cost
 from heeltoe.result.response import Response
 from heeltoe.views.figures.dense import filled_in
 
@@ -27,6 +28,9 @@ _LARGEST_EXAGGERATION = 1e6
 _MOST_FRAMES = 20_000
 #: A page interpolates by itself; more moments than these would only make it larger.
 _PAGE_STEP, _MOST_PAGE_FRAMES = 0.01, 3000
+
+# Seconds of a moment of a page, and of a picture of a video; how many of these a GIF has.
+_OF_PAGE, _OF_PICTURE, _MOST_PICTURES = 3e-4, 0.012, 300
 
 
 def animate(
@@ -72,8 +76,8 @@ def animate(
         Where the file's ending is not known, a number is out of range, the response has no histories, the package for
         videos is missing, or the file cannot be written.
     """
-    expect(case, Case, "not-a-case", "case")
-    expect(response, Response, "not-a-response", "response")
+    expect(case, Case, "a case", "case")
+    expect(response, Response, "a response", "response")
     place = Path(path)
     check_options(place, exaggerate=exaggerate, frames_per_second=frames_per_second, speed=speed)
     if not response.histories:
@@ -101,7 +105,7 @@ def check_options(
         As :func:`animate`.
     """
     if path.suffix.lower() not in SUFFIXES:
-        raise InputError("animation-ending", "animation", path)
+        raise InputError("file-ending", "animation", path, kind="an animation", endings=".mp4, .gif or .html")
     for field, value, low, high in (
         ("exaggerate", exaggerate, 0.0, _LARGEST_EXAGGERATION),
         ("frames_per_second", frames_per_second, 1.0, _FASTEST_RATE),
@@ -109,11 +113,21 @@ def check_options(
     ):
         if value is None or (math.isfinite(value) and low <= value <= high and value > 0.0):
             continue
-        raise InputError("animation-range", field, f"{value:g}", low=f"{low:g}" if low else "above 0", high=f"{high:g}")
+        bound = f"{f'from {low:g}' if low else 'above 0 and up'} to {high:g}"
+        raise InputError("out-of-range", field, f"{value:g}", bound=bound)
     if path.suffix.lower() == ".mp4":
         from heeltoe.views.animation.video import ffmpeg
 
         ffmpeg()
+
+
+def writing_cost(path: Path, seconds: float, frames_per_second: float, speed: float) -> Cost:
+    """Return what writing so many seconds of an earthquake takes."""
+    suffix = path.suffix.lower()
+    pictures = seconds / speed * frames_per_second
+    if suffix == ".html":
+        return Cost(_OF_PAGE * min(seconds / _PAGE_STEP, _MOST_PAGE_FRAMES), 1e8)
+    return Cost(_OF_PICTURE * min(pictures, _MOST_PICTURES if suffix == ".gif" else _MOST_FRAMES), 2e8)
 
 
 def _window(response: Response, start: float, end: float | None) -> tuple[float, float]:

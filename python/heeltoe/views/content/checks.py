@@ -116,7 +116,7 @@ def answer_of(joints: Joints, units: str) -> str:
         sentence += f" at {len(joints.joints)} sections; the section at {where} governs"
     if worst is not None and worst.margin is not None:
         sentence += (
-            f". The governing check is the {worst.name} ({worst.load_case}): {worst.margin:.2f} of what is required"
+            f". The governing check is the {worst.name} ({worst.load_case}): {worst.margin:.2f} of the required value"
         )
     return glued(f"{sentence[0].upper()}{sentence[1:]}.")
 

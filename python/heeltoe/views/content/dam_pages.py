@@ -41,7 +41,7 @@ def dam_pages(subject: StudySubject) -> Section | None:
     return Section("Dam by dam", (paragraph(text), *pages))
 
 
-def _runs(subject: StudySubject, dams: list[int]) -> dict[int, list[dict[str, Any]]]:
+def _runs(subject: StudySubject, dams: list[int]) -> dict[int, list[dict[str, object]]]:
     """Return the runs of some dams with what varies, by the place of the dam."""
     fields = list(_fields(subject))
     kept: dict[int, list[dict[str, Any]]] = {dam: [] for dam in dams}

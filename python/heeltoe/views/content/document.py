@@ -33,7 +33,7 @@ def run_sections(subject: Subject) -> tuple[Block, ...]:
 def document(subject: Subject) -> Document:
     """Return the whole report."""
     models = " and ".join(run.model for run in subject.runs)
-    hashed = input_hash(subject.case, (subject.first.response.motion, subject.first.response.vertical))
+    hashed = input_hash(subject.case, subject.first.response.components)
     sections = (
         question(subject),
         limits(subject),

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 CAPTIONS = {
-    "summary": "The dam, its crack and its water; what shakes it, and how far the part above the crack slips.",
+    "summary": "The dam, its crack and its water; the ground motion, and the slip of the part above the crack.",
     "section": "Section of the dam with its crack, water levels and the pressure in the crack.",
     "law": "The friction law of the crack: its strength over its normal stress.",
     "comparison": "Both models side by side, shaken by the same ground motion; slip positive downstream, rotation "
@@ -23,6 +23,7 @@ CAPTIONS = {
     "response": "Acceleration of the ground, slip, positive downstream, and what the part above the crack does; "
     "rotation positive about the heel.",
     "slip-by-mode": "Slip gathered in each mode of motion.",
+    "plan": "Path of the slip in the plan of the crack: downstream to the right, to the left bank upwards.",
     "friction": "Friction in the crack, what its law could bear at the moment, slip, and the way slipped to and fro.",
     "asperities": "How far the rough crack dilates as it slips, and the angle that wear leaves its flanks.",
     "accelerations": "Acceleration of the ground, acceleration of the slip, and the forces at heel and toe.",
@@ -50,6 +51,7 @@ CAPTIONS = {
 # Simple figures need not be as wide as the page; those of a pair stand side by side.
 _SHARES = {
     "law": 0.7,
+    "plan": 0.8,
     "slip-by-mode": 0.8,
     "friction": 0.9,
     "asperities": 0.9,
@@ -83,6 +85,7 @@ _HEIGHTS = {
     "anchors": 2.0,
     "joint": 3.1,
     "pressure": 2.1,
+    "plan": 2.6,
     "slip-by-mode": 2.5,
     "path": 2.6,
     "energy": 2.3,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -29,8 +29,8 @@ def input_section(subject: Subject) -> Section:
     """Return the section with the drawing of the dam and all fields that the case gives."""
     rows = case_rows(subject.case, subject.units)
     text = (
-        f"All that the case says, in {_SYSTEMS[subject.units]} units {subject.per_width}; x points downstream, z up. "
-        "What it leaves to the program’s defaults is in the appendix; "
+        f"Fields of the case, in {_SYSTEMS[subject.units]} units {subject.per_width}; x points downstream, z up. "
+        "Fields left to the program’s defaults are in the appendix; "
     )
     return Section(
         "Input",
@@ -57,8 +57,8 @@ def _loads(subject: Subject) -> tuple[Block, ...]:
     rows: list[tuple[Inline, ...]] = [tuple(map(glued, row[:-1])) for row in written.rows]
     rows[-1] = tuple(Strong(cell) if isinstance(cell, str) and cell else "" for cell in rows[-1])
     caption = (
-        f"Loads before the earthquake on what is above the crack at {at}, {subject.per_width}: H positive downstream, "
-        "V upward, M = x V − z H counter-clockwise; arms from the heel of what is closed."
+        f"Loads before the earthquake on the part above the crack at {at}, {subject.per_width}: H positive downstream, "
+        "V upward, M = x V − z H counter-clockwise; arms from the heel of the closed part."
     )
     caption += entered(joint.statics, subject.units)
     return (Table(written.head[:-1], tuple(rows), caption, "lrrrrr"),)
@@ -90,7 +90,7 @@ def defaults(subject: Subject) -> Section:
 
 def rerun(subject: Subject) -> Section:
     """Return the section that lets anyone run the same again."""
-    digest = input_hash(subject.case, *((run.response.motion, run.response.vertical) for run in subject.runs[:1]))
+    digest = input_hash(subject.case, *(run.response.components for run in subject.runs[:1]))
     return rerun_section(
         "With the input above, this command writes this report again:",
         subject.command or _command(subject),
@@ -120,7 +120,7 @@ def revisions(case: Case) -> Table | None:
     return Table(head, rows, "Revisions of this report.", "l" * len(head), widths)
 
 
-def input_hash(case: Case, motions: tuple[GroundMotion, GroundMotion | None]) -> str:
+def input_hash(case: Case, motions: Sequence[GroundMotion | None]) -> str:
     """Return the SHA-256 of a case as canonical JSON, of its mesh files and of the samples of its motions."""
     hashed = hashlib.sha256()
     written = case.model_dump(mode="json", exclude={"project"})

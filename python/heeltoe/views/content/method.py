@@ -250,6 +250,13 @@ def _friction(writer: _Writer, subject: Subject) -> None:
             f"$μ_s$ and $μ_k$ are those of the law {case.crack.law.name} at the mean normal stress, the way slipped "
             "and the speed of the moment; a bond adds its cohesion."
         )
+    if subject.first.response.cross is not None:
+        writer.say(
+            "The ground shakes the block across the valley, too. Friction is one circle: at rest it bears the "
+            "resultant of the forces along the stream and across it up to $μ_s N$; while the block slides it resists "
+            "the velocity with $μ_k N$. No water moves with the block across the valley. It is kept upright by its "
+            "neighbours, which all move alike."
+        )
     if case.crack.roughness is not None:
         writer.say(
             "The faces of the crack are a sawtooth (Patton 1966), whose flanks rise by the angle $i$; $φ$ is the angle "

@@ -29,6 +29,8 @@ def ground_motion(subject: Subject) -> Section:
     motions = {"horizontal, + downstream": (response.motion, "motion")}
     if response.vertical is not None:
         motions["vertical, + up"] = (response.vertical, "vertical_motion")
+    if response.cross is not None:
+        motions["across the valley, + left"] = (response.cross, "cross_valley_motion")
     n, prefix = subject.numbers, subject.first.prefix
 
     rows: list[tuple[Inline, ...]] = [("Name", *(Code(plain(motion.name)) for motion, _ in motions.values()))]

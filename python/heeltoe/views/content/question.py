@@ -122,7 +122,7 @@ def warnings(subject: Subject) -> tuple[str, ...]:
     responses = [run.response for run in subject.runs]
     if subject.statics is not None:
         responses = [replace(response, warnings=tuple(_beside_statics(response.warnings))) for response in responses]
-    return listed(responses, subject.units)
+    return tuple(listed(responses, subject.units))
 
 
 def _beside_statics(notices: Sequence[Notice]) -> Iterator[Notice]:

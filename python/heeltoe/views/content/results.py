@@ -72,8 +72,9 @@ def results(subject: Subject) -> Section:
         figure = subject.figure
         blocks += [
             *_signs(subject),
+            *_band(subject),
             *_cracks(subject),
-            *figure("slip-by-mode", "friction", "asperities"),
+            *figure("plan", "slip-by-mode", "friction", "asperities"),
             *_tension(subject),
             *in_rows(figure("deformed", "tension")),
             *_at_the_crack(subject),
@@ -110,6 +111,20 @@ def _signs(subject: Subject) -> list[Block]:
     head = ("motion", "outcome", *crack_head, "residual slip", "largest opening", "")
     caption = "The motion as recorded and reversed; all other numbers are those of the sign that leads."
     return [Table(head, tuple(rows), caption, "ll" + "r" * (len(head) - 3) + "l")] if rows else []
+
+
+def _band(subject: Subject) -> list[Block]:
+    """Return what other frictions of the crack do."""
+    band, n = subject.result.friction_band, subject.numbers
+    if band is None:
+        return []
+    rows: list[tuple[Inline, ...]] = []
+    for place, trial in enumerate(band.trials):
+        key = f"friction_band.trials.{place}."
+        moved = n(f"{key}residual_slip_m"), n(f"{key}opening_m")
+        rows.append((trial.friction.text(subject.units), trial.outcome, *moved, "judged" if trial.judged else ""))
+    caption = "The frictions that the crack may have, the best estimate first; the others without evidence."
+    return [Table(("", "outcome", "residual slip", "largest opening", ""), tuple(rows), caption, "llrrl")]
 
 
 def _cracks(subject: Subject) -> list[Block]:

@@ -164,7 +164,7 @@ def _answer(subject: _Subject) -> Section:
 
 def _input(case: Case, units: str) -> Section:
     system = "US" if units == "us" else "SI"
-    text = f"All that the case says, in {system} units, per {'foot' if system == 'US' else 'metre'} of dam:"
+    text = f"Fields of the case, in {system} units, per {'foot' if system == 'US' else 'metre'} of dam:"
     return Section("Input", (paragraph(text), case_table(case, units, "Given by the case.")))
 
 

@@ -9,13 +9,15 @@ from typing import Any
 import numpy as np
 
 from heeltoe.errors.sanitize import plain
-from heeltoe.result.contract import HEADLINES, RESIDUAL_SLIP
+from heeltoe.result.contract import HEADLINES, OPENINGS, RESIDUAL_SLIP
 from heeltoe.result.crest import CREST_PEAKS
 from heeltoe.result.judge import LIMITS
 from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.answers import MODES
+from heeltoe.study.answers.comparison import TraitLine
 from heeltoe.study.answers.fragility import Curve, Share
 from heeltoe.study.answers.hazard import FRACTILES, AnnualRate
+from heeltoe.study.answers.sensitivity import Sobol, Tornado
 from heeltoe.units.sentences import counted
 from heeltoe.units.write import NOTHING, digits, measured, scaled
 from heeltoe.views.content.study_subject import StudySubject
@@ -25,7 +27,7 @@ from heeltoe.views.words.studies import ABOUT_CRACKS, TRAITS, ends_of, left_out,
 
 _SHARES = (("50%", "half stay below"), ("84%", "84 % stay below"), ("95%", "95 % stay below"), ("largest", "largest"))
 _NAMES = {"pga": "PGA", "pgv": "PGV", "sa": "SA", "arias": "Arias intensity", "housner intensity": "Housner intensity"}
-_SHOWN = (RESIDUAL_SLIP.key, "opening_upstream_m", "rocking_upstream_rad")
+_SHOWN = (RESIDUAL_SLIP.key, OPENINGS[0].key, "rocking_upstream_rad")
 
 
 def answer(subject: StudySubject) -> list[Block]:
@@ -199,7 +201,7 @@ def results(subject: StudySubject) -> Section:
 
 _QUANTITIES = {
     RESIDUAL_SLIP.key: "displacement",
-    "opening_upstream_m": "displacement",
+    OPENINGS[0].key: "displacement",
     "rocking_upstream_rad": "rotation",
 }
 
@@ -550,17 +552,16 @@ def measures_compared(subject: StudySubject) -> Section | None:
         return None
     blocks: list[Block] = []
     for model, comparison in subject.results.compared().items():
-        if not comparison["measures"]:
+        measures = comparison.measures
+        if not measures:
             continue
-        traits = [
-            name for name in TRAITS if any(measure["sufficiency"].get(name) for measure in comparison["measures"])
-        ]
+        traits = [name for name in TRAITS if any(measure.sufficiency.get(name) for measure in measures)]
         rows = tuple(
-            (measure["measure"], f"{measure['efficiency']:.2f}", *(_p(measure["sufficiency"][name]) for name in traits))
-            for measure in comparison["measures"]
+            (measure.measure, f"{measure.efficiency:.2f}", *(_p(measure.sufficiency[name]) for name in traits))
+            for measure in measures
         )
         without = left_out(comparison, subject.units)
-        caption = f"Measures of strength, {model} model, over {comparison['runs']:,} runs; {without}."
+        caption = f"Measures of strength, {model} model, over {comparison.runs:,} runs; {without}."
         head = ("measure", "scatter", *(f"p, {TRAITS[name]}" for name in traits))
         blocks.append(Table(head, rows, caption, "l" + "r" * (len(head) - 1)))
     if not blocks:
@@ -585,21 +586,19 @@ def hangs_on(subject: StudySubject) -> Section | None:
     return Section("What the slip depends on", (*blocks, *subject.figure("sobol", "tornado")))
 
 
-def _sobol(model: str, numbers: dict[str, Any]) -> Block:
-    if not numbers["indices"]:
+def _sobol(model: str, numbers: Sobol) -> Block:
+    if not numbers.indices:
         return paragraph(f"No indices of the {model} model: the slip does not vary.")
     rows: tuple[tuple[Inline, ...], ...] = tuple(
-        (Code(index["name"]), *(_within(index[kind], index[f"{kind}_interval"]) for kind in ("first", "total")))
-        for index in numbers["indices"]
+        (Code(index.name), _within(index.first, index.first_interval), _within(index.total, index.total_interval))
+        for index in numbers.indices
     )
-    left = f"; {numbers['left_out']:,} left out with a run without a slip" if numbers["left_out"] else ""
-    caption = (
-        f"Sobol’s indices, {model} model, {numbers['confidence']:.0%} intervals, over {numbers['rows']:,} rows{left}."
-    )
+    left = f"; {numbers.left_out:,} left out with a run without a slip" if numbers.left_out else ""
+    caption = f"Sobol’s indices, {model} model, {numbers.confidence:.0%} intervals, over {numbers.rows:,} rows{left}."
     return Table(("field", "by itself", "with all others"), rows, caption, "lrr")
 
 
-def _tornado(model: str, numbers: dict[str, Any], units: str) -> Block:
+def _tornado(model: str, numbers: Tornado, units: str) -> Block:
     if numbers["base"] is None:
         return paragraph(
             f"No motion gave every dam of the {model} model a slip: nothing can be held against each other."
@@ -625,8 +624,8 @@ def _within(value: float, interval: Sequence[float]) -> str:
     return f"{value:.2f} ({interval[0]:.2f} to {interval[1]:.2f})"
 
 
-def _p(line: dict[str, float] | None) -> str:
-    return NOTHING if line is None else f"{line['p']:.2f}"
+def _p(line: TraitLine | None) -> str:
+    return NOTHING if line is None else f"{line.p:.2f}"
 
 
 def _part(value: float | None) -> str:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator
 
+from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.judge import LIMITS
 from heeltoe.result.outcome import Outcome
+from heeltoe.study.answers.suite import SuiteLimit, SuiteModel
 from heeltoe.units.sentences import quantity
 from heeltoe.units.write import NOTHING, digits, length, measured
 from heeltoe.views.content.study_subject import StudySubject
@@ -19,17 +20,12 @@ _DEMANDS = {f"{name}_m": limit.label for name, limit in LIMITS.items() if limit.
 _ACCELERATION = "crest_acceleration_g"
 
 
-def _about(key: str, form: str, of: float = 1.0) -> Callable[[Mapping[str, Any], str], str]:
-    """Return what writes a number of a record."""
-    return lambda record, units: NOTHING if record[key] is None else quantity(record[key] / of, form, units)
-
-
-# Traits of records beside their motion: headings, and how each is written.
+# Traits of records beside their motion: headings, how each is written, and in how many of its SI unit.
 _ABOUT = {
-    "magnitude": ("M", _about("magnitude", ".3g")),
-    "distance_m": ("distance", _about("distance_m", ".3g km", 1e3)),
-    "vs30_m_s": ("Vs30", _about("vs30_m_s", ".3g m/s")),
-    "pulse_period_s": ("pulse", _about("pulse_period_s", ".3g s")),
+    "magnitude": ("M", ".3g", 1.0),
+    "distance_m": ("distance", ".3g km", 1e3),
+    "vs30_m_s": ("Vs30", ".3g m/s", 1.0),
+    "pulse_period_s": ("pulse", ".3g s", 1.0),
 }
 
 
@@ -39,12 +35,12 @@ def suite_answer(subject: StudySubject) -> list[Block]:
     if suite is None:
         return []
     blocks: list[Block] = []
-    for row in suite["models"]:
+    for row in suite.models:
         sentences = [_governing(row, subject.units), _numbers(row, subject.units), *_joints(row, subject.units)]
-        blocks.append(paragraph(Strong(f"Answer, {row['model']} model. "), " ".join(filter(None, sentences))))
-        judged = _judged(row, suite["judge"])
-        missed = [_limit(check, judged, subject.units) for check in row["limits"] if not check["met"]]
-        kept = [_limit(check, judged, subject.units) for check in row["limits"] if check["met"]]
+        blocks.append(paragraph(Strong(f"Answer, {row.model} model. "), " ".join(filter(None, sentences))))
+        judged = _judged(row, suite.judge)
+        missed = [_limit(check, judged, subject.units) for check in row.limits if not check.met]
+        kept = [_limit(check, judged, subject.units) for check in row.limits if check.met]
         if missed:
             blocks.append(Notes("failure", "Limits not met", tuple((text,) for text in missed)))
         if kept:
@@ -59,12 +55,10 @@ def suite(subject: StudySubject) -> Section | None:
     if answer is None:
         return None
     blocks: list[Block] = []
-    for row in answer["models"]:
+    for row in answer.models:
         blocks.append(_statistics(row, subject.units))
     judged = (
-        f"The limits of the case are judged by {JUDGED[answer['judge']]}. "
-        if len(answer["models"][0]["records"]) > 1
-        else ""
+        f"The limits of the case are judged by {JUDGED[answer.judge]}. " if len(answer.models[0].records) > 1 else ""
     )
     blocks.append(
         paragraph(
@@ -76,42 +70,38 @@ def suite(subject: StudySubject) -> Section | None:
     return Section("The suite of records", (*blocks, *subject.figure("suite", "suite-spectra")))
 
 
-def _governing(row: Mapping[str, Any], units: str) -> str:
+def _governing(row: SuiteModel, units: str) -> str:
     """Say which record governs, and what it does."""
-    worst = next(record for record in row["records"] if record["governs"])
-    count = len(row["records"])
-    signs = (
-        ", each by its worse sign," if any(r["other_sign_residual_slip_m"] is not None for r in row["records"]) else ""
-    )
-    end = f"where the run ends “{worst['outcome']}”"
-    if worst["residual_slip_m"] is not None:
-        end = f"with a residual slip of {length(worst['residual_slip_m'], units)}"
+    worst = next(record for record in row.records if record.governs)
+    count = len(row.records)
+    signs = ", each by its worse sign," if any(r.other_sign_residual_slip_m is not None for r in row.records) else ""
+    end = f"where the run ends “{worst.outcome}”"
+    if worst.residual_slip_m is not None:
+        end = f"with a residual slip of {length(worst.residual_slip_m, units)}"
     if count == 1:
-        return f"The one record{signs} is {worst['motion']}, {worst['sign']}, {end}."
-    return f"Of {count} records{signs} {worst['motion']}, {worst['sign']}, governs, {end}."
+        return f"The one record{signs} is {worst.motion}, {worst.sign}, {end}."
+    return f"Of {count} records{signs} {worst.motion}, {worst.sign}, governs, {end}."
 
 
-def _numbers(row: Mapping[str, Any], units: str) -> str:
+def _numbers(row: SuiteModel, units: str) -> str:
     """Say the numbers over the records, of several."""
-    if len(row["records"]) == 1:
+    if len(row.records) == 1:
         return ""
-    numbers = row["statistics"]["residual_slip_m"]
+    numbers = row.statistics[RESIDUAL_SLIP.key]
     if numbers["mean"] is None:
         return "Not every record has a result, so that there is no mean."
     (texts,) = in_one_unit([[Amount(numbers[name], zero="0") for name in ("mean", "median", "84%")]], units)
     return f"The mean is {texts[0]}, the median {texts[1]}; 84 % stay below {texts[2]}."
 
 
-def _joints(row: Mapping[str, Any], units: str) -> Iterator[str]:
+def _joints(row: SuiteModel, units: str) -> Iterator[str]:
     """Say of each bonded joint whether it cracks, and how far."""
-    count = len(row["records"])
-    for joint in row["joints"]:
+    count = len(row.records)
+    for joint in row.joints:
         name = "The bonded joint"
-        if len(row["joints"]) > 1 or (
-            row["limits"] and any(check["elevation_m"] is not None for check in row["limits"])
-        ):
-            name += f" at {quantity(joint['elevation_m'], '.4g m', units)}"
-        cracked, largest = joint["records_cracked"], joint["statistics"]["largest"]
+        if len(row.joints) > 1 or (row.limits and any(check.elevation_m is not None for check in row.limits)):
+            name += f" at {quantity(joint.elevation_m, '.4g m', units)}"
+        cracked, largest = joint.records_cracked, joint.statistics["largest"]
         reach = "not every record has a result" if largest is None else f"over {length(largest, units)}"
         if count > 1:
             at_most = "" if largest is None else " at most"
@@ -120,66 +110,67 @@ def _joints(row: Mapping[str, Any], units: str) -> Iterator[str]:
             yield f"{name} cracks {reach}." if cracked else f"{name} does not crack."
 
 
-def _judged(row: Mapping[str, Any], judge: str) -> str:
-    return JUDGED[judge] if len(row["records"]) > 1 else "that of the record"
+def _judged(row: SuiteModel, judge: str) -> str:
+    return JUDGED[judge] if len(row.records) > 1 else "that of the record"
 
 
-def _limit(check: Mapping[str, Any], judged: str, units: str) -> str:
+def _limit(check: SuiteLimit, judged: str, units: str) -> str:
     """Say how a number over the records stands to a limit."""
-    label, allowed = LIMITS[check["name"]].label, measured(check["allowed"], check["unit"], units)
-    if check["elevation_m"] is not None:
-        label += f" at the joint at {quantity(check['elevation_m'], '.4g m', units)}"
-    if check["value"] is None:
+    label, allowed = check.label, measured(check.allowed, check.unit, units)
+    if check.elevation_m is not None:
+        label += f" at the joint at {quantity(check.elevation_m, '.4g m', units)}"
+    if check.value is None:
         return f"The {label}: {judged} is not finite, {allowed} is allowed."
-    used = "" if check["utilisation"] is None else f" ({100.0 * check['utilisation']:.0f} %)"
-    number = measured(check["value"], check["unit"], units)
-    if not check["certain"]:
-        number += f" ± {measured(check['uncertainty'], check['unit'], units)}, which decides,"
+    used = "" if check.utilisation is None else f" ({100.0 * check.utilisation:.0f} %)"
+    number = measured(check.value, check.unit, units)
+    if not check.certain:
+        number += f" ± {measured(check.uncertainty, check.unit, units)}, which decides,"
     return f"The {label}: {judged} is {number} of {allowed} allowed{used}."
 
 
-def _records(row: Mapping[str, Any], units: str) -> Table:
+def _records(row: SuiteModel, units: str) -> Table:
     """Return the table of the records, the worst first."""
-    ranked = sorted(
-        row["records"], key=lambda r: (r["governs"], r["residual_slip_m"] is None, r["residual_slip_m"] or 0.0)
-    )
+    ranked = sorted(row.records, key=lambda r: (r.governs, r.residual_slip_m is None, r.residual_slip_m or 0.0))
     cells = [
         (
-            Amount(record["residual_slip_m"], zero="0"),
-            Amount(record["other_sign_residual_slip_m"], zero="0"),
+            Amount(record.residual_slip_m, zero="0"),
+            Amount(record.other_sign_residual_slip_m, zero="0"),
         )
         for record in reversed(ranked)
     ]
     rows: list[tuple[Inline, ...]] = []
-    known = [column for key, column in _ABOUT.items() if any(record.get(key) is not None for record in ranked)]
+    known = {key: column for key, column in _ABOUT.items() if any(record[key] is not None for record in ranked)}
     for record, (slip, other) in zip(reversed(ranked), in_one_unit(cells, units), strict=True):
-        ended = "" if record["outcome"] == Outcome.OK else f" ({record['outcome']})"
+        ended = "" if record.outcome == Outcome.OK else f" ({record.outcome})"
         rows.append(
             (
-                Code(record["motion"]),
-                *(column[1](record, units) for column in known),
-                digits(record["pga_g"], 3),
-                record["sign"] + ended,
+                Code(record.motion),
+                *(
+                    NOTHING if record[key] is None else quantity(record[key] / of, form, units)
+                    for key, (_, form, of) in known.items()
+                ),
+                digits(record.pga_g, 3),
+                record.sign + ended,
                 slip,
                 other,
             )
         )
-    head = ("record", *(column[0] for column in known), "PGA [g]", "worse sign", "slip", "other sign")
-    caption = f"The records, {row['model']} model, the worst first: residual slips, either way."
+    head = ("record", *(column[0] for column in known.values()), "PGA [g]", "worse sign", "slip", "other sign")
+    caption = f"The records, {row.model} model, the worst first: residual slips, either way."
     return Table(head, tuple(rows), caption, f"l{'r' * len(known)}rlrr")
 
 
-def _statistics(row: Mapping[str, Any], units: str) -> Table:
+def _statistics(row: SuiteModel, units: str) -> Table:
     """Return the table of the numbers over the records."""
-    numbers = row["statistics"]
+    numbers = row.statistics
     # Of one record all of them are its own.
-    shown = STATISTICS if len(row["records"]) > 1 else {"largest": "the record"}
+    shown = STATISTICS if len(row.records) > 1 else {"largest": "the record"}
     known = {key: label for key, label in _DEMANDS.items() if key in numbers}
     texts = in_one_unit([[Amount(numbers[key][name], zero="0") for name in shown] for key in known], units)
     rows = tuple((label, *cells) for label, cells in zip(known.values(), texts, strict=True))
     if _ACCELERATION in numbers:
         shakes = [numbers[_ACCELERATION][name] for name in shown]
         rows += (("crest acceleration", *(NOTHING if g is None else measured(g, "g", units) for g in shakes)),)
-    over = f"Over {len(row['records'])} records" if len(shown) > 1 else "Of the record"
-    caption = f"{over}, {row['model']} model, {'each ' * (len(shown) > 1)}by its worse sign."
+    over = f"Over {len(row.records)} records" if len(shown) > 1 else "Of the record"
+    caption = f"{over}, {row.model} model, {'each ' * (len(shown) > 1)}by its worse sign."
     return Table(("", *shown.values()), rows, caption, "l" + "r" * len(shown))

@@ -1,1 +1,1 @@
-"""What each name of heeltoe means: fields of a case and of a study, keys of the JSON, columns of the tables."""
+"""Meanings of all names: fields of a case and of a study, keys of the JSON, columns of the tables."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any, Literal, get_args, get_origin
 
-from pydantic import BaseModel
+from pydantic import BaseModel, WithJsonSchema
 from pydantic.fields import FieldInfo
 
 from heeltoe.case.combinations import rules_of
@@ -20,6 +21,7 @@ from heeltoe.case.model import Case
 from heeltoe.case.paths import constraints, is_list, quantities_of
 from heeltoe.case.plausible import PLAUSIBLE
 from heeltoe.case.sentences import kinds_in
+from heeltoe.case.thesis import THESIS_FIELDS
 from heeltoe.study.plan.file import Distribution, Study
 from heeltoe.units.parse import DIMENSIONS
 from heeltoe.units.sentences import listed
@@ -32,10 +34,40 @@ _PLAIN = {bool: "true or false", int: "a whole number", float: "a number", str: 
 # Words and units of what is shown, on which no number depends.
 _SHOWN = ("title", "units", "project")
 _UNKNOWN = "a value of the field that varies"
+# Blocks with the fields of another one.
+_LIKE = {
+    "cracks": "crack",
+    "further_cracks": "crack",
+    "joints": "crack",
+    "aftershocks": "motion",
+    "motion.vertical": "motion",
+    "motion.cross_valley": "motion",
+    "suite.processing": "motion.processing",
+    "tailwater": "reservoir",
+}
+# The kind of a step stands in the name of its block already.
+_STEP = re.compile(r"\[[a-z-]+\]\.step$")
 
 
 def fields_of_a_case() -> Iterator[Meaning]:
-    """Walk all fields of a case, each block before what is in it."""
+    """Walk all fields of a case, each block before its fields; those that repeat another block are marked hidden."""
+    fields = list(_all_fields())
+    names = {meaning.name for meaning in fields}
+    for meaning in fields:
+        name = meaning.name
+        twins = [
+            (block, f"{_LIKE[block]}{name[len(block) :].removeprefix('[]')}") for block in _LIKE if _in(name, block)
+        ]
+        repeated = any(twin in names and name != block for block, twin in twins)
+        hidden = repeated or name in THESIS_FIELDS or _STEP.search(name) is not None
+        yield replace(meaning, hidden=hidden, like=_LIKE.get(name, ""))
+
+
+def _in(name: str, block: str) -> bool:
+    return name == block or name.startswith((f"{block}.", f"{block}["))
+
+
+def _all_fields() -> Iterator[Meaning]:
     for meaning in _walk(Case, "", "field of a case"):
         if meaning.name == "further_cracks":
             # A file may list all cracks in place of both blocks.
@@ -45,7 +77,7 @@ def fields_of_a_case() -> Iterator[Meaning]:
 
 
 def fields_of_a_study() -> Iterator[Meaning]:
-    """Walk all fields of a study file; those of what varies stand under ``vary.*``."""
+    """Walk all fields of a study file; those of distributions stand under ``vary.*``."""
     yield from _walk(Study, "", "field of a study")
     yield from _walk(Distribution, "vary.*.", "field of a study")
 
@@ -143,6 +175,10 @@ def _holds(field: FieldInfo) -> str:
     if choices:
         return f"{'one or several' if listed else 'one'} of {', '.join(choices)}"
     quantities = [DIMENSIONS[quantity] for quantity in quantities_of(field)]
+    schemas = [what.json_schema or {} for what in field.metadata if isinstance(what, WithJsonSchema)]
+    for schema in schemas:
+        if quantities and "array" in schema.get("type", ""):
+            return f'{quantities[0].kind}, alone or one for each side, for example "{schema["examples"][0]}"'
     if listed and len(quantities) > 1:
         return f"rows of {' and '.join(quantity.kind for quantity in quantities)}"
     if quantities:

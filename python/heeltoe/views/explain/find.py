@@ -1,4 +1,4 @@
-"""Which names there are, and what is meant by one that somebody has written."""
+"""All names, and the meanings of a name that a user has written."""
 
 from __future__ import annotations
 
@@ -13,38 +13,61 @@ from heeltoe.result.contract import HEADLINES
 from heeltoe.result.crest import CREST_PEAKS
 from heeltoe.views.explain.fields import fields_of_a_case, fields_of_a_study
 from heeltoe.views.explain.keys import columns, keys_of_the_json
-from heeltoe.views.explain.meaning import Meaning
+from heeltoe.views.explain.meaning import KINDS, Meaning
 
 # No name is so long; what is longer is not compared with all of them.
 _LONGEST = 200
 # So many names are suggested.
 _SUGGESTED = 3
+# Other names with a word of the name are listed, up to this number.
+_RELATED = 6
 # Keys of a result stand below these again, where models stand side by side or runs in a table.
 _AGAIN = ("beside", "cracks", "runs", "sections", "statics", "rigid", "flexible", "decoupled")
+_COMPONENT = re.compile(r"^(vertical|cross_valley)_motion\.")
 _HEADLINES = frozenset((*(headline.key for headline in HEADLINES), *CREST_PEAKS))
 
 
 @cache
 def everything() -> tuple[Meaning, ...]:
-    """Return all names with what they mean, in the order of their kinds."""
+    """Return all names with their meanings, in the order of their kinds."""
     return (*fields_of_a_case(), *fields_of_a_study(), *keys_of_the_json(), *columns())
 
 
-def explain(name: str) -> tuple[Meaning, ...]:
-    """Return what a name means: all of that path, else all that end with it.
+def usual_names() -> tuple[Meaning, ...]:
+    """Return the names of lists that do not show everything: without fields of the thesis and repeated ones."""
+    return tuple(meaning for meaning in everything() if not meaning.hidden)
 
-    Places in lists may be written or left out, ``anchors[0].capacity`` or ``anchors.capacity``.
+
+def explain(name: str, *, all_: bool = False) -> tuple[Meaning, ...]:
+    """Return the meanings of a name: all with that path, else all that end with it, else all with that word; fields
+    come first.
+
+    Parameters
+    ----------
+    name
+        A path, its end or a word of it. Places in lists may be written or left out, ``anchors[0].capacity`` or
+        ``anchors.capacity``.
+    all_
+        Whether to return fields of repeated blocks beside the first one, too.
 
     Raises
     ------
     InputError
         Where there is no such name.
     """
-    wanted = _plain(name.strip())
+    # The keys of each component of a motion are those of the horizontal one.
+    wanted = _COMPONENT.sub("motion.", _plain(name.strip()))
     if wanted not in ("", "*") and len(wanted) <= _LONGEST:
-        for matches in (_with_fields(_of_path(wanted), wanted), _of_path(_shorter(wanted)), _ending(wanted)):
-            if matches:
-                return matches
+        for matches in (
+            _with_fields(_of_path(wanted), wanted),
+            _of_path(_shorter(wanted)),
+            _ending(wanted),
+            _with_word(wanted),
+        ):
+            # Only fields repeat; those of a block that is like another mean the same.
+            found = matches if all_ or wanted in _by_name() else _first_of_each(matches)
+            if found:
+                return tuple(sorted(found, key=lambda meaning: list(KINDS).index(meaning.kind)))
     raise InputError("explain-unknown", "NAME", shown(name), near=_suggested(wanted[:_LONGEST]))
 
 
@@ -53,8 +76,31 @@ def _with_fields(matches: tuple[Meaning, ...], wanted: str) -> tuple[Meaning, ..
     what the JSON has."""
     if not matches or any(meaning.kind.startswith("field") for meaning in matches):
         return matches
-    fields = tuple(meaning for meaning in _ending(wanted) if meaning.kind == "field of a case")
+    fields = _first_of_each(tuple(meaning for meaning in _ending(wanted) if meaning.kind == "field of a case"))
     return (*fields, *matches)
+
+
+def related(name: str, found: Sequence[Meaning]) -> tuple[str, ...]:
+    """Return a few other names that have the same word: fields first, then keys of a result."""
+    word = _plain(name.strip())
+    names = [
+        meaning.name
+        for meaning in usual_names()
+        if word in re.split(r"[_.]", meaning.last) and meaning not in found and meaning.name.count(".") < 2
+    ]
+    return tuple(dict.fromkeys(names))[:_RELATED]
+
+
+def _first_of_each(matches: tuple[Meaning, ...]) -> tuple[Meaning, ...]:
+    """Return meanings without the hidden ones that repeat another of them."""
+    usual = {(meaning.last, meaning.meaning) for meaning in matches if not meaning.hidden}
+    return tuple(meaning for meaning in matches if not meaning.hidden or (meaning.last, meaning.meaning) not in usual)
+
+
+def _with_word(wanted: str) -> tuple[Meaning, ...]:
+    """Return fields, else other names, whose last part has a word."""
+    found = tuple(meaning for meaning in usual_names() if wanted in meaning.last.split("_"))
+    return tuple(meaning for meaning in found if meaning.kind.startswith("field")) or found
 
 
 def _suggested(wanted: str) -> str:

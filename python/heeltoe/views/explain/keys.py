@@ -24,15 +24,19 @@ from heeltoe.result.numbers import (
     ElasticCrack,
     ElasticDam,
     Energy,
+    FrictionBand,
     SignNumbers,
     Spread,
     Stage,
 )
 from heeltoe.result.record import ResponseData
 from heeltoe.result.write import MotionNumbers
+from heeltoe.study.answers.comparison import Compared
 from heeltoe.study.answers.fragility import Curve
 from heeltoe.study.answers.hazard import AnnualRate
 from heeltoe.study.answers.portfolio import Ranks
+from heeltoe.study.answers.sensitivity import Sobol
+from heeltoe.study.answers.suite import SuiteAnswer
 from heeltoe.study.small.overturning import OverturningMap
 from heeltoe.study.small.solve import Solved
 from heeltoe.views.explain.meaning import Meaning
@@ -63,6 +67,7 @@ _BLOCKS: tuple[tuple[str, type[Block], str], ...] = (
     ("crest.", CrestMotion, _RUN),
     ("sequence[].", Stage, _RUN),
     ("signs[].", SignNumbers, _RUN),
+    ("friction_band.", FrictionBand, _RUN),
     ("motion.", MotionNumbers, _RUN),
     ("response_spectrum.", SpectralDemand, _STATICS),
     ("cases[].", LoadCase, _STATICS),
@@ -74,10 +79,13 @@ _BLOCKS: tuple[tuple[str, type[Block], str], ...] = (
     ("fragility[].", Curve, "heeltoe study --json"),
     ("hazard[].", AnnualRate, "heeltoe study --json"),
     ("portfolio[].", Ranks, "heeltoe study --json"),
+    ("measures_compared.*.", Compared, "heeltoe study --json"),
+    ("suite.", SuiteAnswer, "heeltoe study --json"),
+    ("sensitivity.*.", Sobol, "heeltoe study --json"),
 )
 # Attributes that the JSON does not have, or says by keys of their own.
 _WITHOUT_KEY = {
-    "gravity", "vertical", "seconds", "sources", "ends_m", "moment_nm", "dam", "parts",
+    "gravity", "vertical", "cross", "seconds", "sources", "ends_m", "moment_nm", "dam", "parts",
 }  # fmt: skip
 
 
@@ -113,7 +121,7 @@ def keys_of_the_json() -> Iterator[Meaning]:
 
 
 def numbers_of_results() -> Iterator[tuple[str, Number, str]]:
-    """Walk the paths of the typed blocks of results, with what they hold and which command writes them."""
+    """Walk the paths of the typed blocks of results, with their content and the command that writes them."""
     for above, kind, where in _BLOCKS:
         for path, number in described(kind, above):
             name = path.removeprefix("static.") if path.startswith("static.critical_acceleration_g") else path

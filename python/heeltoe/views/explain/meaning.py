@@ -1,4 +1,4 @@
-"""One name with all that is said of it."""
+"""One name with its meaning."""
 
 from __future__ import annotations
 
@@ -18,9 +18,7 @@ KINDS = {
 
 @dataclass(frozen=True)
 class Meaning:
-    """What a name means.
-
-    Attributes
+    """Meaning of a name. Attributes
     ----------
     name
         Path of the field or key, or name of the column; ``[]`` stands for a place in a list, ``*`` for any name.
@@ -41,7 +39,12 @@ class Meaning:
     page
         Where the documentation has more, as ``rigid.md#impact``; empty where it has not.
     parts
-        Of a block, the names of what is in it.
+        Names of the fields of a block.
+    like
+        Another block with the same fields; empty where there is none.
+    hidden
+        Whether lists leave it out unless they show everything: fields of the thesis, and fields of a block that is
+        like another.
     """
 
     name: str
@@ -54,6 +57,8 @@ class Meaning:
     not_with: str = ""
     page: str = ""
     parts: tuple[str, ...] = ()
+    like: str = ""
+    hidden: bool = False
 
     @property
     def last(self) -> str:

@@ -30,6 +30,7 @@ from heeltoe.views.figures.histories import (
 from heeltoe.views.figures.law import asperities_figure, friction_figure, law_figure
 from heeltoe.views.figures.panels import is_elastic
 from heeltoe.views.figures.path import path_figure
+from heeltoe.views.figures.plan import plan_figure
 from heeltoe.views.figures.spectrum import spectrum_figure
 from heeltoe.views.words.response import OF_CRACKS
 
@@ -42,6 +43,7 @@ NAMES = (
     "law",
     "comparison",
     "response",
+    "plan",
     "slip-by-mode",
     "friction",
     "asperities",
@@ -72,7 +74,7 @@ _NO_SHIFT = 1e-5
 
 
 class Figures(Mapping[str, Figure]):
-    """Figures by name, each drawn when it is first asked for, and kept.
+    """Figures by name, each drawn at its first use, and kept.
 
     Parameters
     ----------
@@ -168,6 +170,8 @@ def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]
         return {}
     response = filled_in(response)
     figures: dict[str, Callable[[], Figure]] = {"response": lambda: response_figure(response, units)}
+    if "slip_cross_m" in response.histories:
+        figures["plan"] = lambda: plan_figure(response, units)
     # Of a single mode the slip of the response says it all.
     if sum(abs(slip) > NO_SLIP for slip in response.slip_by_mode_m.values()) > 1:
         figures["slip-by-mode"] = lambda: slip_by_mode_figure(response, units)

@@ -1,4 +1,4 @@
-"""What the anchors across the crack bear over time."""
+"""Force in the anchors across the crack over time."""
 
 from __future__ import annotations
 

@@ -102,7 +102,7 @@ class Canvas:
         self._take(points)
 
     def dimension(self, start: ArrayLike, end: ArrayLike, shift: ArrayLike = (0.0, 0.0)) -> None:
-        """Draw a dimension line, `shift` [m] away from what it measures, with its length on it."""
+        """Draw a dimension line, `shift` [m] away from the measured length, with its value on it."""
         ends = np.stack([np.asarray(start, dtype=float), np.asarray(end, dtype=float)])
         moved = ends + np.asarray(shift, dtype=float)
         for place, far in zip(ends, moved, strict=True):

@@ -1,5 +1,4 @@
-"""What each node of an elastic dam's crack does over time, how its bond breaks, and how hard the faces press on each
-other."""
+"""State of each node of an elastic dam's crack over time, its bond, and the pressure between the faces."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the decoupled chain makes of the ground's motion at the level of the crack."""
+"""Motion of the decoupled chain at the level of the crack."""
 
 from __future__ import annotations
 

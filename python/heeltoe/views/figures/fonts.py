@@ -50,7 +50,8 @@ def readable(text: str) -> tuple[str, list[str]]:
 
 
 def wrapped(text: str, width: float, most: int = 2) -> str:
-    """Break a text into at most so many lines as wide as `width` times the size of its letters; what is left is cut."""
+    """Break a text into a number of lines at most, as wide as `width` times the size of its letters; the rest is
+    cut."""
     lines = [""]
     for word in text.split():
         joined = f"{lines[-1]} {word}".strip()

@@ -1,4 +1,4 @@
-"""What happened over time: slip, rotation, openings and modes, of one model or of two side by side; accelerations,
+"""Histories: slip, rotation, openings and modes, of one model or of two side by side; accelerations,
 forces and stresses; slip by mode; how the crest moves."""
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from scipy.ndimage import uniform_filter1d
 
 from heeltoe.base.arrays import Floats
 from heeltoe.result.crest import ACCELERATION, DISPLACEMENT
+from heeltoe.result.histories import GAPS
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import number
@@ -298,8 +299,8 @@ def _running_mean(time: Floats, values: Floats) -> Floats:
 _PANELS = (
     ("slip_m", "displacement", "slip [{}]\n(+ downstream)"),
     ("rotation_rad", "rotation", "rotation [{}]\n(+ about heel)"),
-    ("gap_heel_m", "displacement", "opening,\nheel [{}]"),
-    ("gap_toe_m", "displacement", "opening,\ntoe [{}]"),
+    (GAPS[0], "displacement", "opening,\nheel [{}]"),
+    (GAPS[1], "displacement", "opening,\ntoe [{}]"),
 )
 
 

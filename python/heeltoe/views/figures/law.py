@@ -3,21 +3,25 @@ rough crack dilates and wears."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.figure import Figure
 
 from heeltoe.mechanics.law_curve import LawCurve
+from heeltoe.mechanics.law_fit import LawFits
+from heeltoe.mechanics.shear_tests import ShearTest
 from heeltoe.result.response import Response
 from heeltoe.units.sentences import written
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.panels import largest, panels
-from heeltoe.views.figures.style import COLOURS, align_labels, describe, heading, styled
+from heeltoe.views.figures.style import COLOURS, LOOKS, align_labels, describe, heading, styled
 from heeltoe.views.figures.time_axis import time_axis
 
 
 @styled
 def law_figure(curve: LawCurve, units: str = "si") -> Figure:
-    """Draw the apparent friction of a law over what it goes by."""
+    """Draw the apparent friction of a law over its variable."""
     figure = Figure(figsize=(7.0, 4.0), layout="constrained")
     axes = figure.subplots()
     system = unit_system(units)
@@ -32,6 +36,65 @@ def law_figure(curve: LawCurve, units: str = "si") -> Figure:
     axes.legend(loc="best")
     stress = written("{stress_pa:.3g MPa}", units, stress_pa=curve.normal_stress_pa)
     heading(figure, curve.title, f"{curve.law}, normal stress {stress}")
+    return figure
+
+
+@styled
+def law_fit_figure(fits: LawFits, tests: Sequence[ShearTest], title: str, units: str = "si") -> Figure:
+    """Draw the strengths of shear tests with the laws that were fitted to them, and the band of further tests."""
+    figure = Figure(figsize=(7.0, 4.5), layout="constrained")
+    axes = figure.subplots()
+    normal = np.array([test.normal_pa for test in tests])
+    peak, residual = (np.array([getattr(test, name) for test in tests]) for name in ("peak_pa", "residual_pa"))
+    scale = unit_system(units).scale("pressure", float(np.nanmax([peak, residual])))
+    axes.plot(scale(normal), scale(peak), "o", color="#000000", markersize=4, label="peak")
+    axes.plot(scale(normal), scale(residual), "x", color=COLOURS["limit"], markersize=4, label="residual")
+    laws = [fit for fit in fits.fits if fit.band is not None and fit.over == "normal stress"]
+    for fit, (colour, dashes) in zip(laws, LOOKS, strict=False):
+        assert fit.band is not None
+        at = np.array(fit.band.at)
+        best, low, high = (at * np.array(values) for values in (fit.band.best, fit.band.low, fit.band.high))
+        label = f"{fit.law}, chosen" if fit.chosen else fit.law
+        axes.plot(
+            scale(at), scale(best), dashes, color=COLOURS[colour], linewidth=2.0 if fit.chosen else 1.0, label=label
+        )
+        if fit.chosen:
+            axes.fill_between(scale(at), scale(low), scale(high), color=COLOURS[colour], alpha=0.15, linewidth=0)
+    axes.set_xlim(left=0.0)
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlabel(f"normal stress [{scale.unit}]")
+    axes.set_ylabel(f"shear stress [{scale.unit}]")
+    axes.legend(loc="best")
+    heading(figure, title, "shear tests; shaded: 95 % of further tests by the chosen law")
+    return figure
+
+
+@styled
+def fall_figure(fits: LawFits, tests: Sequence[ShearTest], title: str, units: str = "si") -> Figure | None:
+    """Draw the friction over slip or speed with the fall that was found; None where there is none."""
+    fit = next((fit for fit in fits.fits if fit.chosen and fit.over != "normal stress"), None)
+    if fit is None or fit.band is None:
+        return None
+    figure = Figure(figsize=(7.0, 4.0), layout="constrained")
+    axes = figure.subplots()
+    kind = "displacement" if fit.over == "slip path" else "velocity"
+    scale = unit_system(units).scale(kind, fit.band.at[-1])
+    curves = [test.curve for test in tests if test.curve is not None]
+    if fit.over == "slip path":
+        for curve in curves:
+            axes.plot(scale(curve.slip_m), curve.ratio, color=COLOURS["limit"], linewidth=0.6)
+    else:
+        for test in tests:
+            left = test.peak_pa if np.isnan(test.residual_pa) else test.residual_pa
+            axes.plot(scale(test.speed_m_s), left / test.normal_pa, "o", color="#000000", markersize=4)
+    at = scale(np.array(fit.band.at))
+    axes.plot(at, fit.band.best, color=COLOURS["slip"], linewidth=2.0, label=fit.law)
+    axes.fill_between(at, fit.band.low, fit.band.high, color=COLOURS["slip"], alpha=0.15, linewidth=0)
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlabel(f"{fit.over} [{scale.unit}]")
+    axes.set_ylabel("apparent friction:\nshear stress over normal stress")
+    axes.legend(loc="best")
+    heading(figure, title, "shear tests; shaded: 95 % of further tests")
     return figure
 
 

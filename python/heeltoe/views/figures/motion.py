@@ -26,7 +26,7 @@ _BEFORE = "#AAAAAA"
 
 @dataclass(frozen=True, eq=False)
 class Matched:
-    """What a motion was matched to, and from.
+    """Target and source of a matched motion.
 
     Attributes
     ----------

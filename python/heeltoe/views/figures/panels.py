@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from heeltoe.models.flexible.result.response import FlexibleResponse
+from heeltoe.result.histories import GAPS
 from heeltoe.result.judge import LIMITS
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
@@ -49,7 +50,7 @@ def beside(axes: Axes, text: str, *, colour: str = "#000000") -> None:
 
 
 def draw_slip(axes: Axes, response: Response, units: Units) -> None:
-    """Draw the slip, with what remains of it, and its spread where that was asked for."""
+    """Draw the slip with its residual, and its spread where there is one."""
     h = response.histories
     spread = None if response.spread is None else response.spread.residual_slip_m
     ends = np.array([] if spread is None else [spread.min, spread.max])
@@ -121,13 +122,13 @@ def slip_in_the_end(response: Response, scale: Scale) -> str:
 
 
 def converged_slip(response: Response) -> tuple[float, float] | None:
-    """Return the residual slip to trust and how uncertain it is [m]; None where nobody asked."""
+    """Return the residual slip to trust and how uncertain it is [m]; None without evidence."""
     evidence = response.summary.get("evidence")
     return None if not evidence else (evidence.residual_slip_m.value, evidence.residual_slip_m.uncertainty)
 
 
 def draw_rotation(axes: Axes, response: Response, units: Units) -> None:
-    """Draw the rotation; that of a block which overturns goes on by powers of ten beyond its rocking before."""
+    """Draw the rotation; that of a block which overturns continues by powers of ten beyond its rocking before."""
     h = response.histories
     cut = shown_rotation(response)
     scale = units.scale("rotation", largest(h.rotation_rad))
@@ -153,14 +154,14 @@ def draw_openings(axes: Axes, response: Response, units: Units) -> None:
         most = min(most, cut * response.crack_width_m)
     scale = units.scale("displacement", most)
     for name, key, dash, label in (
-        ("heel", "gap_heel_m", "-", "heel (upstream)"),
-        ("toe", "gap_toe_m", "--", "toe (downstream)"),
+        ("heel", GAPS[0], "-", "heel (upstream)"),
+        ("toe", GAPS[1], "--", "toe (downstream)"),
     ):
         axes.plot(h.time_s, scale(h[key]), color=COLOURS[name], linewidth=1.0, linestyle=dash, label=label)
     axes.set_ylabel(f"opening [{scale.unit}]")
     top = scale(most) * 1.05
     axes.set_ylim(min(0.0, axes.get_ylim()[0]) if cut is None else -0.05 * top, top or 1.0)
-    draw_limits(axes, response, ("gap_heel_m", "gap_toe_m"), scale)
+    draw_limits(axes, response, GAPS, scale)
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=8, borderaxespad=0.0)
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import shapely
 from matplotlib.figure import Figure
@@ -24,7 +22,7 @@ _LOW = 0.55
 _LEFT, _BOTTOM, _EDGE = 0.62, 0.5, 0.18
 _TALLEST = 4.1
 _OUTLINE = {"edgecolor": "#222222", "linewidth": 1.1, "zorder": 2}
-_LOOKS: dict[str, dict[str, Any]] = {
+_LOOKS: dict[str, dict[str, object]] = {
     "water": {"facecolor": COLOURS["water"], "linewidth": 0.0, "zorder": 1},
     "silt": {"facecolor": COLOURS["silt"], "edgecolor": "#8A6D1B", "hatch": "...", "linewidth": 0.5, "zorder": 1.2},
     "ice": {"facecolor": "white", "edgecolor": "#6A4C93", "hatch": "xxxx", "linewidth": 0.5, "zorder": 1.3},
@@ -91,7 +89,7 @@ def section_figure(case: Case, units: str = "si") -> Figure:
 
 
 def corners(case: Case, size: float, *, below: float) -> tuple[Floats, Floats]:
-    """Return the corners of what the first panel shows [m]."""
+    """Return the corners of the first panel [m]."""
     left, base, right, crest = case.outline.bounds
     upstream = 0.54 if case.reservoir else 0.16
     downstream = 0.46 if case.tailwater else 0.24
@@ -145,7 +143,7 @@ def _draw_surface(canvas: Canvas, whole: shapely.Polygon, level: float, side: st
 
 
 def draw_crack(canvas: Canvas, case: Case, *, small: bool) -> None:
-    """Draw the crack, its two ends and the centroid of what is above it."""
+    """Draw the crack, its two ends and the centroid of the part above it."""
     section, line = case.above, case.crack_line
     canvas.line(line, keep_off=True, color="white", linewidth=3.6, zorder=4.5)
     canvas.line(line, color=COLOURS["crack"], linewidth=2.0, zorder=4.6)

@@ -1,4 +1,4 @@
-"""The response spectrum of what shakes the dam, with the dam's own periods."""
+"""The response spectrum of the motion, with the dam's own periods."""
 
 from __future__ import annotations
 

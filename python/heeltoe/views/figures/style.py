@@ -109,8 +109,11 @@ def describe(figure: Figure, response: Response, *lines: str) -> None:
 def shaken_by(response: Response) -> str:
     """Say what shakes the dam, and how strongly."""
     text = f"{response.motion.name}, peak {response.motion.pga / response.gravity:.3g} g"
-    up = response.vertical
-    return text if up is None else f"{text}; vertical {up.name}, peak {up.pga / response.gravity:.3g} g"
+    others = (("vertical", response.vertical), ("across the valley", response.cross))
+    for name, motion in others:
+        if motion is not None:
+            text += f"; {name} {motion.name}, peak {motion.pga / response.gravity:.3g} g"
+    return text
 
 
 def without_heading(figure: Figure) -> Figure:

@@ -1,4 +1,4 @@
-"""The picture of page one: the section beside what shakes it and how far it slips."""
+"""The picture of page one: the section beside its motion and its slip."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ _NEARLY = 1.005
 
 
 def time_axis(axes: Axes, *responses: Response) -> None:
-    """Label the axis of time, from zero to the end of what happens in any of these runs."""
+    """Label the axis of time, from zero to the end of the longest of these runs."""
     end = max(float(response.histories.time_s[-1]) for response in responses if response.histories)
     shown = max(shown_until(response) for response in responses if response.histories)
     # The last frame of 30 s may stand at 29.99 s.

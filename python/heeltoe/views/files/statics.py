@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
 
 import pyarrow as pa
 from matplotlib.figure import Figure
@@ -64,7 +63,7 @@ def write_run_table(table: SmallStudy | StaticsTable, directory: Path) -> None:
         write_table(table.to_table(), directory / f"table{suffix}")
 
 
-def force_rows(joints: Joints) -> Iterator[dict[str, Any]]:
+def force_rows(joints: Joints) -> Iterator[dict[str, object]]:
     """Return every force of every load case at every section."""
     for joint in joints.ranked:
         for load_case in joint.statics.to_json()["cases"]:
@@ -72,7 +71,7 @@ def force_rows(joints: Joints) -> Iterator[dict[str, Any]]:
                 yield {"elevation_m": joint.elevation_m, "load_case": load_case["name"], **force}
 
 
-def check_rows(joints: Joints) -> Iterator[dict[str, Any]]:
+def check_rows(joints: Joints) -> Iterator[dict[str, object]]:
     """Return every check of every load case at every section."""
     for joint in joints.ranked:
         for check in joint.statics.checks:

@@ -159,7 +159,7 @@ def _meshio(directory: Path) -> ModuleType:
     try:
         import meshio
     except ImportError:
-        raise InputError("mesh-package", str(directory)) from None
+        raise InputError("package-missing", str(directory), "meshio", install="pip install meshio") from None
     return meshio  # type: ignore[no-any-return]
 
 

@@ -41,7 +41,7 @@ def check_workbook(field: str = "--xlsx") -> None:
         Then.
     """
     if find_spec("xlsxwriter") is None:
-        raise InputError("workbook-package", field, "xlsxwriter")
+        raise InputError("package-missing", field, "xlsxwriter", install="pip install xlsxwriter")
 
 
 def write_workbook(result: Response | SmallStudy | StudyResults | Joints, path: str | Path) -> Path:

@@ -13,6 +13,8 @@ from matplotlib.figure import Figure
 from heeltoe.base.atomic_files import write_whole
 from heeltoe.case.model import Case
 from heeltoe.mechanics.law_curve import LawCurve
+from heeltoe.mechanics.law_fit import LawFits
+from heeltoe.mechanics.shear_tests import ShearTest
 from heeltoe.models.flexible.result.history import crack_table
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.models.flexible.surroundings.amplification import Amplification
@@ -25,7 +27,7 @@ from heeltoe.study.small.solve import Solved
 from heeltoe.views.content.solve import field_scale
 from heeltoe.views.figures.all import NAMES, all_figures
 from heeltoe.views.figures.amplification import amplification_figure
-from heeltoe.views.figures.law import law_figure
+from heeltoe.views.figures.law import fall_figure, law_figure, law_fit_figure
 from heeltoe.views.figures.runs import overturning_figure, small_figures, solve_figure
 from heeltoe.views.figures.studies.all import study_figures
 from heeltoe.views.figures.write import save_all
@@ -44,6 +46,8 @@ SOLVED = ("solve.json", "solve.csv", "solve.png", "solve.svg")
 RESPONSE = ("response.csv", "response.png", "response.svg")
 #: Files of a friction law.
 LAW = ("law.png", "law.svg")
+#: Files of laws that were fitted to shear tests.
+LAW_FIT = ("law-fit.json", "law-fit.toml", "strength.png", "strength.svg", "fall.png", "fall.svg")
 _TABLES = ("histories", "events", "crack", "table")
 #: The dams of a table by their ranks.
 PORTFOLIO = "portfolio.csv"
@@ -151,6 +155,24 @@ def write_law(curves: Mapping[str, LawCurve], directory: Path) -> list[Path]:
     return _write_few(directory, {name: law_figure(curve) for name, curve in curves.items()})
 
 
+def write_law_fits(
+    fits: LawFits, tests: Sequence[ShearTest], title: str, directory: Path, units: str = "si"
+) -> list[Path]:
+    """Write laws fitted to shear tests as ``law-fit.json``, the block of a case as ``law-fit.toml``, and figures of the
+    strength and of a fall, all or none, and return their paths."""
+    drawn = {
+        "strength": law_fit_figure(fits, tests, title, units),
+        "fall": fall_figure(fits, tests, title, units),
+    }
+
+    def write(fresh: Path) -> None:
+        write_json(fits.to_json(), fresh / LAW_FIT[0])
+        (fresh / LAW_FIT[1]).write_text(fits.crack, encoding="utf-8")
+        save_all({name: figure for name, figure in drawn.items() if figure is not None}, fresh)
+
+    return write_whole(write, directory, LAW_FIT)
+
+
 def _write_few(
     directory: Path,
     figures: Mapping[str, Figure],
@@ -180,7 +202,7 @@ def write_study(
     workbook: bool = False,
 ) -> list[Path]:
     """Write the figures of a study into ``figures/`` of its directory, and its report beside them, those of an earlier
-    time gone, and return their paths; its runs stay as they are. The ranks of a table of dams go into
+    time gone, and return their paths; its runs do not change. The ranks of a table of dams go into
     ``portfolio.csv``.
 
     Parameters

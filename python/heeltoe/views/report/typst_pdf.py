@@ -303,7 +303,7 @@ def _part(part: Inline, most: int) -> str:
 
 
 def _words(text: str, most: int = _WIDE) -> str:
-    """Return people's words as a call that typst takes as they are."""
+    """Return a user's text as a call that typst prints literally."""
     return f"words({_string(_breakable(text, most))})"
 
 

@@ -36,9 +36,9 @@ def check_packages(kinds: Sequence[str] = ("pdf", "html"), field: str = "--repor
     """
     for kind in kinds:
         if kind not in KINDS:
-            raise InputError("report-kind", field, repr(kind))
+            raise InputError("not-a-choice", field, repr(kind), choices="pdf or html")
         if find_spec(KINDS[kind]) is None:
-            raise InputError("report-package", field, KINDS[kind])
+            raise InputError("package-missing", field, KINDS[kind], install="pip install jinja2 typst")
         try:
             import_module(KINDS[kind])
         except ImportError as error:
@@ -146,8 +146,8 @@ def write_report(
     from heeltoe.case.model import Case
     from heeltoe.result.response import Response
 
-    expect(case, Case, "not-a-case", "case")
-    expect(result, Response, "not-a-response", "result")
+    expect(case, Case, "a case", "case")
+    expect(result, Response, "a response", "result")
     check_packages(kinds, "kinds")
     document = build_report(case, result, statics=statics, units=units or case.units, command=command)
     return write_document(document, directory, kinds)
@@ -162,7 +162,7 @@ def write_study_report(
     command: str = "",
     figures: Mapping[str, Figure] | None = None,
 ) -> None:
-    """Write the report of a study into a directory that has none.
+    """Write the report of a study into a directory without one.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def write_document(document: Document, directory: Path | str, kinds: Sequence[st
 
 
 def write_kinds(document: Document, fresh: Path, kinds: Sequence[str] = ("pdf", "html")) -> None:
-    """Write the files of a report into a directory that has none."""
+    """Write the files of a report into a directory without one."""
     for kind in kinds:
         (fresh / f"report.{kind}").write_bytes(_rendered(document, kind))
 

@@ -1,4 +1,4 @@
-"""What the terminal shows of a dam without an earthquake: its periods, and which pulses overturn it."""
+"""A dam without an earthquake on the terminal: its periods, and the pulses that overturn it."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def print_drawing(case: Case, console: Console, units: str = "si") -> None:
 def print_periods(
     periods: DamPeriods, console: Console, dam: str = "", *, details: bool = False, units: str = "si"
 ) -> None:
-    """Print the periods of a dam and of its parts; in detail with what they were computed from."""
+    """Print the periods of a dam and of its parts; in detail with the input."""
     names = periods.part_names(units)
     print_title(periods.title, "periods", console)
     console.print()
@@ -116,7 +116,7 @@ def _damping_line(choice: str, ratios: Sequence[float], rayleigh: tuple[float | 
 
 
 def print_overturning(overturning: OverturningMap, console: Console, dam: str = "") -> None:
-    """Print which pulses overturn a block, and what is said of the dam itself."""
+    """Print which pulses overturn a block, and the text on the dam itself."""
     print_title(overturning.title, "overturning", console)
     console.print()
     grid = label_grid()

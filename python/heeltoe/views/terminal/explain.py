@@ -1,31 +1,36 @@
-"""What the terminal shows of the meaning of names."""
+"""Meanings of names on the terminal."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict
 from itertools import groupby
-from typing import Any
 
 from rich.console import Console
 from rich.markup import escape
 
+from heeltoe.case.thesis import THESIS_FIELDS
 from heeltoe.result.write import build_info
-from heeltoe.views.explain.find import explain
+from heeltoe.views.explain.find import explain, related
 from heeltoe.views.explain.meaning import KINDS, Meaning
 from heeltoe.views.terminal.render import label_grid, label_lines
 
 # Longer names push what they mean to the right.
 _NAME = 40
+# A name with more meanings than these gets a line for each.
+_MANY = 6
 
 
-def as_json(meanings: Sequence[Meaning]) -> dict[str, Any]:
-    """Return all that is said of some names."""
+def as_json(meanings: Sequence[Meaning]) -> dict[str, object]:
+    """Return the meanings of some names."""
     return {"names": [asdict(meaning) | {"parts": list(meaning.parts)} for meaning in meanings], "build": build_info()}
 
 
-def print_meanings(meanings: Sequence[Meaning], console: Console) -> None:
-    """Print what a name means, everywhere it means something."""
+def print_meanings(meanings: Sequence[Meaning], console: Console, *, all_: bool = False) -> None:
+    """Print the meanings of a name; where it has many, a line for each. `all_` prints hidden fields of a block, too."""
+    if len(meanings) > _MANY:
+        print_list(meanings, console)
+        return
     for place, meaning in enumerate(meanings):
         if place:
             console.print()
@@ -44,15 +49,28 @@ def print_meanings(meanings: Sequence[Meaning], console: Console) -> None:
             console.print(label_lines(rows))
         if meaning.parts:
             console.print()
-            console.print(_parts(meaning))
+            _print_parts(meaning, console, all_=all_)
+    others = related(meanings[0].last, meanings)
+    if others:
+        console.print()
+        console.print(f"See also {', '.join(map(escape, others))}")
 
 
-def _parts(block: Meaning) -> Any:
-    grid = label_grid()
-    for name in block.parts:
-        inner = next(candidate for candidate in explain(name) if candidate.kind == block.kind)
-        grid.add_row(f"  {escape(name)}", escape(inner.meaning))
-    return grid
+def _print_parts(block: Meaning, console: Console, *, all_: bool) -> None:
+    """Print the fields of a block, then in a line each those of a block like it and those of the thesis."""
+    fields = [next(found for found in explain(name) if found.kind == block.kind) for name in block.parts]
+    shown = [field for field in fields if all_ or not field.hidden]
+    if shown:
+        grid = label_grid()
+        for field in shown:
+            grid.add_row(f"  {escape(field.name)}", escape(field.meaning))
+        console.print(grid)
+    hidden = [field for field in fields if field not in shown]
+    thesis = [field.name.rpartition(".")[2] for field in hidden if field.name in THESIS_FIELDS]
+    if block.like and len(hidden) > len(thesis):
+        console.print(f"  and the fields of {block.like}: heeltoe explain {block.like}")
+    if thesis:
+        console.print(f"  and, for comparison with Zhu (2004), docs/thesis.md: {', '.join(thesis)}")
 
 
 def print_subjects(meanings: Sequence[Meaning], console: Console) -> None:
@@ -81,7 +99,7 @@ def print_subjects(meanings: Sequence[Meaning], console: Console) -> None:
 
 
 def print_list(meanings: Sequence[Meaning], console: Console) -> None:
-    """Print all names, kind by kind, a line each with the begin of what they mean."""
+    """Print all names, kind by kind, a line each with the begin of their meaning."""
     for kind, names in groupby(meanings, key=lambda meaning: meaning.kind):
         console.print(f"[bold]{KINDS[kind]}[/bold]")
         console.print()

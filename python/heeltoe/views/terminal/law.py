@@ -1,4 +1,4 @@
-"""What the terminal shows of a friction law: a sketch of its curve."""
+"""A friction law on the terminal: a sketch of its curve."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def print_law(curve: LawCurve, console: Console, units: str = "si") -> None:
 
 
 def sketch(curve: LawCurve, units: str = "si") -> list[str]:
-    """Return the lines of a sketch: apparent friction over what it goes by."""
+    """Return the lines of a sketch: apparent friction over its variable."""
     most = 1.05 * max(float(curve.friction.max()), curve.at_rest, 1e-9)
     rows = [[" "] * _WIDE for _ in range(_HIGH)]
     columns = np.linspace(curve.at[0], curve.at[-1], _WIDE)

@@ -1,4 +1,4 @@
-"""What the terminal shows of a motion."""
+"""A motion on the terminal."""
 
 from __future__ import annotations
 

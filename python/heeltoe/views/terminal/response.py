@@ -1,4 +1,4 @@
-"""What the terminal shows of a response: verdict, all models and cracks in one table, and the warnings that matter."""
+"""A response on the terminal: verdict, all models and cracks in one table, and the warnings that matter."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from rich.text import Text
 
 from heeltoe.case.model import Case
 from heeltoe.result.contract import LENGTHS
-from heeltoe.result.numbers import BondState
+from heeltoe.result.numbers import BondState, FrictionBand
 from heeltoe.result.response import Response
-from heeltoe.result.verdict import verdict
+from heeltoe.result.verdict import trial_text, verdict
 from heeltoe.units.sentences import written
 from heeltoe.units.write import NOTHING, length
 from heeltoe.views.content.document import run_sections
@@ -48,6 +48,8 @@ def print_response(response: Response, console: Console, units: str = "si", deta
         if screen.left - screen.lines(table) > 1:
             screen.add(Text(""))
         screen.add(table)
+    if response.friction_band is not None:
+        screen.add(_band(response.friction_band, units))
     screen.add_warnings(_warnings(response, units), _MORE)
 
 
@@ -63,6 +65,8 @@ def _motion_line(response: Response, units: str) -> str:
     )
     if response.vertical is not None:
         line += f"; vertical {response.vertical.pga / response.gravity:.4g} g"
+    if response.cross is not None:
+        line += f"; across the valley {response.cross.pga / response.gravity:.4g} g"
     return line
 
 
@@ -79,6 +83,17 @@ def _verdicts(response: Response, units: str) -> Table:
     grid.add_column()
     for label, good, text in rows:
         grid.add_row(f"[{'bold' if good else 'bold red'}]{label}[/]", safe(text))
+    return grid
+
+
+def _band(band: FrictionBand, units: str) -> Table:
+    """Return a line for each friction that the crack may have."""
+    grid = Table.grid(padding=(0, 2))
+    grid.add_column(no_wrap=True)
+    grid.add_column()
+    for trial in band.trials:
+        judged = " (judged by the limits)" if trial.judged and len(band.trials) > 1 else ""
+        grid.add_row(trial.name.replace("_", " "), f"{trial.friction.text(units)}: {trial_text(trial, units)}{judged}")
     return grid
 
 
@@ -128,19 +143,15 @@ def _shown(cracks: Sequence[Any]) -> Sequence[Any]:
 
 
 def _bond(crack: Any) -> BondState | None:
-    """Return what has become of the bond of a crack; None where it has none."""
+    """Return the state of the bond of a crack at the end; None without a bond."""
     bond: BondState | None = getattr(crack, "joint", None)
     return bond
 
 
 def _warnings(response: Response, units: str) -> list[str]:
     """Return the warnings, the grave ones first."""
-    severity = {warning.text(units): warning.severity for run in response.responses for warning in run.warnings}
-
-    def rank(text: str) -> int:
-        return _GRAVITIES.index(next(own for warning, own in severity.items() if text.endswith(warning)))
-
-    return sorted(listed(response.responses, units), key=rank)
+    texts = listed(response.responses, units)
+    return sorted(texts, key=lambda text: _GRAVITIES.index(texts[text]))
 
 
 def _seconds(value: float) -> str:

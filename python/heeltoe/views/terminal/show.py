@@ -1,4 +1,4 @@
-"""What the terminal shows of a run, whatever it is: a response, with one beside it or without, or a table of many."""
+"""A run of any kind on the terminal: a response, with one beside it or without, or a table of many."""
 
 from __future__ import annotations
 

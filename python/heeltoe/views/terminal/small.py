@@ -1,4 +1,4 @@
-"""What the terminal shows of a table of runs, and of a field that was solved for (rich)."""
+"""A table of runs, and a solved field, on the terminal (rich)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the terminal shows of the static checks."""
+"""Static checks on the terminal."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def print_sections(
 
 
 def print_statics_table(grid: StaticsTable, console: Console, units: str = "si") -> None:
-    """Print a table of static checks: a row for each dam, with what governs it."""
+    """Print a table of static checks: a row for each dam, with the governing check."""
     print_title(grid.title, f"statics of {len(grid.cells)} dams", console)
     console.print()
     table, rows = quiet_table(), grid.rows()

@@ -1,4 +1,4 @@
-"""What is in a ground motion, in words and numbers."""
+"""A ground motion in words and numbers."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ def sampling(motion: GroundMotion) -> str:
 def about_motion(
     motion: GroundMotion, units: str = "si", gravity: float = STANDARD_GRAVITY
 ) -> tuple[tuple[str, str], ...]:
-    """Return labels and texts of all that is known of a motion."""
+    """Return labels and texts of the properties of a motion."""
     return tuple((label, text) for label, (text,) in about_motions([motion], units, gravity))
 
 
 def about_motions(
     motions: Sequence[GroundMotion], units: str = "si", gravity: float = STANDARD_GRAVITY
 ) -> list[tuple[str, list[str]]]:
-    """Return labels, and a text for each motion, of all that is known of motions, each quantity in one unit."""
+    """Return labels, and a text for each motion, of the properties of motions, each quantity in one unit."""
     table = [measures(motion, gravity) for motion in motions]
 
     def amounts(values: Sequence[float], form: str) -> list[str]:
@@ -74,7 +74,7 @@ def about_motions(
 
 
 def suspicions(motion: GroundMotion, units: str = "si", gravity: float = STANDARD_GRAVITY) -> tuple[str, ...]:
-    """Return what an analysis would say about a record; here even what it would refuse is only said."""
+    """Return the remarks of an analysis on a record; refusals are remarks here."""
     texts: list[str] = []
     for look in (partial(check_record, upward=None), partial(check, allow_zero=True)):
         try:

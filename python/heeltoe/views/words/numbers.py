@@ -51,7 +51,7 @@ class Value:
     text
         The same with its unit.
     quantity
-        What it is a number of, as :meth:`Numbers.text` takes it; empty where the text is more than number and unit.
+        Quantity of the number, as :meth:`Numbers.text` takes it; empty where the text is more than number and unit.
     shown
         The number as it is shown: the other way round where that reads better.
     """
@@ -74,7 +74,7 @@ class Numbers:
         ``"si"`` or ``"us"``.
     """
 
-    def __init__(self, data: Mapping[str, Any], units: str = "si") -> None:
+    def __init__(self, data: Mapping[str, object], units: str = "si") -> None:
         self.data = data
         self.units = unit_system(units)
 
@@ -175,7 +175,7 @@ class Amount:
 
     @property
     def quantity(self) -> str:
-        """What it is a number of, as :meth:`heeltoe.units.systems.Units.scale` takes it."""
+        """Quantity of the number, as :meth:`heeltoe.units.systems.Units.scale` takes it."""
         return "rotation" if self.kind == "rotation" else "displacement"
 
     def text(self, units: str) -> str:

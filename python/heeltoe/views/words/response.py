@@ -1,4 +1,4 @@
-"""What a response says row by row and in sentences: its cracks, motions, spread, laws, largest tension, warnings."""
+"""Rows and sentences of a response: its cracks, motions, spread, laws, largest tension, warnings."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from heeltoe.result.response import Response
 from heeltoe.result.tension import place_phrase
 from heeltoe.units.sentences import written
 from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
+from heeltoe.warnings.input import Severity
 
 #: Figures that each of several cracks has.
 OF_CRACKS = ("response", "slip-by-mode", "friction", "forces", "bearing", "path", "joint", "crack", "pressure")
@@ -68,7 +69,7 @@ SPREAD_COLUMNS = ("this run", "mean", "std. dev.", "least", "most")
 
 
 def spread_rows(response: Response, units: str) -> list[list[str]]:
-    """Return label, value and spread of all that is not next to nothing, each quantity in one unit."""
+    """Return label, value and spread of all numbers that are not negligible, each quantity in one unit."""
     spread = response.spread
     assert spread is not None
     rows: list[list[Cell]] = []
@@ -104,7 +105,7 @@ def spread_sentence(response: Response, units: str) -> str:
 
 
 def law_lines(response: Response, units: str) -> list[tuple[str, str]]:
-    """Return what friction laws and a rough crack have come to: labels, which tell several cracks apart, and words."""
+    """Return the final state of friction laws and a rough crack: labels, which name the crack of several, and words."""
     laws = [(crack.elevation, crack.friction_law) for crack in response.cracks if response.several]
     own, rough = (response.summary.get(name) for name in ("friction_law", "roughness"))
     lines = [
@@ -188,10 +189,10 @@ def tension_worth(tension: Tension, units: str) -> str:
     )
 
 
-def listed(responses: Sequence[Response], units: str = "si") -> tuple[str, ...]:
-    """Return every warning once, in units ``"si"`` or ``"us"``; those of one of two models say whose they are."""
-    by_model = {response.model: [warning.text(units) for warning in response.warnings] for response in responses}
-    first = next(iter(by_model.values()))
-    shared = dict.fromkeys(text for text in first if all(text in texts for texts in by_model.values()))
-    own = [f"{model}: {text}" for model, texts in by_model.items() for text in texts if text not in shared]
-    return (*shared, *own)
+def listed(responses: Sequence[Response], units: str = "si") -> dict[str, Severity]:
+    """Return every warning once with how grave it is, in units ``"si"`` or ``"us"``; those of one of two models say
+    whose they are."""
+    by_model = [(run.model, {warning.text(units): warning.severity for warning in run.warnings}) for run in responses]
+    shared = {text: grave for text, grave in by_model[0][1].items() if all(text in texts for _, texts in by_model)}
+    own = [(f"{model}: {text}", texts[text]) for model, texts in by_model for text in texts if text not in shared]
+    return shared | dict(own)

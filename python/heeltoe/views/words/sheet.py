@@ -174,7 +174,7 @@ class Step:
 
 
 def steps(load_case: LoadCase, checks: Sequence[Check], units: str) -> tuple[Step, ...]:
-    """Return the steps from the sums of the sheet to the factors, with what is required of each."""
+    """Return the steps from the sums of the sheet to the factors, with the required values."""
     return _Steps(load_case, checks, units).all()
 
 

@@ -49,7 +49,7 @@ class Start:
 
     @property
     def varied(self) -> str:
-        """What it varies between with the vertical motion; empty without one."""
+        """Its range with the vertical motion; empty without one."""
         if self.vertical is None or not math.isfinite(self.value):
             return ""
         low, high = sorted(self.value + self.per_vertical * up for up in self.vertical)

@@ -14,7 +14,7 @@ from heeltoe.units.write import length
 
 
 def basis(statics: Statics, units: str) -> list[tuple[str, str]]:
-    """Return labels and texts of what the checks rest on."""
+    """Return labels and texts of the input of the checks."""
     critical, water = statics.critical_acceleration_g, statics.critical_water_level_m
     lines = [
         ("criteria", f"{statics.criteria}, {statics.structure} structure, {statics.site_information} site information")

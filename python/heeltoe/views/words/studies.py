@@ -1,4 +1,4 @@
-"""What is said of studies in several places: limits, and what motions are known by beside their strength."""
+"""Words on studies that several places use: limits, and names of motions beside their strength."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import Any
 from heeltoe.motion.intensity import MEASURES
 from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.result.judge import LIMITS
+from heeltoe.study.answers.comparison import Compared
+from heeltoe.study.answers.sensitivity import FieldEffect
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import length, lengths
@@ -55,10 +57,10 @@ def limits_of(limits: Sequence[tuple[str, float]], units: str = "si") -> dict[tu
     return texts
 
 
-def left_out(counts: dict[str, Any], units: str) -> str:
+def left_out(counts: Compared, units: str) -> str:
     """Say how many runs measures of strength are not compared by."""
     read_to = length(JOINT_METER_M, units)
-    return f"{counts['at_rest']:,} that slide no {read_to} and {counts['unknown']:,} without a slip left out"
+    return f"{counts.at_rest:,} that slide no {read_to} and {counts.unknown:,} without a slip left out"
 
 
 def strength_scale(measure: str, units: str = "si") -> Scale:
@@ -81,9 +83,9 @@ def values_phrase(values: Any, units: str = "si", path: str = "") -> str:
     return ", ".join([kind, *ends, *(f"{name} {text}" for name, text in texts.items())])
 
 
-def ends_of(field: dict[str, Any], units: str) -> list[tuple[float, str]]:
+def ends_of(field: FieldEffect, units: str) -> list[tuple[float, str]]:
     """Return the least and the largest slip [m] that values of a field make, and those values as people read them."""
-    ends = sorted(field["values"], key=lambda end: float(end["demand"]))
+    ends = sorted(field["values"], key=lambda end: end["demand"])
     least, *_, most = [ends[0], *ends]
-    texts = shown_values([str(end["value"]) for end in (least, most)], units, field["name"].rpartition(".")[2])
-    return [(float(end["demand"]), text) for end, text in zip((least, most), texts, strict=True)]
+    texts = shown_values([end["value"] for end in (least, most)], units, field["name"].rpartition(".")[2])
+    return [(end["demand"], text) for end, text in zip((least, most), texts, strict=True)]

@@ -1,4 +1,4 @@
-"""How far each static check is from what it requires."""
+"""Margin of each static check."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ _CLIPPED: dict[str, Any] = {"ha": "right", "va": "center", "fontsize": 7, "color
 
 @styled
 def statics_figure(statics: Statics) -> Figure:
-    """Draw each check as a bar: what is there over what is required, or for what may be at most so much the other way
-    round, so that a check is met where its bar reaches one."""
+    """Draw each check as a bar of value over required value, or the inverse for an upper bound, so that a check is met
+    where its bar reaches one."""
     figure = Figure(figsize=(WIDTH, _AROUND + _ROW * len(statics.checks)), layout="constrained")
     axes = figure.subplots()
     missed = sum(not check.met for check in statics.checks)
@@ -58,7 +58,7 @@ def statics_figure(statics: Statics) -> Figure:
 
 
 def _share(check: Check) -> float:
-    """Return how much of what is required there is; from one on it is met."""
+    """Return the share of the required value that is reached; from one on it is met."""
     if check.value is None or check.required is None:
         return 1.0 if check.met else 0.0
     over, under = (check.value, check.required) if check.at_least else (check.required, check.value)

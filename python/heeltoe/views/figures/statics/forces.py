@@ -1,4 +1,5 @@
-"""One load case of the static checks: all forces with their arms, the water pressures, the stress on what is closed."""
+"""One load case of the static checks: all forces with their arms, the water pressures, the stress on the closed
+part."""
 
 from __future__ import annotations
 

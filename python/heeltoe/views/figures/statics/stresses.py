@@ -15,7 +15,7 @@ _THIRD, _HALF = "#E3E3E3", "#F2F2F2"
 
 
 def draw_stresses(axes: Axes, load_case: LoadCase, units: Units) -> None:
-    """Draw the stress of what is closed, compression downwards, over the middle third and the middle half."""
+    """Draw the stress of the closed part, compression downwards, over the middle third and the middle half."""
     length = units.scale("length")
     start, end, width = load_case.contact_from_m, load_case.contact_to_m, load_case.contact_width_m
     middle = (start + end) / 2.0

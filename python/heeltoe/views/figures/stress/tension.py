@@ -69,7 +69,7 @@ def tension_figure(response: FlexibleResponse, units: str = "si") -> Figure:
 
 
 def _tensions(axes: Axes, response: FlexibleResponse, length: Scale, stress: Scale) -> TriContourSet:
-    """Fill contours of the tension where it has a bound, and grey where it has none; draw where the strength is."""
+    """Fill contours of the tension where it has a bound, and grey elsewhere; draw the line of the strength."""
     tension = response.tension
     assert tension is not None
     most = stress(max(tension.stress_pa, 1.0))

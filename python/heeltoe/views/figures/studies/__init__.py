@@ -1,1 +1,1 @@
-"""What a study answers, drawn: curves over the strength of the motion, parts of the whole, what matters most."""
+"""Figures of a study: curves over the strength of the motion, shares, and the most important fields."""

@@ -1,4 +1,4 @@
-"""What the figures of a study share: the strength of the motion along an axis, headings, colours of models."""
+"""Common parts of the figures of a study: the strength of the motion along an axis, headings, colours of models."""
 
 from __future__ import annotations
 

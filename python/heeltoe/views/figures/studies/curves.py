@@ -104,8 +104,8 @@ def _band(axes: Axes, band: dict[str, list[float]], scale: float, seen: Callable
 
 @styled
 def fragility_figure(study: StudyResults, units: str = "si") -> Figure | None:
-    """Draw the shares of the runs that exceed each limit with their bounds, and the fragility curves with what they lie
-    within; where there is no curve, the strengths between which half of the dams come to exceed. None without runs."""
+    """Draw the shares of the runs that exceed each limit with their bounds, and the fragility curves with their bands;
+    where there is no curve, the strengths between which half of the dams come to exceed. None without runs."""
     asked = study.manifest["study"]["fragility"]
     known = [curve for curve in study.fragility if curve.shares]
     if not known:

@@ -21,7 +21,7 @@ _LONG = 100
 
 @styled
 def slips_figure(study: StudyResults, units: str = "si") -> Figure | None:
-    """Draw which share of the runs of each model slides farther than so much; None where nothing slides."""
+    """Draw which share of the runs of each model slides farther than a distance; None where nothing slides."""
     largest = farthest(study)
     if not largest > JOINT_METER_M:
         return None

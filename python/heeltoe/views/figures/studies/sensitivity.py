@@ -1,9 +1,8 @@
-"""What the slip depends on: Sobol's indices, and one field at a time."""
+"""Sensitivity of the slip: Sobol's indices, and one field at a time."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,13 +18,13 @@ _HIGH, _LOW = COLOURS["rotation"], COLOURS["slip"]
 
 @styled
 def sobol_figure(study: StudyResults) -> Figure | None:
-    """Draw first and total indices of the residual slip with what they lie within; None where it does not vary."""
-    by_model = {name: answer for name, answer in study.sensitivity().items() if answer["indices"]}
+    """Draw first and total indices of the residual slip with their bounds; None where it does not vary."""
+    by_model = {name: answer for name, answer in study.sensitivity().items() if answer.indices}
     if not by_model:
         return None
-    figure, panels = _panels(by_model, max(len(item["indices"]) for item in by_model.values()))
+    figure, panels = _panels(by_model, max(len(item.indices) for item in by_model.values()))
     for axes, (name, answer) in zip(panels, by_model.items(), strict=True):
-        indices = answer["indices"][::-1]
+        indices = answer.indices[::-1]
         rows = np.arange(len(indices))
         for kind, shift, marker, colour in (("total", 0.12, "o", _HIGH), ("first", -0.12, "s", _LOW)):
             low, high = np.array([index[f"{kind}_interval"] for index in indices]).T
@@ -33,12 +32,12 @@ def sobol_figure(study: StudyResults) -> Figure | None:
             values = [index[kind] for index in indices]
             text = {"first": "by itself (first)", "total": "with all others (total)"}[kind]
             axes.plot(values, rows + shift, marker, color=colour, markersize=5, label=text)
-        _rows(axes, [index["name"] for index in indices])
+        _rows(axes, [index.name for index in indices])
         axes.axvline(0.0, color="#444444", linewidth=0.8)
         axes.set_xlabel("share of the variance of the slip")
-        axes.set_title(f"{name} model{_left_out(answer['left_out'], 'rows')}", fontsize=9, loc="left")
+        axes.set_title(f"{name} model{_left_out(answer.left_out, 'rows')}", fontsize=9, loc="left")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
-    confidence = next(iter(by_model.values()))["confidence"]
+    confidence = next(iter(by_model.values())).confidence
     return headed(figure, study, f"Sobol's indices of the residual slip, {confidence:.0%} intervals")
 
 
@@ -52,10 +51,11 @@ def tornado_figure(study: StudyResults, units: str = "si") -> Figure | None:
     scale, unit = slip_scale(units)
     for axes, (name, answer) in zip(panels, by_model.items(), strict=True):
         fields = answer["fields"][::-1]
+        base = scale * (answer["base"] or 0.0)
         for row, field in enumerate(fields):
             ends = [(text, scale * slip) for slip, text in ends_of(field, units)]
-            _bar(axes, row, ends, scale * answer["base"])
-        axes.axvline(scale * answer["base"], color="#444444", linewidth=0.8)
+            _bar(axes, row, ends, base)
+        axes.axvline(base, color="#444444", linewidth=0.8)
         axes.margins(x=0.2)
         _rows(axes, [field["name"] for field in fields])
         axes.set_xlabel(f"residual slip, either way, mean of the motions [{unit}]")
@@ -69,7 +69,7 @@ def tornado_figure(study: StudyResults, units: str = "si") -> Figure | None:
     return headed(figure, study, "one field at a time; the line is the case as it is")
 
 
-def _panels(by_model: Mapping[str, Any], rows: int) -> tuple[Figure, list[Axes]]:
+def _panels(by_model: Mapping[str, object], rows: int) -> tuple[Figure, list[Axes]]:
     figure = Figure(figsize=(WIDTH, 1.3 + (0.8 + 0.42 * rows) * len(by_model)), layout="constrained")
     return figure, list(figure.subplots(len(by_model), 1, sharex=True, squeeze=False)[:, 0])
 
