@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import base64
+import pickle
 import re
 
 import numpy as np
 import pytest
 import shapely
 
-from heeltoe import decoupled
+from heeltoe import InputError, decoupled
 from heeltoe.app.checks import checked
 from heeltoe.app.live import answer
 from heeltoe.app.open_case import models_for
@@ -17,6 +18,7 @@ from heeltoe.app.response_payload import thinned
 from heeltoe.app.sliders import change, sliders
 from heeltoe.app.wording import in_words_of_the_page
 from heeltoe.models.run import earthquake, live
+from heeltoe.units.parse import InSI
 from heeltoe.warnings.notice import CATALOGUE
 from shared.dams import SHORT, example
 from shared.scenes import unpacked
@@ -133,7 +135,7 @@ def test_sliders_move_the_strengths_of_a_joint(units):
     for slider in sliders(case, units):
         assert slider.least <= slider.value <= slider.most
         for value in (slider.least, slider.most):
-            changed = case.with_(change(slider, value, case))
+            changed = case.with_numbers(change(slider, value, case))
             if slider.path == "crack.bond.cohesion":
                 assert changed.crack.bond.cohesion == pytest.approx(
                     value * (1e6 if units == "si" else 6894.757), rel=1e-6
@@ -145,12 +147,43 @@ def test_sliders_stand_where_the_case_is_and_change_it(units):
     case = example("typical-base")
     for slider in sliders(case, units):
         assert slider.least <= slider.value <= slider.most + slider.step
-        case.with_(change(slider, slider.most, case))
-        case.with_(change(slider, slider.least, case))
+        case.with_numbers(change(slider, slider.most, case))
+        case.with_numbers(change(slider, slider.least, case))
     [above] = [item for item in sliders(case.with_({"reservoir.depth": "103 m"}), "si") if "depth" in item.path]
     assert (above.value, above.most) == (103.0, 103.0)
-    with_drains = case.with_(change(sliders(case, units)[-1], 0.5, case))
+    with_drains = case.with_numbers(change(sliders(case, units)[-1], 0.5, case))
     assert (with_drains.uplift.pattern, with_drains.uplift.drain_efficiency) == ("drained", 0.5)
+
+
+@pytest.mark.parametrize("name", ["typical-base", "bonded-joint", "two-cracks"])
+@pytest.mark.parametrize("units", ["si", "us"])
+def test_a_number_changes_a_case_as_its_text_with_a_unit_does(name, units):
+    case = example(name)
+    for slider in sliders(case, units):
+        if slider.off:
+            continue
+        changes = pickle.loads(pickle.dumps(change(slider, 0.5 * (slider.least + slider.most), case)))
+        quick = case.with_numbers(changes)
+        slow = case.with_({path: str(value) if isinstance(value, InSI) else value for path, value in changes.items()})
+        block, _, field = slider.path.partition(".")
+        assert quick.model_fields_set == slow.model_fields_set
+        assert quick.model_dump(exclude={block}) == slow.model_dump(exclude={block})
+        for one, other in zip(_leaves(getattr(quick, block)), _leaves(getattr(slow, block)), strict=True):
+            assert one == (pytest.approx(other, rel=1e-9) if isinstance(other, float) else other), field
+
+
+def _leaves(block):
+    for value in vars(block).values():
+        yield from _leaves(value) if hasattr(value, "model_fields_set") else [getattr(value, "value", value)]
+
+
+def test_a_number_that_cannot_be_is_refused_as_its_text_is():
+    case, messages = example("typical-base"), []
+    for changed, value in ((case.with_numbers, InSI(-3.048, "-10 ft")), (case.with_, "-10 ft")):
+        with pytest.raises(InputError) as refused:
+            changed({"reservoir.depth": value})
+        messages.append(str(refused.value))
+    assert messages[0] == messages[1]
 
 
 def test_an_error_is_told_at_its_field():

@@ -5,19 +5,24 @@ from __future__ import annotations
 import json
 import pickle
 import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from heeltoe.app.case.draft import edit
 from heeltoe.app.desk import BadRequestError
+from heeltoe.app.motion.look import channels
 from heeltoe.app.open_case import begin
 from heeltoe.app.sessions import Session
 from heeltoe.app.studies.draft import choices, study_of_form
 from heeltoe.app.studies.work import OUT, answers, lay, look, run
 from heeltoe.errors.error import InputError
 from heeltoe.study.answers.study_results import open_study
+from heeltoe.study.plan.components import components_of, grouped
+from heeltoe.study.plan.motions import records_of
 from heeltoe.study.run.suite import run_suite
+from shared.downloads import DOWNLOADS, write
 
 EVIL = "../../evil <script>'\".dat"
 FORM = {"models": ["rigid"], "method": "grid", "source": "case", "vary": []}
@@ -148,7 +153,7 @@ def test_a_suite_has_the_numbers_of_the_shell(session):
         folder / "case.toml", [folder / name for name in records], model="rigid", pga="0.9 g", judge="84%",
         target="en1998:0.3g,B",
     )  # fmt: skip
-    answer, expected = app.suite["models"][0], shell.suite["models"][0]
+    answer, expected = (results.suite["models"][0].to_json() for results in (app, shell))
     for record in (*answer["records"], *expected["records"]):
         del record["event"]  # the app groups components by their names
     assert answer == expected
@@ -217,3 +222,45 @@ def test_what_stands_in_an_empty_form_is_in_the_units_that_are_chosen(session):
     session.units = "us"
     assert choices(session)["units"] == "us"
     assert next(item for item in choices(session)["fields"] if item["path"] == "reservoir.depth")["now"].endswith(" ft")
+
+
+@pytest.mark.parametrize("producer", ["K-NET, renamed", "AFAD", "SAC", "BHRC"])
+def test_records_that_were_sent_are_paired_by_what_they_say(session, tmp_path, producer):
+    """The same events as a folder of them has: names of K-NET's files say nothing here, AFAD has all in one file."""
+    make, count = DOWNLOADS[producer]
+    folder = write(tmp_path / "records", make())
+    for number, path in enumerate(sorted(folder.iterdir())):
+        seen = channels(path, path.name)
+        (session.folder / f"sent-{number}").write_bytes(path.read_bytes())
+        session.sent[path.name], session.records[path.name] = f"sent-{number}", seen["channels"]
+    shown = [
+        group
+        for group in choices(session)["records"]
+        if any(path.name in group["records"][0]["name"] for path in folder.iterdir())
+    ]
+    assert [[record["vertical"] for record in group["records"]] for group in shown] == [[False, False, True]] * 2
+    names = [record["name"] for group in shown for record in group["records"]]
+    form = {**FORM, "source": "records", "records": names, "vertical": True, "pairs": True}
+    said = {
+        "SAC": {"motions.unit": "m/s^2", "motions.factor": "multiply"},
+        "BHRC": {"motions.low": "0.1", "motions.high": "25 Hz"},
+    }
+    _, study, _ = study_of_form({**form, **said.get(producer, {})}, session)
+    parts = components_of(records_of("records", tmp_path), tmp_path)
+    events = [
+        [sorted(Path(part.file).name for part in (*group.horizontal, *group.vertical)) for group in grouped(parts)]
+    ]
+    assert [[sorted([*event["horizontal"], event["vertical"]]) for event in study["motions"]["events"]]] == events
+    picture = look(study_of_form({**form, **said.get(producer, {})}, session), session.folder / "study-7", 100)
+    assert f"{count} runs" in picture["outlook"]
+    if producer in said:
+        error = look(study_of_form(form, session), session.folder / "study-8", 100)["error"]
+        assert error["field"] in ("motions.factor", "motions.processing")
+
+
+def test_a_vertical_record_by_itself_is_what_its_user_asks_for(session):
+    session.sent["quake-up.dat"] = "upload-1"
+    session.records["quake-up.dat"] = channels(session.folder / "upload-1", "quake-up.dat")["channels"]
+    form = {**FORM, "source": "records", "records": ["quake-up.dat"], "motions.unit": "m/s^2"}
+    _, study, _ = study_of_form(form, session)
+    assert study["motions"]["events"] == [{"name": "quake", "horizontal": ["quake-up.dat"]}]

@@ -15,6 +15,7 @@ from heeltoe.app.jobs import Job, Work
 from heeltoe.app.sessions import Session
 from heeltoe.app.transfers import full
 from heeltoe.app.workers import WorkerLostError
+from heeltoe.base.payload import Json
 from heeltoe.errors.error import InputError
 
 #: What a page is told where a process was killed, or was out of memory.
@@ -25,7 +26,7 @@ _LOOKS_EVERY_S = 2.0
 _RUNNING: set[asyncio.Task[None]] = set()
 
 
-def changes_of(session: Session, values: object) -> dict[str, Any]:
+def changes_of(session: Session, values: object) -> Json:
     """Return what the sliders of a page change, by the paths of the case; what stands where the case is changes
     nothing."""
     from heeltoe.app.sliders import change, sliders
@@ -47,7 +48,7 @@ def _is_late(session: Session, request: Request) -> bool:
     return bool(request.get("state", session.stated) != session.stated)
 
 
-async def rigid(desk: Desk, request: Request) -> dict[str, Any]:
+async def rigid(desk: Desk, request: Request) -> Json:
     """Run the rigid block with the sliders where they are, and remember where that is."""
     from heeltoe.app.live import answer
 
@@ -62,7 +63,7 @@ async def rigid(desk: Desk, request: Request) -> dict[str, Any]:
     return {"of": "rigid", **payload}
 
 
-async def decoupled(desk: Desk, request: Request) -> dict[str, Any]:
+async def decoupled(desk: Desk, request: Request) -> Json:
     """Run the decoupled chain with the sliders where they are."""
     from heeltoe.app.live import answer
 
@@ -77,7 +78,7 @@ async def decoupled(desk: Desk, request: Request) -> dict[str, Any]:
     return {"of": "decoupled", **payload}
 
 
-async def elastic(desk: Desk, request: Request) -> dict[str, Any]:
+async def elastic(desk: Desk, request: Request) -> Json:
     """Run the elastic dam without evidence with the sliders where they are, `long` or not; without values the tab waits
     for it no longer. The next one takes the place of one that runs."""
     from heeltoe.app.live import LONGEST_S
@@ -96,7 +97,7 @@ async def elastic(desk: Desk, request: Request) -> dict[str, Any]:
     return {"of": "elastic", **payload}
 
 
-async def flexible(desk: Desk, request: Request) -> dict[str, Any]:
+async def flexible(desk: Desk, request: Request) -> Json:
     """Start the flexible model with the sliders where they are; it tells how far it is, and its result in the end."""
     from heeltoe.app.live import flexible as work
 
@@ -107,7 +108,7 @@ async def flexible(desk: Desk, request: Request) -> dict[str, Any]:
 
 def start(
     desk: Desk, what: str, work: Work, *arguments: Any, parent: bool = False, unless_done: Path | None = None
-) -> dict[str, Any]:
+) -> Json:
     """Start a long run of this tab, and return its state; see :class:`heeltoe.app.jobs.Job`. A folder is
     removed `unless_done`: where it does not come to its end."""
     session = desk.session
@@ -157,7 +158,7 @@ async def aside(desk: Desk, work: Callable[..., Any], *arguments: Any) -> Any:
         return refused(error)
 
 
-async def cancel(desk: Desk, request: Request) -> dict[str, Any]:
+async def cancel(desk: Desk, request: Request) -> Json:
     """Cancel a long run of this tab."""
     job = desk.session.jobs.get(int(number(request, "number")))
     if job is None:

@@ -10,6 +10,7 @@ from heeltoe.app.answer import aside, changes_of, start
 from heeltoe.app.desk import BadRequestError, Desk, Entry, Request, text
 from heeltoe.app.wording import in_words_of_the_page, meant
 from heeltoe.base.cache import Kept
+from heeltoe.base.payload import Json
 from heeltoe.case.model import Case
 
 if TYPE_CHECKING:
@@ -38,9 +39,9 @@ _NO_SLIP = (
 _RESPONSES: Kept[Amplification] = Kept(4)
 
 
-async def statics(desk: Desk, request: Request) -> dict[str, Any]:
-    """Judge the dam of the sliders by its criteria, before and after the earthquake, and by a response spectrum where
-    one is asked for."""
+async def statics(desk: Desk, request: Request) -> Json:
+    """Judge the dam of the sliders by its criteria, before and after the earthquake, and by a response spectrum on
+    request."""
     session = desk.session
     changes = changes_of(session, request.get("values"))
     left = [job.result["left"] for job in session.jobs.values() if job.result and "left" in job.result]
@@ -53,14 +54,14 @@ async def statics(desk: Desk, request: Request) -> dict[str, Any]:
     return {"of": "statics", **await desk.workers.quick(checked, session.case, changes, session.units, left)}
 
 
-async def crest(desk: Desk, request: Request) -> dict[str, Any]:
+async def crest(desk: Desk, request: Request) -> Json:
     """Return how the crest of the dam of the sliders answers the ground by frequency."""
     session = desk.session
     changes = changes_of(session, request.get("values"))
     return {"of": "crest", **await aside(desk, crest_response, session.case, changes, session.units)}
 
 
-async def spread(desk: Desk, request: Request) -> dict[str, Any]:
+async def spread(desk: Desk, request: Request) -> Json:
     """Start the runs with a little weaker and a little stronger shaking."""
     session, model = desk.session, request.get("model")
     if model not in _MODELS:
@@ -109,7 +110,7 @@ def _judged(case: Case, left: Sequence[Mapping[str, Any]]) -> tuple[Joints, str]
 
 def checked(
     case: Case, changes: Mapping[str, Any], units: str, left: Sequence[Mapping[str, Any]] = (), spectrum: str = ""
-) -> dict[str, Any]:
+) -> Json:
     """Return the static checks, after the slips that the earthquake leaves; `left` has those of elastic runs. With the
     name of a spectrum they have an earthquake by that, too; no file is looked for."""
     from heeltoe.app.live import refused
@@ -121,7 +122,7 @@ def checked(
     from heeltoe.views.words.statics import basis, check_rows, failed, section_warnings, verdict_of
 
     try:
-        changed = case.with_(changes) if changes else case
+        changed = case.with_numbers(changes) if changes else case
         judged, provisional = _judged(changed, left)
         if spectrum:
             if spectrum != OF_MOTION and not spectrum.startswith(STANDARDS):
@@ -130,7 +131,7 @@ def checked(
     except InputError as error:
         return refused(error)
     several = len(judged.joints) > 1
-    missed, rows = list[str](), list[dict[str, Any]]()
+    missed, rows = list[str](), list[dict[str, object]]()
     for joint in judged.ranked:
         where = f"{quantity(joint.elevation_m, '.5g m', units)}, " if several else ""
         missed += [f"{where}{text}" for text in failed(joint.statics, units)]
@@ -148,7 +149,7 @@ def checked(
     }
 
 
-def crest_response(case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any]:
+def crest_response(case: Case, changes: Mapping[str, object], units: str) -> Json:
     """Return the amplification of the crest by frequency for each rock and water, and the first peaks as a table."""
     import numpy as np
 
@@ -156,7 +157,7 @@ def crest_response(case: Case, changes: Mapping[str, Any], units: str) -> dict[s
     from heeltoe.views.animation.page import packed
     from heeltoe.views.words.amplification import COLUMNS, peak_rows
 
-    changed = case.with_(changes) if changes else case
+    changed = case.with_numbers(changes) if changes else case
     response = _RESPONSES.get(changed.model_dump_json(exclude=_NOT_IN_RESPONSE), lambda: crest_amplification(changed))
     return {
         "frequency": packed(response.frequencies, "float32"),
@@ -175,15 +176,13 @@ def crest_response(case: Case, changes: Mapping[str, Any], units: str) -> dict[s
     }
 
 
-def spread_of(
-    say: Callable[..., None], case: Case, changes: Mapping[str, Any], model: str, units: str
-) -> dict[str, Any]:
+def spread_of(say: Callable[..., None], case: Case, changes: Mapping[str, object], model: str, units: str) -> Json:
     """Return the same run with weaker and stronger shaking, as a table."""
     from heeltoe.models.run import earthquake, flexible, live
     from heeltoe.study.small.spread import with_spread
     from heeltoe.views.words.response import SPREAD_COLUMNS, spread_rows, spread_sentence
 
-    changed = case.with_(changes) if changes else case
+    changed = case.with_numbers(changes) if changes else case
     say(f"running the {model} model")
     response = flexible(changed) if model == "flexible" else live(changed, model, earthquake(changed))
     if not response.summary:

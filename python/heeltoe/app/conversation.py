@@ -1,16 +1,16 @@
-"""The conversation with one tab: JSON both ways, each answer with the number of what it answers."""
+"""The conversation with one tab: JSON both ways, each answer with the number of its question."""
 
 from __future__ import annotations
 
 import asyncio
 import json
 import logging
-from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from heeltoe.app.desk import BadRequestError, Desk, Entry, Request
 from heeltoe.app.transfers import full
+from heeltoe.base.payload import Json
 from heeltoe.errors.error import HeeltoeError
 
 _LOG = logging.getLogger(__name__)
@@ -88,7 +88,7 @@ class Conversation:
             # Whatever has happened, the tab may ask for it again.
             self._busy.discard(name)
 
-    async def _answer_of(self, name: str, entry: Entry, request: Request) -> dict[str, Any]:
+    async def _answer_of(self, name: str, entry: Entry, request: Request) -> Json:
         """Return the answer of an action; one that fails says so, and the log says where."""
         try:
             if entry.writes and (refusal := await asyncio.to_thread(full, self._desk.settings)):

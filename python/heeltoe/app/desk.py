@@ -10,13 +10,14 @@ from heeltoe.app.jobs import Tell
 from heeltoe.app.sessions import Session
 from heeltoe.app.settings import Settings
 from heeltoe.app.workers import Workers
+from heeltoe.base.payload import Json
 
 Request = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class Desk:
-    """What an action has at hand.
+    """Context of an action.
 
     Attributes
     ----------
@@ -37,7 +38,7 @@ class Desk:
 
 
 #: Takes what is asked and returns the answer.
-Action = Callable[[Desk, Request], Awaitable[dict[str, Any]]]
+Action = Callable[[Desk, Request], Awaitable[Json]]
 
 
 @dataclass(frozen=True)

@@ -15,11 +15,12 @@ from time import monotonic
 from typing import Any
 
 from heeltoe.app.stopping import end_with_parent
+from heeltoe.base.payload import Json
 from heeltoe.errors.error import InputError
 
 #: What a job calls: it says what goes on, with the share that is done where it knows, and returns what a page can draw.
-Work = Callable[..., dict[str, Any]]
-Tell = Callable[[dict[str, Any]], Awaitable[None]]
+Work = Callable[..., Json]
+Tell = Callable[[Json], Awaitable[None]]
 
 _NUMBERS = count(1)
 # A process that does not end by itself when asked to is ended after this [s]; one that has others ends them before.
@@ -47,7 +48,7 @@ class Job:
         self.state = "running"
         self.status = "starting"
         self.share: float | None = None
-        self.result: dict[str, Any] | None = None
+        self.result: dict[str, object] | None = None
         self._began = monotonic()
         self._ended: float | None = None
         context = multiprocessing.get_context("spawn")
@@ -61,7 +62,7 @@ class Job:
         """Of its process."""
         return self._process.pid
 
-    def payload(self) -> dict[str, Any]:
+    def payload(self) -> Json:
         """Return what a page shows of it."""
         seconds = (self._ended or monotonic()) - self._began
         payload = {"of": "job", "number": self.number, "what": self.what, "state": self.state, "seconds": seconds}
@@ -114,7 +115,7 @@ class Job:
             await tell(self.payload())
 
     async def _tell(self, tell: Tell) -> str:
-        """Tell what goes on, and return the state that was told: a run may be cancelled while that is sent."""
+        """Send the progress, and return the state that was sent: a run may be cancelled meanwhile."""
         message = self.payload()
         await tell(message)
         return str(message["state"])

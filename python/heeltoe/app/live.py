@@ -8,6 +8,7 @@ from typing import Any
 
 from heeltoe.app.response_payload import dam, drawn
 from heeltoe.base.cache import Kept
+from heeltoe.base.payload import Json
 from heeltoe.case.combinations import UNSUPPORTED
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
@@ -23,11 +24,11 @@ LONGEST_S = 20.0
 _KEPT: Kept[Earthquake] = Kept(16)
 
 
-def answer(case: Case, changes: Mapping[str, Any], model: str, units: str) -> dict[str, Any]:
-    """Return what a block does, or why it cannot be said."""
+def answer(case: Case, changes: Mapping[str, Any], model: str, units: str) -> Json:
+    """Return the result of a block, or the reason why there is no result."""
     began = perf_counter()
     try:
-        changed = case.with_(changes) if changes else case
+        changed = case.with_numbers(changes) if changes else case
         if model == "decoupled" and changed.crack.elevation == 0.0 and not changed.further_cracks:
             return {"absent": "The decoupled chain needs a part below the crack; this crack is at the base."}
         if model == "decoupled" and changed.concrete.modulus is None and not changed.further_cracks:
@@ -51,16 +52,16 @@ def _earthquake(case: Case) -> Earthquake:
     return _KEPT.get((key, shaking.end), lambda: shaking)
 
 
-def refused(error: InputError) -> dict[str, Any]:
+def refused(error: InputError) -> Json:
     """Return an error as the page shows it, at its field."""
     return {"error": {"field": error.field, "text": str(error), "problem": error.problem, "remedy": error.remedy}}
 
 
-def elastic(case: Case, changes: Mapping[str, Any], units: str, longest_s: float = LONGEST_S) -> dict[str, Any]:
+def elastic(case: Case, changes: Mapping[str, Any], units: str, longest_s: float = LONGEST_S) -> Json:
     """Return what the elastic dam does, without evidence, or why that is not computed by itself: it takes longer."""
     began = perf_counter()
     try:
-        changed = (case.with_(changes) if changes else case).without_evidence()
+        changed = (case.with_numbers(changes) if changes else case).without_evidence()
         names, why = models_of(changed)
         if "flexible" not in names:
             return {"absent": f"The elastic dam cannot be run: {why}."}
@@ -73,10 +74,10 @@ def elastic(case: Case, changes: Mapping[str, Any], units: str, longest_s: float
     return _elastic(changed, response, units) | {"computed_s": perf_counter() - began}
 
 
-def flexible(say: Callable[[str], None], case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any]:
+def flexible(say: Callable[[str], None], case: Case, changes: Mapping[str, Any], units: str) -> Json:
     """Return what the elastic dam does with its evidence, and what the block beside it means; it takes seconds to
     minutes."""
-    changed = case.with_(changes) if changes else case
+    changed = case.with_numbers(changes) if changes else case
     if changed.flexible.evidence == "none":
         # Without it, it has run by itself.
         changed = changed.model_copy(update={"flexible": changed.flexible.with_evidence("full")})
@@ -87,7 +88,7 @@ def flexible(say: Callable[[str], None], case: Case, changes: Mapping[str, Any],
     return _elastic(changed, response, units) | {"beside": beside}
 
 
-def _elastic(case: Case, response: Response, units: str) -> dict[str, Any]:
+def _elastic(case: Case, response: Response, units: str) -> Json:
     """Return what the page shows of an elastic dam, and what the static checks go on from."""
     known = response.outcome == Outcome.OK
     left = {

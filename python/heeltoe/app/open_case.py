@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TypedDict
 
 from heeltoe.app.desk import BadRequestError, Desk, Entry, Request, text
 from heeltoe.app.sessions import Session
+from heeltoe.base.payload import Json
 from heeltoe.case.examples import examples_folder
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
@@ -23,11 +24,11 @@ def examples() -> list[str]:
 
 
 def example_path(name: str) -> Path | None:
-    """Return the file of an example, None where there is none of this name."""
+    """Return the file of an example, None for an unknown name."""
     return examples_folder() / f"{name}.toml" if name in examples() else None
 
 
-def state(session: Session) -> dict[str, Any]:
+def state(session: Session) -> Json:
     """Return what all pages of a tab stand on: its case and where its sliders are, as far as they were heard."""
     from heeltoe.app.sliders import sliders
 
@@ -36,7 +37,7 @@ def state(session: Session) -> dict[str, Any]:
         session.stated += 1
         numbers = {"state": session.stated, "heard": session.heard}
         return {"of": "state", **numbers, "case": None, "examples": examples(), "units": session.units}
-    slider_list = sliders(case.with_(session.changes) if session.changes else case, session.units)
+    slider_list = sliders(case.with_numbers(session.changes) if session.changes else case, session.units)
     models = models_for(case)
     # Only where it can be said: the page answers by this number.
     session.stated += 1
@@ -54,7 +55,14 @@ def state(session: Session) -> dict[str, Any]:
     }
 
 
-def models_for(case: Case) -> dict[str, Any]:
+class Models(TypedDict):
+    """Which models can be run on a case, and why not the elastic dam where it cannot."""
+
+    models: list[str]
+    inelastic: str
+
+
+def models_for(case: Case) -> Models:
     """Return which models can be run on a case, and why not the elastic dam where it cannot."""
     from heeltoe.models.run import models_of
 
@@ -72,7 +80,7 @@ def models_for(case: Case) -> dict[str, Any]:
     return {"models": models, "inelastic": "" if elastic else f"The elastic dam cannot be run: {why}."}
 
 
-def begin(session: Session) -> dict[str, Any]:
+def begin(session: Session) -> Json:
     """Return the state of a tab that comes; a new one has the first example."""
     if session.case is None:
         _open(session, examples()[0])
@@ -91,26 +99,26 @@ def _open(session: Session, name: str) -> None:
     session.kept.clear()
 
 
-async def open_example(desk: Desk, request: Request) -> dict[str, Any]:
+async def open_example(desk: Desk, request: Request) -> Json:
     """Open an example in the place of the case that the tab has."""
 
-    def opened() -> dict[str, Any]:
+    def opened() -> Json:
         _open(desk.session, text(request, "name"))
         return state(desk.session)
 
     async with desk.session.turn:
-        payload: dict[str, Any] = await desk.workers.quick(opened)
+        payload: Json = await desk.workers.quick(opened)
     return payload
 
 
-async def set_units(desk: Desk, request: Request) -> dict[str, Any]:
+async def set_units(desk: Desk, request: Request) -> Json:
     """Show everything in SI or in units of the United States."""
     name = text(request, "units")
     if name not in ("si", "us"):
         raise BadRequestError("units are si or us")
     async with desk.session.turn:
         desk.session.units = name
-        payload: dict[str, Any] = await desk.workers.quick(state, desk.session)
+        payload: Json = await desk.workers.quick(state, desk.session)
     return payload
 
 

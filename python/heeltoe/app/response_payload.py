@@ -4,15 +4,16 @@ the dam in motion at the moments that matter."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.app.wording import meant
 from heeltoe.base.arrays import Floats
+from heeltoe.base.payload import Json
 from heeltoe.case.model import Case
 from heeltoe.result.contract import HEADLINES, JOINT_METER_M, LEAST_M, LEAST_RAD
+from heeltoe.result.histories import GAPS
 from heeltoe.result.judge import LimitCheck
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import limited, verdict
@@ -30,7 +31,7 @@ _BINS = 400
 _LEAST = {"slip": JOINT_METER_M, "rotation": LEAST_RAD}
 
 
-def drawn(response: Response, units: str) -> dict[str, Any]:
+def drawn(response: Response, units: str) -> Json:
     """Return what the page shows of a response."""
     payload = {
         "model": response.model,
@@ -57,7 +58,7 @@ def drawn(response: Response, units: str) -> dict[str, Any]:
     }
 
 
-def _headline(response: Response, units: str) -> dict[str, Any]:
+def _headline(response: Response, units: str) -> Json:
     """Return the number that a reader looks for first: of the limits that which is nearest, or farthest beyond; without
     limits the residual slip. Its state is ``"met"``, ``"doubted"``, ``"failed"``, or ``"free"`` without a limit."""
     outcome = response.outcome
@@ -74,7 +75,7 @@ def _headline(response: Response, units: str) -> dict[str, Any]:
     return judged(response.limits, abs(slip), f"residual slip{way}", units)
 
 
-def judged(limits: Sequence[LimitCheck], slip: float, label: str, units: str, by: str = "") -> dict[str, Any]:
+def judged(limits: Sequence[LimitCheck], slip: float, label: str, units: str, by: str = "") -> Json:
     """Return the headline of some limits, or of a slip [m], not negative, where there are none; `by` says which number
     over several runs it is."""
     checks = sorted(limits, key=_share, reverse=True)
@@ -132,7 +133,7 @@ def _tables(response: Response, units: str) -> Iterator[tuple[str, Sequence[str]
         yield "Motion by motion", SEQUENCE_COLUMNS, sequence_rows(response, units)
 
 
-def _curves(response: Response, units: str) -> dict[str, Any]:
+def _curves(response: Response, units: str) -> Json:
     h = response.histories
     ground = h.ground_acceleration_m_s2 / response.gravity
     others = response.others
@@ -143,7 +144,7 @@ def _curves(response: Response, units: str) -> dict[str, Any]:
     # The smallest units, whatever the size: the curves of two models share an axis.
     scales = {"slip": system.scale("displacement", 0.0), "rotation": system.scale("rotation", 0.0)}
 
-    def rows(crack: Response) -> dict[str, Any]:
+    def rows(crack: Response) -> Json:
         values = {"slip": crack.histories.slip_m, "rotation": crack.histories.rotation_rad}
         return {
             name: {
@@ -170,9 +171,9 @@ def _named(response: Response, others: Mapping[str, Response], units: str) -> It
         yield written("crack at {at_m:g m}", units, at_m=response.cracks[place].elevation), other
 
 
-def _ribbon(response: Response) -> list[dict[str, Any]]:
+def _ribbon(response: Response) -> list[Json]:
     """Return kind, start and end of each stretch of one kind of motion; neighbours of one kind are joined."""
-    spans: list[dict[str, Any]] = []
+    spans: list[dict[str, object]] = []
     for kind, start, end in pieces(response):
         if spans and spans[-1]["kind"] == kind:
             spans[-1]["end"] = end
@@ -181,7 +182,7 @@ def _ribbon(response: Response) -> list[dict[str, Any]]:
     return spans
 
 
-def _slips(response: Response, units: str) -> list[dict[str, Any]]:
+def _slips(response: Response, units: str) -> list[Json]:
     slips = {kind: response.slip_by_mode_m[key] for key, kind in SLIP_KINDS.items()}
     largest = max(float(np.max(np.abs(list(slips.values())))), 1e-12)
     return [
@@ -217,12 +218,12 @@ def thinned(rows: Sequence[Floats], bins: int) -> NDArray[np.int64]:
 
 
 _DAM_BINS = 200
-_COLUMNS = ("slip_m", "rotation_rad", "gap_heel_m", "gap_toe_m")
+_COLUMNS = ("slip_m", "rotation_rad", *GAPS)
 # An elastic dam swings between the moments that matter of its cracks: of its run so many are shown.
 _MOST_FRAMES = 1500
 
 
-def dam(case: Case, response: Response, units: str) -> dict[str, Any] | None:
+def dam(case: Case, response: Response, units: str) -> Json | None:
     """Return what the player of the moving dam draws; None for a response without results."""
     from heeltoe.views.animation.frames import build_scene
     from heeltoe.views.animation.page import scene_data

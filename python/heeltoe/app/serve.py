@@ -48,7 +48,7 @@ def serve(host: str, port: int | None, *, public: bool, browser: bool, say: Call
     """
     for package in _PACKAGES:
         if find_spec(package) is None:
-            raise InputError("app-package", "heeltoe app", package)
+            raise InputError("package-missing", "heeltoe app", package, install='install heeltoe with the extra "app"')
     if not is_loopback(host) and not public:
         raise InputError("app-public", "--host", host)
     # Matrices that follow a slider are small: further threads win nothing there, and keep a core busy with waiting that

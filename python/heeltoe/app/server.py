@@ -30,6 +30,7 @@ from heeltoe.app.settings import Settings
 from heeltoe.app.studies import actions as studies
 from heeltoe.app.transfers import answer_offer, gone, take, too_large
 from heeltoe.app.workers import Workers
+from heeltoe.base.payload import Json
 
 _PAGE = Path(__file__).parent / "page"
 # What plays the moving dam, on the pages of animations and here.
@@ -115,7 +116,7 @@ def _teller(socket: WebSocket, session: Session) -> Any:
     Files that it has sent are called as it calls them, whoever speaks of them."""
     lock = asyncio.Lock()
 
-    async def tell(message: dict[str, Any]) -> None:
+    async def tell(message: Json) -> None:
         text = json.dumps(message, separators=(",", ":"), allow_nan=False)
         for called, stored in session.sent.items():
             text = text.replace(stored, json.dumps(called)[1:-1])

@@ -11,6 +11,7 @@ from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.app.settings import Settings
+from heeltoe.base.payload import Json
 
 if TYPE_CHECKING:
     from heeltoe.app.jobs import Job, Tell
@@ -97,7 +98,7 @@ class Session:
         """Whether something runs for it."""
         return any(job.state == "running" for job in self.jobs.values())
 
-    async def say(self, message: dict[str, Any]) -> None:
+    async def say(self, message: Json) -> None:
         """Tell the tab, if there is one: a run goes on while its tab is closed or loaded anew."""
         if self.open and self.tell is not None:
             await self.tell(message)

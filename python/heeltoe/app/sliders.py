@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
 
+from heeltoe.base.payload import Json
 from heeltoe.case.model import Case
+from heeltoe.units.parse import Acceleration, InSI
 from heeltoe.units.sentences import quantity
 from heeltoe.units.systems import FOOT, unit_system
 
@@ -31,8 +32,8 @@ class Slider:
         What people call it.
     least, most, step, value
         In `unit`.
-    unit
-        Empty where it has none.
+    unit, si
+        Empty where it has none, and how much of SI one of it is.
     off
         Why it cannot be moved; empty where it can.
     """
@@ -45,6 +46,7 @@ class Slider:
     value: float
     unit: str = ""
     off: str = ""
+    si: float = 1.0
 
 
 def sliders(case: Case, units: str) -> list[Slider]:
@@ -94,12 +96,13 @@ def _strengths(case: Case, units: str) -> Iterator[Slider]:
     if bond is None:
         return
     scale = unit_system(units).scale("pressure")
+    si = 1.0 / scale.factor
     tension, cohesion = scale(bond.tensile_strength), scale(bond.cohesion)
     step = 0.01 if units == "si" else 1.0
     most = min(scale(_MOST_TENSION), _WITHIN * cohesion / friction if friction else cohesion)
-    yield _with(Slider("crack.bond.tensile_strength", "Tensile strength", step, most, step, tension, scale.unit))
+    yield _with(Slider("crack.bond.tensile_strength", "Tensile strength", step, most, step, tension, scale.unit, si=si))
     least, most = max(step, friction * tension / _WITHIN), scale(_MOST_COHESION)
-    yield _with(Slider("crack.bond.cohesion", "Cohesion", least, most, step, cohesion, scale.unit))
+    yield _with(Slider("crack.bond.cohesion", "Cohesion", least, most, step, cohesion, scale.unit, si=si))
 
 
 def _water(case: Case, units: str) -> Slider:
@@ -108,17 +111,19 @@ def _water(case: Case, units: str) -> Slider:
     step = 10.0 ** max(-3, len(str(int(height))) - 4)
     depth = 0.0 if case.reservoir is None else case.reservoir.depth / metres
     # Rounding up would put the surface above the crest.
-    return Slider("reservoir.depth", "Water level", 0.0, int(height / step + 1e-9) * step, step, depth, unit)
+    return Slider("reservoir.depth", "Water level", 0.0, int(height / step + 1e-9) * step, step, depth, unit, si=metres)
 
 
 def _with(slider: Slider) -> Slider:
     """Return a slider that reaches as far as the value that the case has."""
     low, high = min(slider.least, slider.value), max(slider.most, slider.value)
-    return Slider(slider.path, slider.label, low, high, slider.step, slider.value, slider.unit, slider.off)
+    return replace(slider, least=low, most=high)
 
 
-def change(slider: Slider, value: float, case: Case) -> dict[str, Any]:
-    """Return what a slider at `value` changes in a case, as :meth:`heeltoe.Case.with_` takes it."""
+def change(slider: Slider, value: float, case: Case) -> Json:
+    """Return what a slider at `value` changes in a case, in SI by the paths of :meth:`heeltoe.Case.with_numbers`."""
     if slider.path == "uplift.drain_efficiency" and case.uplift.pattern != "drained":
         return {"uplift.pattern": "drained", "uplift.drain_position": _DRAINS_AT, slider.path: value}
-    return {slider.path: f"{value:.10g} {slider.unit}" if slider.unit else value}
+    if slider.unit == "g":
+        return {slider.path: Acceleration(value, in_g=True)}
+    return {slider.path: InSI(value * slider.si, f"{value:.10g} {slider.unit}") if slider.unit else value}

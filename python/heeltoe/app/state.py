@@ -31,8 +31,8 @@ class Draft:
     fields: dict[str, Any]
     errors: list[InputError] = field(default_factory=list)
     case: Case | None = None
-    undo: list[dict[str, Any]] = field(default_factory=list)
-    redo: list[dict[str, Any]] = field(default_factory=list)
+    undo: list[dict[str, object]] = field(default_factory=list)
+    redo: list[dict[str, object]] = field(default_factory=list)
     step: object = None
 
 

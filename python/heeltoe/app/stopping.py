@@ -40,7 +40,7 @@ class StoppedError(Exception):
 
 
 class _State:
-    """What runs in this process, and what shall not."""
+    """Runs of this process, and their cancellation."""
 
     def __init__(self) -> None:
         self.lock = Lock()
@@ -78,7 +78,7 @@ def _interrupt() -> None:
 
 
 def _interrupted(*_: Any) -> None:
-    """Stop what runs, if nobody waits for it: Ctrl-C is for the server alone."""
+    """Stop the run of a user who has left: Ctrl-C is for the server alone."""
     # No lock, which this thread may hold; both were written before the signal.
     if _STATE.running and _STATE.running in _STATE.unwanted:
         raise StoppedError

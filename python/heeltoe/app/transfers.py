@@ -9,7 +9,6 @@ import asyncio
 import os
 import secrets
 from pathlib import Path
-from typing import Any
 
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
@@ -17,6 +16,7 @@ from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, R
 from heeltoe.app.sessions import Session
 from heeltoe.app.settings import Settings
 from heeltoe.app.state import Offer
+from heeltoe.base.payload import Json
 
 # How much of a file arrives before it is looked again whether there is room [bytes].
 _LOOKS_EVERY = 1_000_000
@@ -108,7 +108,7 @@ def upload_path(session: Session, name: str) -> Path | None:
 _MOST = 40
 
 
-def offer(session: Session, path: Path, name: str) -> dict[str, Any]:
+def offer(session: Session, path: Path, name: str) -> Json:
     """Return where a tab can fetch a file of its folder once."""
     if not path.resolve().is_relative_to(session.folder.resolve()):
         raise ValueError(path)

@@ -1,4 +1,4 @@
-"""What is said of a result in the words of a page: its button, where the command line would be meant."""
+"""Sentences on a result in the words of the page, which names its buttons in place of the command line."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ class WorkerLostError(Exception):
 
 
 class Workers:
-    """Threads, and processes beside them: one for what follows the sliders, one for what people wait for anyway."""
+    """Threads, and processes beside them: one for runs that follow the sliders, one for longer ones."""
 
     def __init__(self) -> None:
         self._threads = ThreadPoolExecutor(THREADS, thread_name_prefix=WORKER_NAME)
@@ -56,7 +56,7 @@ class Workers:
         return await self._in("live", compute, *arguments)
 
     async def aside(self, compute: Callable[..., Any], *arguments: Any) -> Any:
-        """Compute, as :meth:`beside`, what takes seconds and nobody moves a slider for."""
+        """Compute, as :meth:`beside`, a run of seconds that follows no slider."""
         return await self._in("aside", compute, *arguments)
 
     async def until_cancelled(self, compute: Callable[..., Any], *arguments: Any) -> Any:
@@ -150,8 +150,7 @@ def _process() -> ProcessPoolExecutor:
 
 
 def _quietly() -> None:
-    """Leave Ctrl-C to the server, let it and the browser go first, as what they do is waited for most, and end with
-    it."""
+    """Leave Ctrl-C to the server, yield to it and to the browser, and end with it."""
     import os
     import signal
 

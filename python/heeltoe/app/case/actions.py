@@ -10,6 +10,7 @@ from typing import Any
 from heeltoe.app.desk import BadRequestError, Desk, Entry, Request, number, text
 from heeltoe.app.sessions import Session
 from heeltoe.app.transfers import upload_path
+from heeltoe.base.payload import Json
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 
@@ -18,19 +19,19 @@ _LARGEST_FILE, _LONGEST_NAME = 200_000, 120
 _MOST_CHANGES = 50
 
 
-async def show(desk: Desk, request: Request) -> dict[str, Any]:
+async def show(desk: Desk, request: Request) -> Json:
     """Return the case as it was typed, what is wrong with it, and its drawing."""
     return await _done(desk, lambda: None)
 
 
-async def fields(desk: Desk, request: Request) -> dict[str, Any]:
+async def fields(desk: Desk, request: Request) -> Json:
     """Return what a case can say."""
     from heeltoe.app.case.fields import form
 
     return {"of": "case fields", "blocks": await desk.workers.quick(form, desk.session.units)}
 
 
-async def edit(desk: Desk, request: Request) -> dict[str, Any]:
+async def edit(desk: Desk, request: Request) -> Json:
     """Change fields, as they were typed."""
     from heeltoe.app.case.draft import edit as change
 
@@ -38,7 +39,7 @@ async def edit(desk: Desk, request: Request) -> dict[str, Any]:
     return await _done(desk, lambda: change(session, _typed(session, changes), request.get("step")))
 
 
-async def put(desk: Desk, request: Request) -> dict[str, Any]:
+async def put(desk: Desk, request: Request) -> Json:
     """Put in a block that the case does not have, or take one away."""
     from heeltoe.app.case.defaults import block
     from heeltoe.app.case.draft import edit as change
@@ -50,7 +51,7 @@ async def put(desk: Desk, request: Request) -> dict[str, Any]:
     return await _done(desk, lambda: change(session, block(session.case, session.units, path, wanted=present)))
 
 
-async def add(desk: Desk, request: Request) -> dict[str, Any]:
+async def add(desk: Desk, request: Request) -> Json:
     """Put one more item into a list of blocks."""
     from heeltoe.app.case.defaults import item
     from heeltoe.app.case.draft import edit as change
@@ -70,7 +71,7 @@ async def add(desk: Desk, request: Request) -> dict[str, Any]:
     return await _done(desk, added)
 
 
-async def drag(desk: Desk, request: Request) -> dict[str, Any]:
+async def drag(desk: Desk, request: Request) -> Json:
     """Move a handle of the drawing."""
     from heeltoe.app.case.draft import case_of, fields_in_force
     from heeltoe.app.case.draft import edit as change
@@ -87,14 +88,14 @@ async def drag(desk: Desk, request: Request) -> dict[str, Any]:
     return await _done(desk, dragged)
 
 
-async def step(desk: Desk, request: Request) -> dict[str, Any]:
+async def step(desk: Desk, request: Request) -> Json:
     """Take back the last step, or take it again."""
     from heeltoe.app.case.draft import back
 
     return await _done(desk, lambda: back(desk.session, forward=request.get("forward") is True))
 
 
-async def corners(desk: Desk, request: Request) -> dict[str, Any]:
+async def corners(desk: Desk, request: Request) -> Json:
     """Say the section by its corners, in the place of its dimensions."""
     from heeltoe.app.case.draft import case_of, fields_of, valued
     from heeltoe.app.case.draft import edit as change
@@ -110,7 +111,7 @@ async def corners(desk: Desk, request: Request) -> dict[str, Any]:
     return await _done(desk, write_corners)
 
 
-async def open_file(desk: Desk, request: Request) -> dict[str, Any]:
+async def open_file(desk: Desk, request: Request) -> Json:
     """Open a case file that was sent, with the files beside it that were sent, too."""
     from heeltoe.app.case.draft import start
     from heeltoe.case.read import read_fields
@@ -124,7 +125,7 @@ async def open_file(desk: Desk, request: Request) -> dict[str, Any]:
     def opened() -> None:
         try:
             if path.stat().st_size > _LARGEST_FILE:
-                raise InputError("case-file-large", called, f"{_LARGEST_FILE // 1000} kB")
+                raise InputError("too-large", called, f"{_LARGEST_FILE // 1000} kB", expected="a case file")
             session.sent |= beside
             start(session, read_fields(path))
         except InputError as error:
@@ -136,12 +137,12 @@ async def open_file(desk: Desk, request: Request) -> dict[str, Any]:
     return {**await _done(desk, opened), "file": " ".join(sentences)}
 
 
-async def save(desk: Desk, request: Request) -> dict[str, Any]:
-    """Return the case file of what is in force, with the meaning of each field beside it."""
+async def save(desk: Desk, request: Request) -> Json:
+    """Return the case file of the fields in force, with the meaning of each field beside it."""
     from heeltoe.app.case.draft import fields_in_force
     from heeltoe.case.toml_writer import case_text
 
-    def written() -> dict[str, Any]:
+    def written() -> Json:
         fields = fields_in_force(desk.session)
         words = re.findall(r"[a-z0-9]+", str(fields.get("title", "")).lower())
         return {"of": "case file", "text": case_text(fields), "name": f"{'-'.join(words)[:60] or 'case'}.toml"}
@@ -150,13 +151,13 @@ async def save(desk: Desk, request: Request) -> dict[str, Any]:
     return fields
 
 
-async def _done(desk: Desk, do: Callable[[], None]) -> dict[str, Any]:
+async def _done(desk: Desk, do: Callable[[], None]) -> Json:
     """Do something with the case of a tab; where another one is in force then, all its pages hear of it."""
     from heeltoe.app.open_case import state
 
     session = desk.session
 
-    def done() -> tuple[dict[str, Any], dict[str, Any] | None]:
+    def done() -> tuple[dict[str, object], dict[str, object] | None]:
         before, moved = session.case, session.moved
         do()
         changed = session.case is not before or session.moved != moved
@@ -166,18 +167,18 @@ async def _done(desk: Desk, do: Callable[[], None]) -> dict[str, Any]:
         message, changed = await desk.workers.quick(done)
         if changed is not None:
             await desk.tell(changed)
-    payload: dict[str, Any] = message
+    payload: Json = message
     return payload
 
 
-def _case_message(session: Session) -> dict[str, Any]:
+def _case_message(session: Session) -> Json:
     from heeltoe.app.case.draft import case_of, draft_of, fields_of, valued
     from heeltoe.app.case.drawing import drawing, law
     from heeltoe.app.case.handles import handle_data, handles
 
     fields, errors = fields_of(session)
     draft, case = draft_of(session), case_of(session)
-    payload: dict[str, Any] = {
+    payload: Json = {
         "of": "case",
         "fields": fields,
         "errors": [
@@ -195,7 +196,7 @@ def _case_message(session: Session) -> dict[str, Any]:
     return payload
 
 
-def _typed(session: Session, changes: Mapping[str, Any]) -> dict[str, Any]:
+def _typed(session: Session, changes: Mapping[str, object]) -> Json:
     from heeltoe.app.case.defaults import following
     from heeltoe.app.case.draft import fields_of
     from heeltoe.app.case.fields import field_of, typed
@@ -208,7 +209,7 @@ def _typed(session: Session, changes: Mapping[str, Any]) -> dict[str, Any]:
     return following(values, fields_of(session)[0])
 
 
-def _changes(request: Request) -> dict[str, Any]:
+def _changes(request: Request) -> Json:
     entries = request.get("changes")
     if not isinstance(entries, dict) or not 0 < len(entries) <= _MOST_CHANGES or not all(map(_is_path, entries)):
         raise BadRequestError("changes are values by the paths of fields")

@@ -1,4 +1,4 @@
-"""What a block, an item of a list, a pattern or a friction law of a case begins with as it is put in."""
+"""Starting values of a new block, an item of a list, a pattern of uplift or a friction law."""
 
 from __future__ import annotations
 
@@ -10,23 +10,25 @@ import numpy as np
 
 from heeltoe.app.case.fields import field_of
 from heeltoe.app.case.handles import corners_of, length_text
+from heeltoe.base.payload import Json
 from heeltoe.case.crack.law import LAW_FIELDS
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.mechanics.law_curve import SAMPLES, curve_of
 
 # Blocks and items, as a file has them.
-_BEGIN: dict[str, dict[str, Any]] = {
+_BEGIN: dict[str, dict[str, object]] = {
     "crack.roughness": {"asperity_height": "20 mm", "wave_length": "200 mm"},
     "rock": {"modulus": "30 GPa"},
     "ice": {"force": "150 kN/m"},
     "motion": {"file": "elcentro-1940-180-nga", "pga": "0.4 g"},
     "motion.vertical": {"file": "elcentro-1940-up-nga"},
+    "motion.cross_valley": {"file": "elcentro-1940-270-nga"},
     "aftershocks": {"file": "elcentro-1940-270-nga", "pga": "0.2 g"},
 }
 # What has a depth, as a part of the height of the dam.
 _PARTS = {"reservoir": 0.9, "tailwater": 0.1, "silt": 0.1}
-_PATTERNS: dict[str, dict[str, Any]] = {
+_PATTERNS: dict[str, dict[str, object]] = {
     "cut-off": {"uplift.extent": 0.5},
     "drained": {"uplift.drain_position": 0.1, "uplift.drain_efficiency": 0.667},
 }
@@ -42,7 +44,7 @@ _OWN_COEFFICIENTS = ("friction", "static_friction", "kinetic_friction")
 _COEFFICIENTS = tuple(f"crack.{name}" for name in _OWN_COEFFICIENTS)
 
 
-def block(case: Case | None, units: str, path: str, *, wanted: bool) -> dict[str, Any]:
+def block(case: Case | None, units: str, path: str, *, wanted: bool) -> Json:
     """Return the changes that put in a block, or take one away where it shall not be `there`."""
     if path == _LAW:
         return _law(case, wanted=wanted)
@@ -52,10 +54,15 @@ def block(case: Case | None, units: str, path: str, *, wanted: bool) -> dict[str
         return {path: dict(_BOND)}
     if path in _PARTS and case is not None:
         return {path: {"depth": length_text(case, units, _PARTS[path])}}
+    if path.startswith("crack.band") and case is not None:
+        left = round(0.8 * case.crack.mu_kinetic, 3)
+        ends = {"slip_weakening": {"slip": "20 mm"}, "speed_weakening": {"speed": "0.05 m/s"}}
+        end = ends.get(path.rpartition(".")[2])
+        return {path: {"low": left} if end is None else {"residual_friction": left, **end}}
     return {path: dict(_BEGIN.get(path, {}))}
 
 
-def item(case: Case | None, units: str, path: str) -> dict[str, Any]:
+def item(case: Case | None, units: str, path: str) -> Json:
     """Return what one more item of a list begins with."""
     if path == "anchors" and case is not None and case.further_cracks:
         return _through(case, units)
@@ -68,18 +75,18 @@ def item(case: Case | None, units: str, path: str) -> dict[str, Any]:
     return dict(_BEGIN.get(path, {}))
 
 
-def _through(case: Case, units: str) -> dict[str, Any]:
+def _through(case: Case, units: str) -> Json:
     """Return an anchor from the middle of the crest, upright into the rock: through all cracks."""
     corners = np.array(corners_of(case, units))
     x, z = (np.array([float(length.split()[0]) for length in column]) for column in corners.T)
     unit, top, base = corners[0, 0].split()[1], float(z.max()), float(z.min())
     middle = f"{x[z == top].mean():.4g} {unit}"
-    ends = {"head_x": middle, "head_elevation": f"{top - base:.6g} {unit}", "foot_x": middle}
+    ends: Json = {"head_x": middle, "head_elevation": f"{top - base:.6g} {unit}", "foot_x": middle}
     return ends | {"foot_elevation": f"{-0.1 * (top - base):.4g} {unit}", "prestress": "1 MN/m"}
 
 
-def following(changes: Mapping[str, Any], fields: Mapping[str, Any]) -> dict[str, Any]:
-    """Return changes with those of what belongs to a pattern of uplift or to a law that is chosen by them.
+def following(changes: Mapping[str, Any], fields: Mapping[str, Any]) -> Json:
+    """Return changes with the fields of a pattern of uplift or a law that they choose.
 
     Parameters
     ----------
@@ -107,7 +114,7 @@ def following(changes: Mapping[str, Any], fields: Mapping[str, Any]) -> dict[str
 
 
 def _with_law(crack: Any, before: Any) -> Any:
-    """Return a further crack with what belongs to a law that is put in, or chosen in place of another."""
+    """Return a further crack with the fields of a new law, or of one that replaces another."""
     law = crack.get("law") if isinstance(crack, dict) else None
     if not isinstance(law, dict):
         return crack
@@ -120,13 +127,13 @@ def _with_law(crack: Any, before: Any) -> Any:
 
 
 def _named(law: str, had: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a law with what the one before had of it, and sample numbers for the rest that it needs."""
+    """Return a law with the fields that it shares with the one before, and sample numbers for the others."""
     needed, allowed = LAW_FIELDS[law]
     kept = {name: had[name] for name in (*needed, *allowed) if name in had}
     return {"name": law, **SAMPLES[law], **kept}
 
 
-def _law(case: Case | None, *, wanted: bool) -> dict[str, Any]:
+def _law(case: Case | None, *, wanted: bool) -> Json:
     """Return the changes from coefficients to a law or back, each with the friction before any slip of the other."""
     if wanted:
         begins = {} if case is None else {"peak_friction": case.crack.mu_static}
@@ -144,8 +151,8 @@ def _at_rest(case: Case | None) -> float:
 
 
 def _between_cracks(case: Case) -> float:
-    """Return where one more crack goes, as a part of the height: the neck, or the middle of the highest part that has
-    none."""
+    """Return where one more crack goes, as a part of the height: the neck, or the middle of the highest part without a
+    crack."""
     _, base, _, crest = case.outline.bounds
     height = float(crest - base)
     taken = sorted({0.0, case.crack.elevation, *(crack.elevation for crack in case.further_cracks), height})

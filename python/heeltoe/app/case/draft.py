@@ -12,11 +12,13 @@ from typing import TYPE_CHECKING, Any
 
 from heeltoe.app.case.files import as_sent, of_this_machine, unsent
 from heeltoe.app.state import Draft
+from heeltoe.base.payload import Json
 from heeltoe.case.changes import apply
 from heeltoe.case.lists import as_blocks
 from heeltoe.case.model import problems
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import harmless
+from heeltoe.units.parse import Acceleration, InSI
 
 if TYPE_CHECKING:
     from heeltoe.app.sessions import Session
@@ -27,7 +29,7 @@ LARGEST, MOST_STEPS = 200_000, 50
 
 
 def draft_of(session: Session) -> Draft:
-    """Return the draft of a tab; where its case was changed elsewhere, with what is another there."""
+    """Return the draft of a tab; where its case was changed elsewhere, with the differences."""
     draft = session.draft
     if draft is None:
         draft = session.draft = Draft(_written_fields(session, session.case), case=session.case)
@@ -41,12 +43,12 @@ def draft_of(session: Session) -> Draft:
     return draft
 
 
-def _written_fields(session: Session, case: Case | None) -> dict[str, Any]:
+def _written_fields(session: Session, case: Case | None) -> Json:
     return as_sent(session, case.model_dump(mode="json", exclude_unset=True)) if case else {}
 
 
-def fields_of(session: Session) -> tuple[dict[str, Any], list[InputError]]:
-    """Return the fields of a tab with what its sliders change, and what is wrong with them."""
+def fields_of(session: Session) -> tuple[dict[str, object], list[InputError]]:
+    """Return the fields of a tab with the changes of its sliders, and their errors."""
     draft = draft_of(session)
     if not session.changes:
         return draft.fields, draft.errors
@@ -55,12 +57,12 @@ def fields_of(session: Session) -> tuple[dict[str, Any], list[InputError]]:
 
 
 def case_of(session: Session) -> Case | None:
-    """Return the case in force, with what the sliders change as far as that can be."""
+    """Return the case in force, with the changes of the sliders that it accepts."""
     case = session.case
     if case is None or not session.changes:
         return case
     try:
-        return case.with_(session.changes)
+        return case.with_numbers(session.changes)
     except InputError:
         return case
 
@@ -92,9 +94,9 @@ def start(session: Session, fields: Mapping[str, Any]) -> None:
     _check(session, draft)
 
 
-def edit(session: Session, changes: Mapping[str, Any], step: object = None) -> None:
+def edit(session: Session, changes: Mapping[str, object], step: object = None) -> None:
     """Change fields by their paths; None takes back what the case says, and a block takes the place of the one there.
-    Whoever changes the case of a tab does it so.
+    All changes of the case of a tab come here.
 
     Raises
     ------
@@ -142,10 +144,10 @@ def _settle(session: Session) -> None:
     _check(session, draft)
 
 
-def _moved(fields: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+def _moved(fields: dict[str, object], changes: Mapping[str, object]) -> Json:
     moved = copy.deepcopy(fields)
     for path, value in changes.items():
-        _set(moved, path, value)
+        _set(moved, path, str(value) if isinstance(value, InSI | Acceleration) else value)
     return moved
 
 
@@ -167,7 +169,7 @@ def _check(session: Session, draft: Draft) -> None:
     draft.case = session.case
 
 
-def _read(session: Session, fields: dict[str, Any]) -> tuple[Case | None, list[InputError]]:
+def _read(session: Session, fields: dict[str, object]) -> tuple[Case | None, list[InputError]]:
     foreign = unsent(session, fields)
     if foreign:
         # Nobody looks for these.
@@ -195,7 +197,7 @@ def _set(fields: dict[str, Any], path: str, value: Any) -> None:
         here.pop(name, None)
 
 
-def valued(fields: dict[str, Any], path: str) -> Any:
+def valued(fields: dict[str, object], path: str) -> Any:
     """Return what stands at a path; None where nothing does."""
     here: Any = fields
     for part in path.split("."):
@@ -203,7 +205,7 @@ def valued(fields: dict[str, Any], path: str) -> Any:
     return here
 
 
-def _plain(fields: Mapping[str, Any]) -> dict[str, Any]:
+def _plain(fields: Mapping[str, object]) -> Json:
     """Return fields of which JSON can say each: dates of TOML and numbers beyond all numbers become texts.
 
     Raises
@@ -216,7 +218,7 @@ def _plain(fields: Mapping[str, Any]) -> dict[str, Any]:
     except (RecursionError, ValueError):
         text = ""
     if not text or len(text) > LARGEST:
-        raise InputError("case-file-large", "case", f"{LARGEST // 1000} kB")
+        raise InputError("too-large", "case", f"{LARGEST // 1000} kB", expected="a case file")
     plain: dict[str, Any] = json.loads(text)
     return plain
 

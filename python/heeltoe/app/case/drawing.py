@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import shapely
 
+from heeltoe.base.payload import Json
 from heeltoe.case.at_crack import anchor_line
 from heeltoe.case.crack.law import Law
 from heeltoe.case.model import Case
@@ -27,7 +28,7 @@ _EVERY = 4
 _KINDS = {"slip path": "displacement", "slip speed": "velocity", "normal stress": "pressure"}
 
 
-def drawing(case: Case, units: str) -> dict[str, Any]:
+def drawing(case: Case, units: str) -> Json:
     """Return the shapes of a case from the back to the front, what is written beside them, and what of the plane is
     seen."""
     left, base, right, crest = case.outline.bounds
@@ -78,7 +79,7 @@ def _lines(case: Case, size: float) -> Iterator[tuple[str, list[list[float]]]]:
         yield "anchor", [list(start), list(end)]
 
 
-def _notes(case: Case, units: str) -> Iterator[dict[str, Any]]:
+def _notes(case: Case, units: str) -> Iterator[dict[str, object]]:
     """Walk what is written in the drawing: slopes of the downstream face, and heel and toe."""
     section, length = case.cut, unit_system(units).scale("length")
     yield {"at": list(section.heel), "text": "heel", "side": "heel"}
@@ -97,7 +98,7 @@ def _notes(case: Case, units: str) -> Iterator[dict[str, Any]]:
     }
 
 
-def law(case: Case, units: str) -> dict[str, Any] | None:
+def law(case: Case, units: str) -> Json | None:
     """Return the curve of the law of a case under its static loads; None where it has no law, or no curve."""
     if case.crack.law is None:
         return None
@@ -107,7 +108,7 @@ def law(case: Case, units: str) -> dict[str, Any] | None:
         return None
 
 
-def _drawn(curve: LawCurve, units: str, samples: list[str]) -> dict[str, Any]:
+def _drawn(curve: LawCurve, units: str, samples: list[str]) -> Json:
     scale = unit_system(units).scale(_KINDS[curve.over], float(curve.at[-1]))
     kept = [*range(0, len(curve.at) - 1, _EVERY), len(curve.at) - 1]
     stress = written("{stress_pa:.3g MPa}", units, stress_pa=curve.normal_stress_pa)

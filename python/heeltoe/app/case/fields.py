@@ -9,8 +9,10 @@ from dataclasses import asdict, dataclass, replace
 from functools import cache
 from typing import Any
 
+from heeltoe.base.payload import Json
 from heeltoe.case.crack.law import LAW_FIELDS
 from heeltoe.case.model import Case
+from heeltoe.case.thesis import THESIS_FIELDS
 from heeltoe.units.parse import DIMENSIONS, parse
 
 # What a plain number means, by the system of units that is chosen; both where there is one alone.
@@ -51,7 +53,7 @@ _CELLS = {
 # Blocks for suites of records, which the page does not run one by one.
 _OF_SUITES = ("motions", "suite")
 # Motions, of which all have the same fields.
-_MOTIONS = re.compile(r"^(motion\.vertical|aftershocks\[\](\.vertical)?)")
+_MOTIONS = re.compile(r"^(motion\.(vertical|cross_valley)|aftershocks\[\](\.(vertical|cross_valley))?)")
 _OF_LISTS = re.compile(r"\[\d+\]")
 
 Schema = Mapping[str, Any]
@@ -84,6 +86,8 @@ class Field:
         Of a list of blocks of several kinds: the fields by the kind, which stands in the first of them.
     only
         The names of its block for which it means something; empty where it does for all.
+    thesis
+        Whether only a comparison with Zhu (2004) needs it: the page shows it where the case sets it.
     """
 
     path: str
@@ -98,6 +102,7 @@ class Field:
     inner: tuple[Field, ...] = ()
     blocks: tuple[tuple[str, tuple[Field, ...]], ...] = ()
     only: tuple[str, ...] = ()
+    thesis: bool = False
 
 
 @dataclass(frozen=True)
@@ -120,7 +125,7 @@ def unit_of(field: Field, units: str) -> str:
     return DIMENSIONS[field.quantity].unit if field.quantity else ""
 
 
-def form(units: str) -> list[dict[str, Any]]:
+def form(units: str) -> list[Json]:
     """Return all blocks as the page shows them, with defaults and examples in the units that are chosen."""
     shown = []
     for block in blocks():
@@ -130,7 +135,7 @@ def form(units: str) -> list[dict[str, Any]]:
     return shown
 
 
-def _shown(field: Field, units: str) -> dict[str, Any]:
+def _shown(field: Field, units: str) -> Json:
     row = asdict(field)
     unit = unit_of(field, units)
     row["unit"] = unit
@@ -231,6 +236,7 @@ def _field(entry: Schema, schema: Schema, path: str, *, needed: bool) -> Field:
     return Field(
         path, _label(path), _description(entry), kind, quantity, choices, _default(default, quantity),
         str(next(iter(meant.get("examples", ())), "")), needed, inner, kinds, _only(path),
+        path in THESIS_FIELDS,
     )  # fmt: skip
 
 
@@ -278,6 +284,8 @@ def _label(path: str) -> str:
     name = path.rpartition(".")[2]
     if path == "motion.vertical":
         return "Vertical motion"
+    if path == "motion.cross_valley":
+        return "Motion across the valley"
     return _LABELS.get(name) or name.replace("_", " ").capitalize()
 
 
@@ -336,7 +344,7 @@ def _cell(entry: object, field: Field, units: str) -> Any:
     return "" if value is None else value
 
 
-def _block(entries: Mapping[str, Any], field: Field, units: str) -> dict[str, Any]:
+def _block(entries: Mapping[str, object], field: Field, units: str) -> Json:
     fields = dict(field.blocks).get(str(entries.get("step")), ()) if field.blocks else field.inner
     known = {field.path.rpartition(".")[2]: field for field in fields}
     made = {name: typed(value, known[name], units) if name in known else value for name, value in entries.items()}

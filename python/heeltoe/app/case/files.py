@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from zipfile import ZIP_DEFLATED, ZipFile
 
+from heeltoe.base.payload import Json
 from heeltoe.case.toml_writer import case_text
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records import catalog
@@ -22,7 +23,11 @@ from heeltoe.motion.records.catalog import PREFIX
 if TYPE_CHECKING:
     from heeltoe.app.sessions import Session
 
-_RECORDS = ("motion.file", "motion.vertical.file", "aftershocks[].file", "aftershocks[].vertical.file")
+_RECORDS = tuple(
+    f"{motion}{component}.file"
+    for motion in ("motion", "aftershocks[]")
+    for component in ("", ".vertical", ".cross_valley")
+)
 _MESHES = ("flexible.mesh_above", "flexible.mesh_below", "section.file")
 _CRITERIA = ("statics.criteria_file",)
 _PLACES = re.compile(r"\[\d+\]")
@@ -45,17 +50,17 @@ def unsent(session: Session, fields: dict[str, Any]) -> list[InputError]:
     return errors
 
 
-def as_sent(session: Session, fields: dict[str, Any]) -> dict[str, Any]:
+def as_sent(session: Session, fields: dict[str, object]) -> Json:
     """Return the fields with the names that the senders of files gave them."""
     return _renamed(fields, {stored: called for called, stored in session.sent.items()})
 
 
-def of_this_machine(session: Session, fields: dict[str, Any]) -> dict[str, Any]:
+def of_this_machine(session: Session, fields: dict[str, object]) -> Json:
     """Return the fields with the names that files have in the folder of the tab."""
     return _renamed(fields, session.sent)
 
 
-def _renamed(fields: dict[str, Any], names: dict[str, str]) -> dict[str, Any]:
+def _renamed(fields: dict[str, Any], names: dict[str, str]) -> Json:
     if not names:
         return fields
     own = copy.deepcopy(fields)
@@ -73,7 +78,7 @@ def named(fields: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any], str]]:
                 yield f"{at}.{name}", block, name
 
 
-def _blocks(here: Any, names: list[str], at: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
+def _blocks(here: Any, names: list[str], at: str = "") -> Iterator[tuple[str, dict[str, object]]]:
     """Walk the blocks at a path, of which a name that ends in ``[]`` is a list, with the path of each."""
     if not isinstance(here, dict):
         return
@@ -101,7 +106,7 @@ def _catalogue() -> frozenset[str]:
 
 
 def sent_files(session: Session) -> dict[str, Path]:
-    """Return the files that a tab has sent, by what they are called."""
+    """Return the files that a tab has sent, by name."""
     return {name: session.folder / stored for name, stored in session.sent.items()}
 
 

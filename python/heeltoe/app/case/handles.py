@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from heeltoe.base.payload import Json
 from heeltoe.case.model import Case
 from heeltoe.units.systems import Scale, unit_system
 
@@ -57,7 +58,7 @@ class Way:
 
 @dataclass(frozen=True)
 class Handle:
-    """What can be dragged; at `at` [m], in one or two directions."""
+    """A point that can be dragged; at `at` [m], in one or two directions."""
 
     name: str
     label: str
@@ -78,9 +79,9 @@ def moved(
     to: Mapping[str, float] = _NOTHING,
     by: Mapping[str, float] = _NOTHING,
     fields: Mapping[str, Any] = _NOTHING,
-) -> dict[str, Any]:
-    """Return what changes in a case, by paths, where a handle is put to x and z [m], or moved by so many steps; nothing
-    where it is not there. `fields` are those of the case as they were typed."""
+) -> Json:
+    """Return what changes in a case, by paths, where a handle is put to x and z [m], or moved by a number of steps;
+    nothing where it does not exist. `fields` are those of the case as they were typed."""
     handle = next((handle for handle in handles(case, units) if handle.name == name), None)
     if handle is None:
         return {}
@@ -100,7 +101,7 @@ def moved(
     return changes
 
 
-def handle_data(handle: Handle) -> dict[str, Any]:
+def handle_data(handle: Handle) -> Json:
     """Return a handle as the page shows it."""
     texts = [f"{way.value:.5g} {way.unit}".strip() for way in handle.ways]
     text = f"x {texts[0]}, z {texts[1]}" if len(texts) > 1 else texts[0]
@@ -118,7 +119,7 @@ def _value(case: Case, way: Way, at: float) -> float:
     return (at - way.start) / way.per_unit
 
 
-def _in_lists(fields: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+def _in_lists(fields: Mapping[str, Any], changes: Mapping[str, Any]) -> Json:
     """Return changes of corners and anchors as changes of the whole lists they stand in."""
     lists: dict[str, Any] = {}
     for path, value in changes.items():

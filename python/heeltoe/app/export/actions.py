@@ -12,14 +12,15 @@ from heeltoe.app.answer import start
 from heeltoe.app.desk import BadRequestError, Desk, Entry, Request, text
 from heeltoe.app.sessions import Session
 from heeltoe.app.transfers import offer
+from heeltoe.base.payload import Json
 
 _NUMBERS = count(1)
 _MADE = "export"
 _ALONE = ("rigid", "decoupled", "flexible")
 
 
-async def look(desk: Desk, request: Request) -> dict[str, Any]:
-    """Return the words that do the same elsewhere, and whether the files that were made are of the case as it is."""
+async def look(desk: Desk, request: Request) -> Json:
+    """Return the command and program that do the same, and whether the files are of the present case."""
     from heeltoe.app.case.draft import case_of
     from heeltoe.app.export.work import RUNS, command, program, wanted_of
     from heeltoe.app.open_case import models_for
@@ -41,7 +42,7 @@ async def look(desk: Desk, request: Request) -> dict[str, Any]:
     }
 
 
-async def make(desk: Desk, request: Request) -> dict[str, Any]:
+async def make(desk: Desk, request: Request) -> Json:
     """Begin to make the files; what was made before goes."""
     from heeltoe.app.case.draft import case_of, fields_in_force
     from heeltoe.app.case.files import lay_out, sent_files
@@ -67,7 +68,7 @@ async def make(desk: Desk, request: Request) -> dict[str, Any]:
     return message
 
 
-async def fetch(desk: Desk, request: Request) -> dict[str, Any]:
+async def fetch(desk: Desk, request: Request) -> Json:
     """Return where a file can be fetched: one of those that were made, by its name among them, or all."""
     from heeltoe.app.export.work import OUT, ZIP, listed
 
@@ -82,7 +83,7 @@ async def fetch(desk: Desk, request: Request) -> dict[str, Any]:
     return offer(desk.session, folder / OUT / name, name.replace("/", "-"))
 
 
-async def case(desk: Desk, request: Request) -> dict[str, Any]:
+async def case(desk: Desk, request: Request) -> Json:
     """Return where the case file can be fetched, in one file with the files that it names if there are any."""
     name, path = await desk.workers.quick(_case_file, desk.session)
     return offer(desk.session, path, name)

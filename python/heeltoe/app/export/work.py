@@ -10,6 +10,7 @@ from typing import Any
 
 from heeltoe.app.case.files import CASE, zipped
 from heeltoe.app.desk import BadRequestError, Request
+from heeltoe.base.payload import Json
 from heeltoe.models.run import AUTO, MODELS
 
 OUT = "result"
@@ -19,7 +20,7 @@ RUNS = (AUTO, *MODELS)
 
 @dataclass(frozen=True)
 class Wanted:
-    """What is to be exported.
+    """Options of an export.
 
     Attributes
     ----------
@@ -105,8 +106,8 @@ def program(options: Wanted) -> str:
 ZIP = "heeltoe.zip"
 
 
-def make(say: Callable[..., None], folder: Path, options: Wanted) -> dict[str, Any]:
-    """Run the case of a folder, write all that is wanted into it, and return what there is."""
+def make(say: Callable[..., None], folder: Path, options: Wanted) -> Json:
+    """Run the case of a folder, write the requested files into it, and return them."""
     from heeltoe.case.read import read_case
     from heeltoe.models.run import cost_of
     from heeltoe.study.small.analysis import analyse
@@ -144,7 +145,7 @@ def _verdict(result: Any, units: str) -> str:
     return verdict(result, units)
 
 
-def listed(folder: Path) -> list[dict[str, Any]]:
+def listed(folder: Path) -> list[Json]:
     """Return the files that were made, by their names below the folder."""
     paths = sorted(path for path in (folder / OUT).rglob("*") if path.is_file() and not path.name.startswith("."))
     return [{"name": path.relative_to(folder / OUT).as_posix(), "bytes": path.stat().st_size} for path in paths]

@@ -11,6 +11,7 @@ from heeltoe.app.motion.sequence import MOST
 from heeltoe.app.sessions import Session
 from heeltoe.app.transfers import forget, upload_path
 from heeltoe.app.workers import WorkerLostError
+from heeltoe.base.payload import Json
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 
@@ -19,12 +20,12 @@ _SLOW = "Reading takes too long, or more memory than there is: it has been ended
 common format."
 
 
-async def begin(desk: Desk, request: Request) -> dict[str, Any]:
+async def begin(desk: Desk, request: Request) -> Json:
     """Return what the page begins with: what can be chosen, and what the case has."""
     return {"of": "motion", **await desk.workers.quick(_begin, desk.session, _place(request))}
 
 
-def _begin(session: Session, place: int) -> dict[str, Any]:
+def _begin(session: Session, place: int) -> Json:
     from heeltoe.app.case.draft import fields_of
     from heeltoe.app.motion.draft import form_of
     from heeltoe.app.motion.sequence import listed
@@ -44,7 +45,7 @@ def _place(request: Request, name: str = "place") -> int:
     return place
 
 
-def _records(session: Session) -> list[dict[str, Any]]:
+def _records(session: Session) -> list[Json]:
     """Return the records that a tab has sent; of a file that another page has taken nothing is known yet."""
     return [{"name": name, "channels": session.records.get(name, [{"channel": ""}])} for name in session.sent]
 
@@ -55,7 +56,7 @@ def _catalogue() -> list[str]:
     return list(dict.fromkeys(name for name, where in available() if (name, where) != MADE_TO_ORDER))
 
 
-async def record(desk: Desk, request: Request) -> dict[str, Any]:
+async def record(desk: Desk, request: Request) -> Json:
     """Read a file that was sent as a record; what is none is thrown away."""
     from heeltoe.app.motion.look import channels
 
@@ -89,15 +90,15 @@ def _free_name(session: Session, called: str) -> str:
     return name
 
 
-async def look(desk: Desk, request: Request) -> dict[str, Any]:
+async def look(desk: Desk, request: Request) -> Json:
     """Return what would shake the dam."""
     from heeltoe.app.motion.look import look as seen
 
     return {"of": "motion look", **await _read(desk, request, seen, desk.session.units)}
 
 
-async def use(desk: Desk, request: Request) -> dict[str, Any]:
-    """Shake the case of the tab by what stands on the page: at the place of one of its motions, or after all."""
+async def use(desk: Desk, request: Request) -> Json:
+    """Put the motion of the page into the case of the tab: in place of one of its motions, or after all."""
     from heeltoe.app.motion.look import refusal
     from heeltoe.app.motion.sequence import listed, with_one
 
@@ -106,7 +107,7 @@ async def use(desk: Desk, request: Request) -> dict[str, Any]:
     if payload:
         return {"of": "motion used", **payload}
 
-    def changes(fields: dict[str, Any]) -> dict[str, Any]:
+    def changes(fields: dict[str, Any]) -> Json:
         if to > min(len(listed(fields)), MOST - 1):
             raise BadRequestError("to is the place of a motion, or that after all")
         return with_one(fields, to, _motion(session, request["form"], place))
@@ -114,14 +115,14 @@ async def use(desk: Desk, request: Request) -> dict[str, Any]:
     return {**await _changed(desk, changes), "place": to}
 
 
-async def change(desk: Desk, request: Request) -> dict[str, Any]:
+async def change(desk: Desk, request: Request) -> Json:
     """Change the list of the case's motions: move one, remove one, or say the pause before it."""
     from heeltoe.app.case.fields import field_of, typed
     from heeltoe.app.motion.sequence import listed, moved, paused, without
 
     session, place, what = desk.session, _place(request), request.get("what")
 
-    def changes(fields: dict[str, Any]) -> dict[str, Any]:
+    def changes(fields: dict[str, Any]) -> Json:
         count = len(listed(fields))
         by = {"up": -1, "down": 1}.get(str(what), 0)
         if not 0 <= place + by < count or not place < count or (what == "pause" and place == 0):
@@ -138,7 +139,7 @@ async def change(desk: Desk, request: Request) -> dict[str, Any]:
     return await _changed(desk, changes)
 
 
-async def _changed(desk: Desk, changes: Callable[[dict[str, Any]], dict[str, Any]]) -> dict[str, Any]:
+async def _changed(desk: Desk, changes: Callable[[dict[str, Any]], dict[str, Any]]) -> Json:
     """Change the motions of the case, and return what keeps that from being in force."""
     from heeltoe.app.case.draft import draft_of, edit, fields_of
     from heeltoe.app.live import refused
@@ -146,17 +147,17 @@ async def _changed(desk: Desk, changes: Callable[[dict[str, Any]], dict[str, Any
 
     session = desk.session
 
-    def changed() -> dict[str, Any]:
+    def changed() -> Json:
         edit(session, changes(fields_of(session)[0]))
         return next(map(refused, draft_of(session).errors), {})
 
     async with session.turn:
-        payload: dict[str, Any] = await desk.workers.quick(changed)
+        payload: Json = await desk.workers.quick(changed)
         await desk.tell(await desk.workers.quick(state, session))
     return {"of": "motion used", **payload}
 
 
-def _motion(session: Session, entry: object, place: int) -> dict[str, Any]:
+def _motion(session: Session, entry: object, place: int) -> Json:
     """Return the motion of a form as a file has it."""
     from heeltoe.app.case.files import as_sent
     from heeltoe.app.motion.draft import motion_fields, read_form
@@ -174,7 +175,7 @@ def _had(session: Session, place: int) -> Any:
     return motions[place] if place < len(motions) else None
 
 
-async def _read(desk: Desk, request: Request, compute: Any, *arguments: Any) -> dict[str, Any]:
+async def _read(desk: Desk, request: Request, compute: Any, *arguments: Any) -> Json:
     """Compute with the case and the motion that the page asks for, where files are read."""
     from heeltoe.app.live import refused
     from heeltoe.app.motion.draft import motion_fields, read_form
@@ -188,7 +189,7 @@ async def _read(desk: Desk, request: Request, compute: Any, *arguments: Any) -> 
         return {"usable": False, "motions": [], **refused(error)}
     read, longest = desk.workers.read, desk.settings.longest_reading_s
     try:
-        payload: dict[str, Any] = await read(longest, compute, session.case, fields, session.folder, *arguments)
+        payload: Json = await read(longest, compute, session.case, fields, session.folder, *arguments)
     except WorkerLostError:
         too_slow = {"field": "motion", "text": _SLOW, "problem": _SLOW, "remedy": ""}
         return {"usable": False, "motions": [], "error": too_slow}

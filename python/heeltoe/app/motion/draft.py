@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from heeltoe.app.case.fields import NUMBER
 from heeltoe.app.case.files import is_catalogued
+from heeltoe.base.payload import Json
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.catalog import PREFIX
 from heeltoe.units.parse import parse
@@ -27,7 +28,7 @@ _OWN = "case"
 Form = Mapping[str, Any]
 
 
-def read_form(entry: object) -> dict[str, Any] | None:
+def read_form(entry: object) -> Json | None:
     """Return what a page says of the motion, None where no page of this app says so."""
     if not isinstance(entry, Mapping):
         return None
@@ -38,7 +39,7 @@ def read_form(entry: object) -> dict[str, Any] | None:
     return {**ways, **cuts}
 
 
-def _way(entry: object) -> dict[str, Any] | None:
+def _way(entry: object) -> Json | None:
     if not isinstance(entry, Mapping) or not entry.get("source"):
         return None
     texts = {name: entry.get(name, "") for name in _TEXTS}
@@ -52,12 +53,12 @@ def motions_of(case: Case | None) -> tuple[Motion, ...]:
     return () if case is None or case.motion is None else (case.motion, *case.aftershocks)
 
 
-def form_of(session: Session, place: int = 0) -> dict[str, Any]:
+def form_of(session: Session, place: int = 0) -> Json:
     """Return what the page begins with: a motion that the case has, where its sliders are."""
     case = session.case
     if case is not None and session.changes:
         with suppress(InputError):
-            case = case.with_(session.changes)
+            case = case.with_numbers(session.changes)
     motions = motions_of(case)
     if place >= len(motions):
         return {"horizontal": {"source": ""}, "vertical": {"source": ""}, "start": "", "end": ""}
@@ -76,12 +77,12 @@ def form_of(session: Session, place: int = 0) -> dict[str, Any]:
     return {**ways, "start": "" if start == "0 s" else start, "end": end}
 
 
-def _window(fields: Form) -> dict[str, Any]:
+def _window(fields: Form) -> Json:
     window: dict[str, Any] = next((step for step in fields.get("processing", ()) if step["step"] == _WINDOW), {})
     return window
 
 
-def motion_fields(form: Form, had: Motion | None, sent: Mapping[str, str]) -> dict[str, Any]:
+def motion_fields(form: Form, had: Motion | None, sent: Mapping[str, str]) -> Json:
     """Return a motion of a case as its file would have it, with the names that files have here; `had` is the one in
     whose place it comes.
 

@@ -1,4 +1,4 @@
-"""What is in a motion, as the page shows it. It is read in a process of its own, which has a limited time."""
+"""A motion as the page shows it. It is read in a separate process, which has a limited time."""
 
 from __future__ import annotations
 
@@ -9,18 +9,20 @@ from typing import Any
 
 from heeltoe.app.live import refused
 from heeltoe.app.response_payload import thinned
+from heeltoe.base.payload import Json
 from heeltoe.case.model import Case
 from heeltoe.case.motion import Source
 from heeltoe.case.shaking import resolve
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
-from heeltoe.motion.check import check_record
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import husid, velocity_displacement
 from heeltoe.motion.records import read_channels, read_record
 from heeltoe.motion.records.catalog import PREFIX, find
+from heeltoe.motion.records.formats.columns import ASKS_FOR_LAYOUT
 from heeltoe.motion.scenario import synthetic
 from heeltoe.motion.spectrum import response_spectrum
+from heeltoe.study.plan.components import component_of
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import unit_system
 from heeltoe.views.animation.page import packed
@@ -29,47 +31,43 @@ from heeltoe.views.words.motion import about_motion, suspicions
 _BINS = 400
 # What a file does not state is told beside it.
 _MENDED_BY = {"record-unit-missing": "unit", "record-step-missing": "time_step"}
+_ASKED_LATER = {"record-unit-missing", "record-factor-of-several", "record-factor", *ASKS_FOR_LAYOUT}
 #: A file of more has its first channels listed; each has a number, by which a case names it.
 MOST_CHANNELS = 60
 
 
-def channels(path: Path, called: str) -> dict[str, Any]:
+def channels(path: Path, called: str) -> Json:
     """Return the channels of a file that was sent, as a page lists them, or why it cannot be read as a record."""
     known = True
     try:
         try:
             motions = read_channels(path)
         except InputError as error:
-            if error.code != "record-unit-missing":
+            if error.code not in _ASKED_LATER:
                 raise
             # It is asked for where the record is used.
-            motions, known = read_channels(path, unit="m/s^2"), False
+            known = False
+            motions = read_channels(path, unit="m/s^2", layout="rows", factor="contain", several=True)
     except InputError as error:
         return refused(_renamed(error, {str(path): called, path.name: called}))
+    several = len(motions) > 1
+    parts = [component_of(replace(motion, name=called), called, several=several) for motion in motions[:MOST_CHANNELS]]
     listed = [
         {
-            "channel": motion.channel if len(motions) > 1 else "",
+            "channel": motion.channel if several else "",
             "component": plain(motion.component),
-            "vertical": _is_vertical(replace(motion, name=called)),
-            "pga": f"{motion.pga / STANDARD_GRAVITY:.3g} g" if known else "in a unit that it does not state",
+            "vertical": part.is_vertical,
+            "earthquake": list(part.earthquake),
+            "pga": f"{motion.pga / STANDARD_GRAVITY:.3g} g" if known else "in a unit or a way that it does not state",
             "duration": f"{motion.duration:.4g} s",
             "format": motion.format,
         }
-        for motion in motions[:MOST_CHANNELS]
+        for motion, part in zip(motions, parts, strict=False)
     ]
     return {"channels": listed}
 
 
-def _is_vertical(motion: GroundMotion) -> bool:
-    try:
-        return any(
-            notice.code == "component-vertical" for notice in check_record(motion, STANDARD_GRAVITY, upward=False)
-        )
-    except InputError:
-        return False
-
-
-def refusal(case: Case, motion: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+def refusal(case: Case, motion: Mapping[str, object], folder: Path) -> Json:
     """Return why a motion cannot be used, read once as an analysis reads it; nothing where it can."""
     try:
         _resolved(case, motion, folder)
@@ -78,18 +76,18 @@ def refusal(case: Case, motion: Mapping[str, Any], folder: Path) -> dict[str, An
     return {}
 
 
-def _resolved(case: Case, motion: Mapping[str, Any], folder: Path) -> tuple[GroundMotion, GroundMotion | None]:
+def _resolved(case: Case, motion: Mapping[str, object], folder: Path) -> tuple[GroundMotion, GroundMotion | None]:
     problem = _with_motion(case, motion, folder)
     assert problem.motion is not None
     return resolve(problem.motion, problem.gravity, problem.base_directory)
 
 
-def _with_motion(case: Case, motion: Mapping[str, Any], folder: Path) -> Case:
+def _with_motion(case: Case, motion: Mapping[str, object], folder: Path) -> Case:
     fields = case.model_dump(mode="json", exclude_unset=True)
     return Case.of({**fields, "motion": dict(motion)}, folder)
 
 
-def look(case: Case, motion: Mapping[str, Any], folder: Path, units: str) -> dict[str, Any]:
+def look(case: Case, motion: Mapping[str, Any], folder: Path, units: str) -> Json:
     """Return what would shake a case: as an analysis takes it, or, where that cannot be, each record as it was read and
     why it cannot be used."""
     try:
@@ -106,7 +104,7 @@ def look(case: Case, motion: Mapping[str, Any], folder: Path, units: str) -> dic
 _SOME_STEP = "0.01 s"
 
 
-def _asks_for_both(case: Case, motion: Mapping[str, Any], folder: Path, error: InputError) -> dict[str, Any]:
+def _asks_for_both(case: Case, motion: Mapping[str, Any], folder: Path, error: InputError) -> Json:
     """Return the question for unit and time step at once, of a file that states neither; nothing of another."""
     if error.code != "record-step-missing":
         return {}
@@ -126,7 +124,7 @@ def _asks_for_both(case: Case, motion: Mapping[str, Any], folder: Path, error: I
 
 
 def _as_read(source: Mapping[str, Any] | None, gravity: float, folder: Path) -> GroundMotion | None:
-    """Return a record with the likeliest unit and step where nobody says them; None where it cannot be read at all."""
+    """Return a record with the likeliest unit and step where they are missing; None where it cannot be read at all."""
     if source is None:
         return None
     try:
@@ -146,7 +144,7 @@ def _as_read(source: Mapping[str, Any] | None, gravity: float, folder: Path) -> 
         return None
 
 
-def _shown(motions: list[GroundMotion | None], gravity: float, units: str, *, doubts: bool) -> list[dict[str, Any]]:
+def _shown(motions: list[GroundMotion | None], gravity: float, units: str, *, doubts: bool) -> list[Json]:
     ways = ("horizontal", "vertical")
     return [
         {"way": way, **drawn_motion(motion, gravity, units, doubts=doubts)}
@@ -155,7 +153,7 @@ def _shown(motions: list[GroundMotion | None], gravity: float, units: str, *, do
     ]
 
 
-def drawn_motion(motion: GroundMotion, gravity: float, units: str, *, doubts: bool) -> dict[str, Any]:
+def drawn_motion(motion: GroundMotion, gravity: float, units: str, *, doubts: bool) -> Json:
     """Return facts, warnings and curves of a motion; with `doubts`, also what an analysis would say about it."""
     warnings = [warning.text(units) for warning in motion.warnings]
     if doubts:

@@ -1,7 +1,7 @@
 /** The sliders of the answer, each with a field for the exact number. */
 import { element } from "./dom.js";
 
-/** @typedef {{path: string, label: string, least: number, most: number, step: number, value: number, unit: string, off: string}} Slider */
+/** @typedef {{path: string, label: string, least: number, most: number, step: number, value: number, unit: string, off: string, si: number}} Slider */
 
 const DRAINS = "uplift.drain_efficiency";
 

@@ -5,26 +5,26 @@ from __future__ import annotations
 import shutil
 from functools import partial
 from itertools import count
-from typing import Any
 
 from heeltoe.app.answer import aside, start
 from heeltoe.app.desk import BadRequestError, Desk, Entry, Request, number, text
 from heeltoe.app.sessions import Session
 from heeltoe.app.state import Made
 from heeltoe.app.transfers import offer
+from heeltoe.base.payload import Json
 from heeltoe.errors.error import InputError
 
 _NUMBERS = count(1)
 
 
-async def form(desk: Desk, request: Request) -> dict[str, Any]:
+async def form(desk: Desk, request: Request) -> Json:
     """Return what a study can be made of, and the studies there are."""
     from heeltoe.app.studies.draft import choices
 
     return {"of": "study form", "choices": await desk.workers.quick(choices, desk.session), **_listed(desk.session)}
 
 
-async def look(desk: Desk, request: Request) -> dict[str, Any]:
+async def look(desk: Desk, request: Request) -> Json:
     """Return how many runs the study of the form has, and about how long they take; or what is wrong with it."""
     from heeltoe.app.live import refused
     from heeltoe.app.studies.draft import study_of_form
@@ -39,7 +39,7 @@ async def look(desk: Desk, request: Request) -> dict[str, Any]:
     return {"of": "study look", **payload}
 
 
-async def run(desk: Desk, request: Request) -> dict[str, Any]:
+async def run(desk: Desk, request: Request) -> Json:
     """Run the study of the form, or go on with one that was cancelled."""
     from heeltoe.app.studies.work import run as work
 
@@ -56,7 +56,9 @@ async def run(desk: Desk, request: Request) -> dict[str, Any]:
         if not again:
             await desk.workers.quick(partial(shutil.rmtree, ignore_errors=True), made.folder)
         return {"of": "study refused", "text": job["text"]}
-    made.job = job["number"]
+    number = job["number"]
+    assert isinstance(number, int)
+    made.job = number
     session.studies[made.number] = made
     await desk.tell(job)
     return {"of": "studies", **_listed(session)}
@@ -91,7 +93,7 @@ async def _laid(desk: Desk, request: Request) -> Made:
     return Made(number, str(title), folder, 0)
 
 
-async def remove(desk: Desk, request: Request) -> dict[str, Any]:
+async def remove(desk: Desk, request: Request) -> Json:
     """Remove a study with its runs."""
     session = desk.session
     made = _made(session, request)
@@ -101,7 +103,7 @@ async def remove(desk: Desk, request: Request) -> dict[str, Any]:
     return {"of": "studies", **_listed(session)}
 
 
-async def answers(desk: Desk, request: Request) -> dict[str, Any]:
+async def answers(desk: Desk, request: Request) -> Json:
     """Return what a study says, with its figures, as far as it has come."""
     from heeltoe.app.studies.work import answers as work
     from heeltoe.app.studies.work import kept_answers
@@ -113,7 +115,7 @@ async def answers(desk: Desk, request: Request) -> dict[str, Any]:
     return {"of": "study answers", "number": made.number, **payload}
 
 
-async def download(desk: Desk, request: Request) -> dict[str, Any]:
+async def download(desk: Desk, request: Request) -> Json:
     """Return where something of a study can be fetched."""
     from heeltoe.app.studies.work import STUDY, packed
 
@@ -135,7 +137,7 @@ def _made(session: Session, request: Request) -> Made:
     return made
 
 
-def _listed(session: Session) -> dict[str, Any]:
+def _listed(session: Session) -> Json:
     return {
         "studies": [
             {"number": study.number, "title": study.title, "job": session.jobs[study.job].payload()}

@@ -1,9 +1,9 @@
-"""What the form of a study says, as a study file would have it."""
+"""The form of a study as the fields of a study file."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
@@ -12,12 +12,14 @@ from heeltoe.app.case.fields import blocks, field_of, in_unit, typed, unit_of
 from heeltoe.app.case.files import sent_files
 from heeltoe.app.desk import BadRequestError
 from heeltoe.app.open_case import models_for
+from heeltoe.base.payload import Json
 from heeltoe.case.paths import value_of
 from heeltoe.case.suite import SuiteRule
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.catalog import MADE_TO_ORDER, PREFIX, available
 from heeltoe.motion.scenario import order_of, scenario_parameters
 from heeltoe.motion.targets import STANDARDS
+from heeltoe.study.plan.components import CHANNEL, Component, components_of, grouped
 from heeltoe.study.plan.file import Distribution, Measure, Method, Model, Scale
 
 if TYPE_CHECKING:
@@ -31,13 +33,9 @@ _KINDS = tuple(get_args(Distribution.model_fields["distribution"].annotation))
 #: What the form calls the study that is a suite of records, among the methods.
 SUITE = "suite"
 _LIMITS = ("residual_slip", "peak_slip", "opening", "rotation", "cracked_length")
-# What tells components of one event in the catalogue apart stands before these.
-_SOURCE = re.compile(r"-nga2?$")
-_VERTICAL = re.compile(r"up|down|ud|ver|vert|vertical", re.IGNORECASE)
-_LAST = re.compile(r"(.+)[-_ .]([^-_ .]+)")
 
 
-def choices(session: Session) -> dict[str, Any]:
+def choices(session: Session) -> Json:
     """Return what can be chosen in the form."""
     case = case_of(session)
     models = ["rigid"] if case is None else models_for(case)["models"]
@@ -60,7 +58,7 @@ def choices(session: Session) -> dict[str, Any]:
     }
 
 
-def _suite_of(case: Case) -> dict[str, Any]:
+def _suite_of(case: Case) -> Json:
     """Return how a form with the suite of a case is filled in."""
     rule = case.suite
     strength = {name: str(value) for name in ("pga", "sa") if (value := getattr(rule, name)) is not None}
@@ -87,7 +85,7 @@ def _fields() -> list[tuple[Any, Field]]:
     ]
 
 
-def _shown(field: Field, block: str, case: Case | None, units: str) -> dict[str, Any]:
+def _shown(field: Field, block: str, case: Case | None, units: str) -> Json:
     value = None if case is None else value_of(case, field.path)
     now = "" if value is None else str(value)
     if field.quantity and isinstance(value, float):
@@ -96,25 +94,39 @@ def _shown(field: Field, block: str, case: Case | None, units: str) -> dict[str,
     return row | {"unit": unit_of(field, units), "choices": list(field.choices), "drawn": bool(field.quantity)}
 
 
-def _records(session: Session) -> list[dict[str, Any]]:
+def _records(session: Session) -> list[Json]:
     """Return the records there are, in groups of one event each."""
-    names = [*session.sent, *(name for name, _ in available() if (name, _) != MADE_TO_ORDER)]
-    groups: dict[str, list[str]] = {}
-    for name in dict.fromkeys(names):
-        groups.setdefault(_parts(name)[0], []).append(name)
+    groups = [*grouped(_components(session)), *grouped(_catalogued())]
     return [
-        {"event": event, "records": [{"name": name, "vertical": _is_vertical(name)} for name in names]}
-        for event, names in groups.items()
+        {
+            "event": group.name,
+            "records": [
+                {"name": part.file, "vertical": part.is_vertical} for part in (*group.horizontal, *group.vertical)
+            ],
+        }
+        for group in groups
     ]
 
 
-def _parts(name: str) -> tuple[str, str]:
-    match = _LAST.fullmatch(_SOURCE.sub("", name.rpartition(".")[0] if name.count(".") == 1 else name))
-    return (match[1], match[2]) if match else (name, "")
+def _components(session: Session) -> list[Component]:
+    """Return the components of earthquakes in the files that a tab has sent, by what they say."""
+    return [
+        Component(
+            name,
+            f"{name}{CHANNEL}{channel['channel']}" if channel["channel"] else name,
+            channel.get("vertical", False),
+            tuple(channel.get("earthquake", ())),
+        )
+        for name in session.sent
+        for channel in session.records.get(name, [{"channel": ""}])
+    ]
 
 
-def _is_vertical(name: str) -> bool:
-    return bool(_VERTICAL.fullmatch(_parts(name)[1]))
+@cache
+def _catalogued() -> tuple[Component, ...]:
+    """Return those of the catalogue."""
+    names = dict.fromkeys(name for name, where in available() if (name, where) != MADE_TO_ORDER)
+    return tuple(components_of(list(names), Path()))
 
 
 def study_of_form(request: object, session: Session) -> tuple[dict[str, Any], dict[str, Any], dict[str, Path]]:
@@ -148,7 +160,7 @@ def study_of_form(request: object, session: Session) -> tuple[dict[str, Any], di
     return case, study, sent_files(session)
 
 
-def _varied(form: Mapping[str, Any], units: str) -> dict[str, Any]:
+def _varied(form: Mapping[str, Any], units: str) -> Json:
     """Return what varies, how, and the limits of the curves: all that a suite of records does without."""
     content: dict[str, Any] = {"method": _text(form, "method")}
     for name in ("samples", "seed"):
@@ -168,7 +180,7 @@ def _varied(form: Mapping[str, Any], units: str) -> dict[str, Any]:
     return content
 
 
-def _vary(rows: list[Any], units: str) -> dict[str, Any]:
+def _vary(rows: list[Any], units: str) -> Json:
     axes: dict[str, Any] = {}
     for row in map(_mapping, rows):
         path = _text(row, "path")
@@ -176,7 +188,7 @@ def _vary(rows: list[Any], units: str) -> dict[str, Any]:
         if field is None or path not in {known.path for _, known in _fields()}:
             raise BadRequestError("path is a field that can vary")
         if path in axes:
-            raise InputError("study-twice", f"vary.{path}", path)
+            raise InputError("listed-twice", f"vary.{path}", path)
         kind = _text(row, "kind")
         if kind == "list":
             axes[path] = [typed(value, field, units) for value in _split(_text(row, "values"))]
@@ -190,7 +202,7 @@ def _vary(rows: list[Any], units: str) -> dict[str, Any]:
 
 
 def _correlation(text: str) -> list[list[str | float]]:
-    """Return pairs of fields with what they have to do with each other."""
+    """Return pairs of fields with their correlation."""
     pairs = [[part.strip() for part in pair.split(",")] for pair in text.split(";") if pair.strip()]
     return [[*parts[:2], *map(_numeric, parts[2:])] for parts in pairs]
 
@@ -203,7 +215,7 @@ def _numbers() -> tuple[str, ...]:
     )
 
 
-def _motions(form: Mapping[str, Any], session: Session, *, suite: bool) -> dict[str, Any]:
+def _motions(form: Mapping[str, Any], session: Session, *, suite: bool) -> Json:
     scale = _scale(form)
     chosen = _words(form, "records", MOST_RECORDS)
     if _text(form, "source") == "case":
@@ -211,15 +223,21 @@ def _motions(form: Mapping[str, Any], session: Session, *, suite: bool) -> dict[
             return {}
         events, chosen, read = _own(session, suite=suite)
     else:
-        read = {name: _text(form, f"motions.{name}").strip() for name in ("unit", "time_step")}
-        events = _events(chosen, vertical=bool(form.get("vertical")))
+        read = {name: _text(form, f"motions.{name}").strip() for name in ("unit", "time_step", "layout", "factor")}
+        corners = {name: _text(form, f"motions.{name}").strip() for name in ("low", "high")}
+        if any(corners.values()):
+            corners = {name: f"{value} Hz" if _is_number(value) else value for name, value in corners.items() if value}
+            read["processing"] = [{"step": "band-pass", **corners}]
+        events = _events(chosen, session, vertical=bool(form.get("vertical")))
         # Each order is an earthquake of its own, whatever its name ends with.
         ordered = [name.strip() for name in _text(form, "ordered").split(";") if name.strip()]
-        events += [*({"horizontal": [name]} for name in ordered), *_scenario(form)]
+        events += [{"horizontal": [name]} for name in ordered]
+        events += _scenario(form)
         if not events:
             raise InputError("study-motions", "motions")
         chosen += ordered
     known = {name for name, _ in available()} | session.sent.keys()
+    known |= {part.file for part in (*_components(session), *_catalogued())}
     for name in chosen:
         if name not in known and not name.startswith(PREFIX):
             raise InputError("record-not-found", "motions", name, hint="choose one of those shown;")
@@ -235,14 +253,14 @@ def _motions(form: Mapping[str, Any], session: Session, *, suite: bool) -> dict[
     return motions
 
 
-def _scenario(form: Mapping[str, Any]) -> list[dict[str, Any]]:
+def _scenario(form: Mapping[str, object]) -> list[Json]:
     """Return motions made to order for one magnitude and distance, each with its seed; none where not asked."""
     magnitude, distance = (_text(form, f"scenario.{name}").strip() for name in ("magnitude", "distance"))
     if not (magnitude or distance):
         return []
     count = _whole(_text(form, "scenario.count").strip() or "1")
     if not isinstance(count, int) or not 1 <= count <= MOST_RECORDS:
-        raise InputError("study-scenario-count", "scenario.count", count, most=MOST_RECORDS)
+        raise InputError("out-of-range", "scenario.count", count, bound=f"from 1 to {MOST_RECORDS}")
     far = distance.removesuffix("km").strip()
     parts = [*([f"M{magnitude}"] if magnitude else []), *([f"{far}km"] if far else [])]
     names = [f"{PREFIX}{','.join(parts)},seed={seed},scatter=yes" for seed in range(1, count + 1)]
@@ -281,7 +299,10 @@ def _own(session: Session, *, suite: bool) -> tuple[list[dict[str, Any]], list[s
         events.append({"horizontal": own[:1], **({"vertical": own[1]} if own[1:] else {})})
         names += own
     read = case.suite if suite else case.motion
-    how = {} if read is None else {"unit": read.unit, "time_step": _seconds(read.time_step)}
+    how: dict[str, Any] = {} if read is None else {"unit": read.unit, "time_step": _seconds(read.time_step)}
+    if suite:
+        steps = [step.model_dump(mode="json", exclude_unset=True) for step in case.suite.processing]
+        how |= {"layout": case.suite.layout, "factor": case.suite.factor, "processing": steps}
     return events, names, how
 
 
@@ -294,19 +315,20 @@ def _spectrum(form: Mapping[str, Any], path: str) -> dict[str, str]:
     return spectrum
 
 
-def _events(names: list[str], *, vertical: bool) -> list[dict[str, Any]]:
-    events: dict[str, dict[str, Any]] = {}
-    for name in names:
-        event = events.setdefault(_parts(name)[0], {"name": _parts(name)[0], "horizontal": []})
-        if _is_vertical(name):
-            if vertical:
-                event["vertical"] = name
-        else:
-            event["horizontal"].append(name)
-    return list(events.values())
+def _events(names: list[str], session: Session, *, vertical: bool) -> list[Json]:
+    """Return records as events with their components, as a folder of them has."""
+    known = {part.file: part for part in (*_catalogued(), *_components(session))}
+    parts = [known.get(name, Component(name, name, is_vertical=False)) for name in names]
+    events: list[Json] = []
+    for group in grouped(parts):
+        # Alone, a vertical component is what the user asks for; it is warned of.
+        level = [part.file for part in group.horizontal or group.vertical]
+        up = group.vertical[0].file if vertical and group.horizontal and group.vertical else None
+        events.append({"name": group.name, "horizontal": level, **({} if up is None else {"vertical": up})})
+    return events
 
 
-def _scale(form: Mapping[str, Any]) -> dict[str, Any]:
+def _scale(form: Mapping[str, object]) -> Json:
     measure = _text(form, "scale.measure")
     if not measure:
         return {}
@@ -316,9 +338,13 @@ def _scale(form: Mapping[str, Any]) -> dict[str, Any]:
     return {"measure": measure, "values": values, **_filled(form, "scale.period", "period")}
 
 
-def _filled(form: Mapping[str, Any], name: str, called: str) -> dict[str, str]:
+def _filled(form: Mapping[str, object], name: str, called: str) -> dict[str, str]:
     text = _text(form, name).strip()
     return {called: text} if text else {}
+
+
+def _is_number(text: str) -> bool:
+    return isinstance(_numeric(text), float)
 
 
 def _numeric(text: str) -> str | float:
@@ -347,7 +373,7 @@ def _mapping(entry: object) -> Mapping[str, Any]:
     return entry
 
 
-def _list(form: Mapping[str, Any], name: str, limit: int) -> list[Any]:
+def _list(form: Mapping[str, object], name: str, limit: int) -> list[Any]:
     entries = form.get(name, [])
     if not isinstance(entries, list):
         raise BadRequestError(f"{name} is a list")

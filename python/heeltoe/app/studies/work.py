@@ -1,4 +1,4 @@
-"""What of a study is computed, never in the process of the server, and its report as plain blocks for the page."""
+"""Computation of a study, never in the process of the server, and its report as plain blocks for the page."""
 
 from __future__ import annotations
 
@@ -7,15 +7,18 @@ import copy
 import json
 import os
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.app.case.files import Sent, copied, lay_out, zipped
 from heeltoe.app.live import refused
+from heeltoe.base.payload import Json
 from heeltoe.case.toml_writer import toml_text
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import harmless
+from heeltoe.motion.records.formats.columns import ASKS_FOR_LAYOUT
+from heeltoe.study.plan.components import CHANNEL
 from heeltoe.study.plan.file import Study, read_study
 from heeltoe.views.content.tree import (
     Block,
@@ -34,13 +37,20 @@ from heeltoe.views.content.tree import (
 from heeltoe.views.words.numbers import Value
 
 if TYPE_CHECKING:
+    from heeltoe.study.answers.suite import SuiteAnswer
     from heeltoe.study.plan.plan import Plan
     from heeltoe.study.run.run import Progress
 
 STUDY, OUT = "study.toml", "study"
 _CORES = os.cpu_count() or 1
 # Where a form asks for what a record does not state, by the code of the error.
-_UNSTATED = {"record-unit-missing": "motions.unit", "record-step-missing": "motions.time_step"}
+_UNSTATED = {
+    "record-unit-missing": "motions.unit",
+    "record-step-missing": "motions.time_step",
+    "record-factor-of-several": "motions.factor",
+    "record-uncorrected": "motions.processing",
+    **dict.fromkeys(ASKS_FOR_LAYOUT, "motions.layout"),
+}
 Fields = dict[str, Any]
 # The case, a study as its file has it, and the files that were sent, of which the last names some.
 StudyRequest = tuple[Fields, Fields, Sent]
@@ -48,7 +58,7 @@ _HEAD = "# A study for heeltoe: many runs of the dam in case.toml."
 
 
 def lay_study(case: Fields, study: Fields, sent: Sent, folder: Path) -> Study:
-    """Write a study with its case and its records into a folder that has none, and read it.
+    """Write a study with its case and its records into a new folder, and read it.
 
     Raises
     ------
@@ -59,7 +69,12 @@ def lay_study(case: Fields, study: Fields, sent: Sent, folder: Path) -> Study:
     lay_out(case, sent, folder, listed=False)
     events = study.get("motions", {}).get("events", ())
     names_of_records = [name for event in events for name in (*event["horizontal"], event.get("vertical"))]
-    names = {name: copied(sent[name], name, folder) for name in dict.fromkeys(names_of_records) if name in sent}
+    copies, names = dict[str, str](), dict[str, str]()
+    for name in dict.fromkeys(names_of_records):
+        file, sign, channel = (name, "", "") if name in sent else str(name).rpartition(CHANNEL)
+        if file in sent:
+            copies[file] = copies.get(file) or copied(sent[file], file, folder)
+            names[name] = f"{copies[file]}{sign}{channel}"
     for event in events:
         event["horizontal"] = [names.get(name, name) for name in event["horizontal"]]
         if "vertical" in event:
@@ -68,7 +83,7 @@ def lay_study(case: Fields, study: Fields, sent: Sent, folder: Path) -> Study:
     return read_study(folder / STUDY)
 
 
-def look(request: StudyRequest, folder: Path, limit: int) -> dict[str, Any]:
+def look(request: StudyRequest, folder: Path, limit: int) -> Json:
     """Return how many runs a study has and about how long they take, or what is wrong with it."""
     case, study, sent = request
     try:
@@ -78,9 +93,9 @@ def look(request: StudyRequest, folder: Path, limit: int) -> dict[str, Any]:
         return refused(error) if error.code not in _UNSTATED else _asked(request, folder, limit, error)
 
 
-def _asked(request: StudyRequest, folder: Path, limit: int, error: InputError) -> dict[str, Any]:
-    """Return the question for what a record does not state, at its field; for unit and time step at once of one that
-    states neither."""
+def _asked(request: StudyRequest, folder: Path, limit: int, error: InputError) -> Json:
+    """Return the question for a missing entry of a record, at its field; for unit and time step at once where both are
+    missing."""
     (case, study, sent), record = request, error.field
     error.field = _UNSTATED[error.code]
     if error.code == "record-step-missing":
@@ -124,7 +139,7 @@ def _outlook(plan: Plan) -> str:
     return outlook_text(quick_outlook(plan, _CORES))
 
 
-def run(say: Callable[..., None], folder: Path, resume: bool, units: str) -> dict[str, Any]:
+def run(say: Callable[..., None], folder: Path, resume: bool, units: str) -> Json:
     """Run a study, or what is left of it, and write what it says."""
     from heeltoe.study.run.run import run_study
     from heeltoe.views.terminal.study import outlook_text, progress_text
@@ -148,7 +163,7 @@ def run(say: Callable[..., None], folder: Path, resume: bool, units: str) -> dic
     return {}
 
 
-def answers(folder: Path, units: str) -> dict[str, Any]:
+def answers(folder: Path, units: str) -> Json:
     """Return what a study says, as far as it has come, and keep it beside its runs."""
     from heeltoe.study.answers.study_results import open_study
     from heeltoe.views.content.study import study_document, study_subject
@@ -168,38 +183,30 @@ def answers(folder: Path, units: str) -> dict[str, Any]:
     return payload
 
 
-def _headlines(suite: Mapping[str, Any] | None, units: str) -> list[dict[str, Any]]:
+def _headlines(suite: SuiteAnswer | None, units: str) -> list[Json]:
     """Return what a reader looks for first in a suite, model by model: the number that is judged, and its limit."""
     from heeltoe.app.response_payload import judged
-    from heeltoe.result.judge import LimitCheck
+    from heeltoe.result.contract import RESIDUAL_SLIP
     from heeltoe.views.words.studies import JUDGED
 
     headlines = list[dict[str, Any]]()
     if suite is None:
         return headlines
-    for row in suite["models"]:
-        slip, by = row["statistics"]["residual_slip_m"][suite["judge"]], JUDGED[suite["judge"]]
-        checks = [
-            LimitCheck(
-                failed=False,
-                **{name: check[name] for name in ("name", "value", "allowed", "uncertainty", "elevation_m")},
-            )
-            for check in row["limits"]
-            if check["value"] is not None
-        ]
-        if slip is None or len(checks) < len(row["limits"]):
-            headline = {"value": "No result", "label": "", "limit": "", "state": "failed", "limits": []}
-            headline["label"] = "in every record: the dam fails, or a run has none"
+    for row in suite.models:
+        slip, by = row.statistics[RESIDUAL_SLIP.key][suite.judge], JUDGED[suite.judge]
+        if slip is None or any(check.value is None for check in row.limits):
+            why = "in every record: the dam fails, or a run has none"
+            headline: Json = {"value": "No result", "label": why, "limit": "", "state": "failed", "limits": []}
         else:
-            headline = judged(checks, slip, "residual slip", units, f", {by}")
-        headlines.append({"model": row["model"], **headline})
+            headline = judged(row.limits, slip, "residual slip", units, f", {by}")
+        headlines.append({"model": row.model, **headline})
     return headlines
 
 
-def kept_answers(folder: Path, units: str) -> dict[str, Any] | None:
-    """Return what a study has said in these units; None where that is not there."""
+def kept_answers(folder: Path, units: str) -> Json | None:
+    """Return the stored answer of a study in these units; None without one."""
     try:
-        payload: dict[str, Any] = json.loads((folder / f"answers-{units}.json").read_text(encoding="utf-8"))
+        payload: Json = json.loads((folder / f"answers-{units}.json").read_text(encoding="utf-8"))
     except FileNotFoundError:
         return None
     return payload
@@ -263,16 +270,16 @@ def _csv(results: Any, folder: Path) -> Path:
     return path
 
 
-def document_payload(document: Document) -> dict[str, Any]:
+def document_payload(document: Document) -> Json:
     """Return a document; what a page does not show, as references and appendices, is left out."""
     return {"title": document.title, "subtitle": document.subtitle, "blocks": _blocks(document.blocks)}
 
 
-def _blocks(blocks: tuple[Block, ...]) -> list[dict[str, Any]]:
+def _blocks(blocks: tuple[Block, ...]) -> list[Json]:
     return [content for content in map(_block, blocks) if content]
 
 
-def _block(block: Block) -> dict[str, Any]:
+def _block(block: Block) -> Json:
     if isinstance(block, Section):
         if block.title.startswith("Appendix"):
             return {}

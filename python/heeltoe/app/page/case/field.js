@@ -1,7 +1,7 @@
 /** One field of the form: its control, its meaning, and what is wrong with it. */
 import { element } from "../dom.js";
 
-/** @typedef {{path: string, label: string, meaning: string, kind: string, choices: string[], default: string, example: string, unit: string, needed: boolean, inner: FieldOf[], blocks: Record<string, FieldOf[]>, only: string[]}} FieldOf */
+/** @typedef {{path: string, label: string, meaning: string, kind: string, choices: string[], default: string, example: string, unit: string, needed: boolean, inner: FieldOf[], blocks: Record<string, FieldOf[]>, only: string[], thesis: boolean}} FieldOf */
 /** @typedef {{root: HTMLElement, update: (value: any) => void}} Control */
 
 const LONGEST = 500;

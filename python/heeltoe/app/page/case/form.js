@@ -124,7 +124,7 @@ export class CaseForm {
     for (const [field, control] of this.controls) {
       const value = valueAt(this.state.fields, field.path);
       control.update(value);
-      control.root.hidden = isForeign(field, valueAt(this.state.fields, field.path.slice(0, Math.max(field.path.lastIndexOf("."), 0))), value);
+      control.root.hidden = (field.thesis && value === undefined) || isForeign(field, valueAt(this.state.fields, field.path.slice(0, Math.max(field.path.lastIndexOf("."), 0))), value);
     }
     for (const { block, body, toggle } of this.blocks) {
       const present = valueAt(this.state.fields, block.path) !== undefined;

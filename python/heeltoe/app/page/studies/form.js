@@ -99,7 +99,7 @@ export class StudyForm {
         { class: "of-records" },
         element("p", { class: "in-line" }, this.chosen, element("button", { type: "button", class: "link", onclick: () => this._choose(true) }, "all that are horizontal"), element("button", { type: "button", class: "link", onclick: () => this._choose(false) }, "none")),
         element("div", { class: "records", tabindex: "0", role: "group", "aria-label": "Records" }, ...groups),
-        element("p", { class: "faint" }, "Records whose names differ only in their last part belong to one event."),
+        element("p", { class: "faint" }, "Components of one event follow from what the records say of station, time and direction, and where they say nothing from their names."),
         this.folder.root,
         element(
           "div",
@@ -108,6 +108,13 @@ export class StudyForm {
         ),
         this._field("ordered", "Other orders", "as synthetic:M6.5,20km,seed=1,fault=reverse; several with ; between them"),
         element("div", { class: "pair" }, this._field("motions.unit", "Unit", "of files that do not state it", "g"), this._field("motions.time_step", "Time step", "of files that do not state it", "0.01 s")),
+        element(
+          "div",
+          { class: "pair" },
+          this._select("motions.layout", "Values of plain tables", [["", "as their headers say"], ["rows", "along the rows"], ["columns", "down the columns"]]),
+          this._select("motions.factor", "Factors in headers", [["", "none"], ["multiply", "multiply by them"], ["divide", "divide by them"], ["contain", "the values contain them"]]),
+        ),
+        element("div", { class: "pair" }, this._field("motions.low", "Band-pass from", "corrects records that are uncorrected", "0.1 Hz", "motions.processing"), this._field("motions.high", "Up to", "", "25 Hz")),
         element("div", { class: "ticks" }, this._tick("pairs", "horizontal components in pairs"), this._tick("vertical", "with vertical components"), this._tick("every", "every dam meets every motion")),
       ),
       element("div", { class: "ticks" }, this._tick("both_signs", "each motion both ways round")),
