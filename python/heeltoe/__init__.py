@@ -26,18 +26,22 @@ _HOME = {
     "dam_periods": "models.flexible.body.periods",
     "decoupled": "models.run",
     "en_1998": "motion.targets",
+    "fit_laws": "mechanics.law_fit",
     "flexible": "models.run",
     "match": "motion.matching",
     "open_study": "study.answers.study_results",
     "overturning_map": "study.small.overturning",
     "read_case": "case.read",
     "read_channels": "motion.records",
+    "read_levels": "study.plan.levels",
     "read_record": "motion.records",
+    "read_shear_tests": "mechanics.shear_tests",
     "read_study": "study.plan.file",
     "response_spectrum": "motion.spectrum",
     "rigid": "models.run",
     "rigid_many": "models.rigid.many",
     "run": "models.run",
+    "run_levels": "study.run.levels",
     "run_study": "study.run.run",
     "run_suite": "study.run.suite",
     "solve": "study.small.solve",
@@ -61,6 +65,8 @@ if TYPE_CHECKING:
     from heeltoe.errors.error import InputError as InputError
     from heeltoe.mechanics.block import Block as Block
     from heeltoe.mechanics.block import build_block as build_block
+    from heeltoe.mechanics.law_fit import fit_laws as fit_laws
+    from heeltoe.mechanics.shear_tests import read_shear_tests as read_shear_tests
     from heeltoe.models.flexible.body.periods import DamPeriods as DamPeriods
     from heeltoe.models.flexible.body.periods import dam_periods as dam_periods
     from heeltoe.models.flexible.body.reduced import FlexibleDam as FlexibleDam
@@ -86,6 +92,8 @@ if TYPE_CHECKING:
     from heeltoe.result.verdict import verdict as verdict
     from heeltoe.study.answers.study_results import open_study as open_study
     from heeltoe.study.plan.file import read_study as read_study
+    from heeltoe.study.plan.levels import read_levels as read_levels
+    from heeltoe.study.run.levels import run_levels as run_levels
     from heeltoe.study.run.run import run_study as run_study
     from heeltoe.study.run.suite import run_suite as run_suite
     from heeltoe.study.small.overturning import overturning_map as overturning_map

@@ -133,7 +133,7 @@ def test_how_values_run_and_what_they_are_multiplied_by_can_be_said(records):
     (records / "rows.txt").write_text(f"scale factor: 0.5\nunits: gal\ndt: 0.01 s\n{rows}\n")
     refused = command("motion", "rows.txt", cwd=records)
     assert refused.returncode == 2
-    assert 'motion.layout = "rows"' in " ".join(refused.stderr.split())
+    assert 'say in --layout "rows"' in " ".join(refused.stderr.split())
     assert command("motion", "rows.txt", "--layout", "sideways", cwd=records).returncode == 2
     run = command("motion", "rows.txt", "--layout", "rows", "--factor", "0.5", "--json", "-", cwd=records)
     (motion,) = json.loads(run.stdout)["motions"]

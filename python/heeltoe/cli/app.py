@@ -10,13 +10,14 @@ from heeltoe.cli.streams import console
 
 
 def app(
-    host: Annotated[str, typer.Option(metavar="ADDRESS", help="Where to listen.")] = "127.0.0.1",
+    host: Annotated[str, typer.Option(metavar="ADDRESS", help="Address to listen at.")] = "127.0.0.1",
     port: Annotated[
-        int | None, typer.Option(metavar="N", min=0, max=65535, help="There; 8642 if it is free and none is given.")
+        int | None,
+        typer.Option(metavar="N", min=0, max=65535, help="Port (default: 8642, or a free one if it is taken)."),
     ] = None,
-    no_browser: Annotated[bool, typer.Option("--no-browser", help="Say the address and open nothing.")] = False,
+    no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the address and open no browser.")] = False,
     public: Annotated[
-        bool, typer.Option("--public", help="Let other machines in that have the token of the address.")
+        bool, typer.Option("--public", help="Accept other machines that present the printed token.")
     ] = False,
 ) -> None:
     """Open the app in the browser: move a slider, watch the dam."""

@@ -1,4 +1,4 @@
-"""What all commands have in common: the program, its options, where results go."""
+"""The common part of all commands: the program, its options, the output."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rich.console import Console
 from typer.core import TyperGroup
 
 from heeltoe.base.atomic_files import check_file, write_text
-from heeltoe.cli.streams import console, end_if_deaf, print_data
+from heeltoe.cli.streams import console, print_data
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 from heeltoe.result.outcome import NO_RESULT as NO_RESULT
@@ -24,7 +24,7 @@ from heeltoe.units.systems import unit_system
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
-    from heeltoe.models.flexible.body.cost import Cost
+    from heeltoe.models.cost import Cost
     from heeltoe.study.run.run import Progress as StudyProgress
 
 # Typer shows this class of its click by its heirs alone.
@@ -90,7 +90,8 @@ Changes = Annotated[
     typer.Option(
         "--set",
         metavar="PATH=VALUE",
-        help="Set a field of the case, e.g. crack.friction=1.0; none takes an optional field out.",
+        help="Set a field of the case, e.g. crack.friction=1.0, units=us or motion.duration=30s; none removes an "
+        "optional field.",
     ),
 ]
 JsonPath = Annotated[str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")]
@@ -106,14 +107,10 @@ UnitsName = Annotated[
     str, typer.Option("--units", metavar="si|us", help="Units of text and figures; JSON and tables stay SI.")
 ]
 
-CaseUnits = Annotated[
-    str | None,
-    typer.Option(
-        "--units",
-        metavar="si|us",
-        help="Units of text and figures, instead of those of the case; JSON and tables stay SI.",
-    ),
-]
+# Options whose field of the case says the same with --set; they are read, and left out of the help.
+OtherUnits = Annotated[str | None, typer.Option("--units", hidden=True, help="--set units=us")]
+OtherMotion = Annotated[str | None, typer.Option("--motion", hidden=True, help="--set motion.file=FILE")]
+OtherPeak = Annotated[str | None, typer.Option("--pga", hidden=True, help="--set motion.pga=0.4g")]
 
 
 def units_of(case: Case, option: str | None) -> str:
@@ -144,7 +141,7 @@ def motion_changes(motion: str | None, **fields: str | None) -> list[str]:
     return [f"motion.{name}={value}" for name, value in options.items() if value is not None]
 
 
-def refuse(options: Mapping[str, Any], code: str) -> None:
+def refuse(options: Mapping[str, object], code: str) -> None:
     """Refuse the first of some options that is there."""
     for option, value in options.items():
         if value:
@@ -178,7 +175,7 @@ def check_json(json_: str | None) -> None:
 
 
 def finish(
-    data: dict[str, Any],
+    data: Callable[[], dict[str, object]],
     json_: str | None,
     written: list[Path],
     show: Callable[[Console], None],
@@ -187,7 +184,7 @@ def finish(
     """Write JSON where it is wanted, show the result, say what was written and what of an earlier run is gone."""
     from heeltoe.result.write import json_text
 
-    text = json_text(data)
+    text = "" if json_ is None else json_text(data())
     if json_ not in (None, "-"):
         written = [*written, write_text(str(json_), text + "\n", "--json")]
     words = console(stderr=json_ == "-")
@@ -230,14 +227,12 @@ def say_file(done: str, path: Path, words: Console) -> None:
     words.print(f"  {done} {plain(path, LONGEST_PATH)}", soft_wrap=True, markup=False)
 
 
-def say_cost(case: Case, cost: Cost | None) -> None:
-    """Say what a run of a case will take, where somebody would wait for it without a word; what takes more than the
-    case allows is refused."""
-    end_if_deaf()
-    if cost is not None and cost.seconds > _A_WAIT and cost.within(case):
-        from heeltoe.models.flexible.body.cost import shown_cost
+def say_cost(cost: Cost | None) -> None:
+    """Print the estimated cost of a long run; None if the run is refused."""
+    from heeltoe.models.cost import A_WAIT
 
-        words = f"heeltoe: takes about {shown_cost(cost)} of memory; Ctrl-C ends it"
+    if cost is not None and cost.seconds > A_WAIT:
+        words = f"heeltoe: takes about {cost.shown()} of memory; Ctrl-C ends it"
         console(stderr=True).print(words, soft_wrap=True, markup=False)
 
 

@@ -12,16 +12,17 @@ from heeltoe.cli.common import (
     LONGEST_PATH,
     NO_RESULT,
     CasePath,
-    CaseUnits,
     Changes,
     Details,
     JsonPath,
-    MotionSource,
-    Peak,
+    OtherMotion,
+    OtherPeak,
+    OtherUnits,
     check_json,
     check_units,
     finish,
     motion_changes,
+    say_cost,
     status,
     units_of,
 )
@@ -45,7 +46,7 @@ def periods(
     ] = None,
     set_: Changes = None,
     json_: JsonPath = None,
-    units: CaseUnits = None,
+    units: OtherUnits = None,
     details: Details = False,
 ) -> None:
     """Print the vibration periods of the intact dam and of the parts above and below its crack."""
@@ -62,6 +63,9 @@ def periods(
         from heeltoe.views.files.write import RESPONSE
 
         check_directory(out, "--out", RESPONSE)
+    from heeltoe.models.flexible.body.cost import building, parts_of, surroundings_of
+
+    say_cost(building(parts_of(loaded), surroundings_of(loaded)))
     with status() as say:
         say("building the elastic parts")
         periods = dam_periods(loaded, count, response=response, field="--count")
@@ -77,7 +81,7 @@ def periods(
         print_periods(periods, console, dam, details=details, units=shown)
         print_drawing(loaded, console, shown)
 
-    finish(periods.to_json(), json_, written, show)
+    finish(periods.to_json, json_, written, show)
 
 
 def overturning(
@@ -87,11 +91,11 @@ def overturning(
     set_: Changes = None,
     json_: JsonPath = None,
     out: Annotated[Path, typer.Option(metavar="DIR", help="Write map and figure here.")] = Path("overturning"),
-    units: CaseUnits = None,
+    units: OtherUnits = None,
 ) -> None:
     """Draw which pulses overturn the block, over frequency and amplitude, with the safe gap."""
     from heeltoe.case.read import read_case
-    from heeltoe.study.small.overturning import overturning_map
+    from heeltoe.study.small.overturning import map_cost, overturning_map
     from heeltoe.views.files.write import OVERTURNING, write_overturning
     from heeltoe.views.terminal.dam import about_dam, print_drawing, print_overturning
 
@@ -99,6 +103,7 @@ def overturning(
     loaded = read_case(case, list(set_ or []))
     check_directory(out, "--out", OVERTURNING)
     check_json(json_)
+    say_cost(map_cost(count))
     with status() as say:
         say(f"running {count * count} pulses")
         overturning = overturning_map(loaded, pulse, count=count)
@@ -109,7 +114,7 @@ def overturning(
         print_overturning(overturning, console, about_dam(loaded, in_units))
         print_drawing(loaded, console, in_units)
 
-    finish(overturning.to_json(), json_, written, show)
+    finish(overturning.to_json, json_, written, show)
 
 
 def animate(
@@ -121,26 +126,26 @@ def animate(
     ] = None,
     to: Annotated[Path | None, typer.Option("--to", hidden=True, help="The older name of --out.")] = None,
     exaggerate: Annotated[str, typer.Option(metavar="N|auto", help="Magnify displacements N times.")] = "auto",
-    fps: Annotated[float, typer.Option(metavar="30", help="Frames per second of a video.")] = 30.0,
+    fps: Annotated[float, typer.Option(hidden=True, help="Frames per second of a video.")] = 30.0,
     speed: Annotated[
         float, typer.Option(metavar="1.0", help="Playback speed, in seconds of the earthquake per second.")
     ] = 1.0,
     from_: Annotated[str, typer.Option("--from", metavar="0s", help="Time at which to start.")] = "0 s",
     until: Annotated[str | None, typer.Option(metavar="20s", help="Time at which to end.")] = None,
-    motion: MotionSource = None,
-    pga: Peak = None,
+    motion: OtherMotion = None,
+    pga: OtherPeak = None,
     set_: Changes = None,
-    units: CaseUnits = None,
+    units: OtherUnits = None,
 ) -> None:
     """Animate the dam: a video, or a page that plays offline in any browser."""
     from time import perf_counter
 
     from heeltoe.case.read import read_case
-    from heeltoe.models.run import AUTO, MODELS, run
+    from heeltoe.models.run import AUTO, MODELS, earthquake, record_cost, run, wish_cost
     from heeltoe.units.parse import parse
     from heeltoe.views.animation.frames import shaken_sign
     from heeltoe.views.animation.write import animate as write_animation
-    from heeltoe.views.animation.write import check_options
+    from heeltoe.views.animation.write import check_options, writing_cost
 
     if model not in (AUTO, *MODELS):
         raise InputError("unknown-model", "--model", model, models=", ".join((AUTO, *MODELS)), near="")
@@ -154,6 +159,10 @@ def animate(
     check_options(place, exaggerate=many, frames_per_second=fps, speed=speed)
     check_file(place, "--out")
     loaded = read_case(case, [*(set_ or []), *motion_changes(motion, pga=pga)])
+    say_cost(record_cost(loaded))
+    drawing = writing_cost(place, earthquake(loaded).run_end if end is None else end - start, fps, speed)
+    cost = wish_cost(loaded, model)
+    say_cost(cost and cost + drawing)
     with status() as say:
         began = perf_counter()
         say("running")

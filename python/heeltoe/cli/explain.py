@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from heeltoe.cli.common import JsonPath, check_json, finish
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 
 def explain(
@@ -18,7 +21,9 @@ def explain(
             "the subjects without it.",
         ),
     ] = None,
-    all_: Annotated[bool, typer.Option("--all", help="List all names, a line each.")] = False,
+    all_: Annotated[
+        bool, typer.Option("--all", help="List all names, a line each; with NAME, hidden fields too.")
+    ] = False,
     json_: JsonPath = None,
     schema: Annotated[
         bool, typer.Option("--schema", help="Print the JSON schema of `heeltoe run --json`, with units and meanings.")
@@ -35,7 +40,15 @@ def explain(
     from heeltoe.views.explain.find import explain as find
     from heeltoe.views.terminal.explain import as_json, print_list, print_meanings, print_subjects
 
-    entry = everything() if name is None else find(name)
+    entry = everything() if name is None else find(name, all_=all_)
     check_json(json_)
-    show = print_meanings if name is not None else print_list if all_ else print_subjects
-    finish(as_json(entry), json_, [], lambda console: show(entry, console))
+
+    def show(console: Console) -> None:
+        if name is not None:
+            print_meanings(entry, console, all_=all_)
+        elif all_:
+            print_list(entry, console)
+        else:
+            print_subjects(entry, console)
+
+    finish(lambda: as_json(entry), json_, [], show)

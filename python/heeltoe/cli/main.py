@@ -22,8 +22,8 @@ from heeltoe.cli import solve as solve_command
 from heeltoe.cli import statics as statics_command
 from heeltoe.cli import study as study_command
 from heeltoe.cli.common import BAD_INPUT, BUG, INTERRUPTED, LONGEST_PATH, NO_RESULT, app
-from heeltoe.cli.streams import streams
-from heeltoe.errors.error import InputError, UnfinishedError
+from heeltoe.cli.streams import end_if_deaf, streams
+from heeltoe.errors.error import InputError, UnfinishedError, shown
 from heeltoe.errors.sanitize import plain
 
 _OBJECTS_BEFORE_COLLECTING = 200_000
@@ -92,25 +92,47 @@ def _version(shown: bool) -> None:
 
 @app.callback()
 def _options(
+    context: typer.Context,
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
     ] = False,
 ) -> None:
-    pass
+    # The app looks after Ctrl-C itself.
+    if context.invoked_subcommand != "app":
+        end_if_deaf()
 
 
 def new(
     name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the case; NAME.toml is written.")],
+    all_: Annotated[bool, typer.Option("--all", help="Show every field, as comments where it is not set.")] = False,
+    from_: Annotated[
+        Path | None, typer.Option("--from", metavar="OLD.toml", help="Rewrite this case with today's fields.")
+    ] = None,
 ) -> None:
-    """Write a commented case file to start from."""
+    """Write a case file to start from."""
     from heeltoe.case.template import new_case_text
 
+    if all_ and from_ is not None:
+        raise InputError("fields-conflict", "--all", other="--from")
     path = Path(name if name.endswith(".toml") else f"{name}.toml")
     if os.path.lexists(path):
         raise InputError("file-exists", str(path))
-    write_text(path, new_case_text(path.stem))
-    shown = plain(path, LONGEST_PATH)
-    print(f"wrote {shown}; run it with: heeltoe run {shown}")
+    text = new_case_text(path.stem, every_field=all_) if from_ is None else _rewritten(from_, path)
+    write_text(path, text)
+    written = plain(path, LONGEST_PATH)
+    print(f"wrote {written}; run it with: heeltoe run {written}")
+
+
+def _rewritten(old: Path, path: Path) -> str:
+    """Return the text of a case in today's fields; `path` is where it will stand."""
+    from heeltoe.case.read import read_case, read_fields
+    from heeltoe.case.toml_writer import case_text
+
+    read_case(old)
+    if path.parent.resolve() != old.parent.resolve():
+        # Motions, meshes and drawings are relative to the case.
+        raise InputError("contradiction", "NAME", shown(str(path)), other="--from, a case of another folder")
+    return case_text(read_fields(old))
 
 
 def examples(

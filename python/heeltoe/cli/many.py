@@ -20,6 +20,7 @@ from heeltoe.cli.common import (
     command_line,
     finish,
     resolved_path,
+    say_cost,
     say_file,
     study_bar,
     units_of,
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
 
 
 class Runner(Protocol):
-    """What runs a study, or a suite."""
+    """A function that runs a study or a suite."""
 
     def __call__(self, *, progress: Callable[[Progress], None], before: Callable[[Outlook], None]) -> StudyResults:
         """Return the results."""
@@ -89,14 +90,24 @@ def run_many(runner: Runner, output: Output) -> None:
     if output.report and place is not None:
         check_packages()
         check_directory(place, "--out", STUDY_REPORT)
+    announced: list[Outlook] = []
+
+    def announce(expected: Outlook) -> None:
+        if not announced:
+            say_cost(expected.cost)
+        # What has been estimated alone is no number of the study.
+        if announced or "flexible" not in expected.plan.study.model:
+            print_outlook(expected, words)
+        announced.append(expected)
+
     try:
         with study_bar() as progress:
-            results = runner(progress=progress, before=lambda expected: print_outlook(expected, words))
+            results = runner(progress=progress, before=announce)
     except KeyboardInterrupt:
         if place is not None:
             directory = plain(place, LONGEST_PATH)
             again = f"{output.again} --out {directory} --resume"
-            print(f"heeltoe: what is done stays in {directory}; go on by: {again}", file=sys.stderr)
+            print(f"heeltoe: finished runs are in {directory}; to continue: {again}", file=sys.stderr)
         raise
 
     def report(fresh: Path, drawn: Mapping[str, Figure]) -> None:
@@ -106,9 +117,7 @@ def run_many(runner: Runner, output: Output) -> None:
     if place is not None:
         chosen = report if output.report else None
         written = write_study(results, place, units, figures=output.figures, report=chosen, workbook=output.xlsx)
-    finish(
-        results.to_json(), output.json, [], lambda screen: print_study(results, screen, units, details=output.details)
-    )
+    finish(results.to_json, output.json, [], lambda screen: print_study(results, screen, units, details=output.details))
     if place is not None:
         say_file("wrote", place, words)
         if output.figures:
@@ -132,7 +141,7 @@ class Suite:
     vertical: bool
     resume: bool
 
-    def options(self) -> dict[str, Any]:
+    def options(self) -> dict[str, object]:
         """Return what needs a suite; one motion can be scaled to Sa, too."""
         return {f"--{name}": value for name, value in vars(self).items() if name not in ("motions", "sa")}
 
@@ -171,3 +180,20 @@ def run_suite_command(path: str, case: Case, pga: str | None, suite: Suite, requ
         request.xlsx,
     )
     run_many(runner, output)
+
+
+def run_levels_command(case: Case, path: Path, suite: Suite, request: RunOptions) -> None:
+    """Run a suite at each level of earthquake, and show a row for each."""
+    from heeltoe.study.plan.levels import read_levels
+    from heeltoe.study.run.levels import run_levels
+    from heeltoe.views.terminal.levels import print_levels
+
+    check_json(request.json)
+    levels = read_levels(path)
+    motions = [resolved_path(name) for name in suite.motions] or None
+    with study_bar() as progress:
+        results = run_levels(case, levels, motions, model=request.model, progress=progress)
+    units = units_of(case, request.units)
+    finish(results.to_json, request.json, [], lambda screen: print_levels(results, screen, units))
+    if any(check.value is None for level in results.levels for check in level.checks):
+        raise typer.Exit(NO_RESULT)

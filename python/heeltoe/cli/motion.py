@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from heeltoe.cli.common import Details, JsonPath, UnitsName, check_json, finish
+from heeltoe.cli.common import Details, JsonPath, UnitsName, check_json, finish, say_cost
 from heeltoe.cli.streams import console
 from heeltoe.errors.error import InputError, shown
 from heeltoe.errors.sanitize import plain
@@ -18,6 +19,7 @@ from heeltoe.units.systems import unit_system
 
 # More motions than these are printed one below the other.
 _SIDE_BY_SIDE = 3
+_FIELD_OF_CASE = re.compile(r"\bmotion\.(unit|time_step|channel|layout|factor)\b")
 _ABOUT = ("event", "station", "component", "date", "channel", "format", "units_as_read")
 
 if TYPE_CHECKING:
@@ -54,7 +56,9 @@ def motion(
             help="Write figure and columns, in g, of each motion here; of one motion the columns into a file.",
         ),
     ] = None,
-    figure: Annotated[Path | None, typer.Option(metavar="FILE.png", help="Draw one motion into this file.")] = None,
+    figure: Annotated[
+        Path | None, typer.Option(hidden=True, help="Draw one motion into this file; --out writes it, too.")
+    ] = None,
     json_: JsonPath = None,
     units: UnitsName = "si",
     details: Details = False,
@@ -79,7 +83,10 @@ def motion(
     if not files:
         raise InputError("record-missing", "FILE-or-NAME")
     check_json(json_)
+    from heeltoe.models.cost import reading_cost
+
     folders = [file for file in files if os.path.isdir(file)]
+    say_cost(reading_cost(files))
     read = [motion for file in files for motion in _motions(file, unit, time_step, channel, layout, factor)]
     motions = _called_apart(read)
     misfits: list[Misfit] = []
@@ -87,9 +94,8 @@ def motion(
     if match is not None:
         motions, misfits, matches = _matched(motions, match)
     written = _written(motions, matches, out, figure, units)
-    data = {} if json_ is None else _json(motions, misfits)
     finish(
-        data,
+        lambda: _json(motions, misfits),
         json_,
         written,
         lambda shown: _show(motions, misfits, shown, units, len(files) > 1 and not folders, details),
@@ -121,8 +127,8 @@ def _show(
         words.print(f"{len(motions)} channels; --channel NUMBER shows and draws one", soft_wrap=True)
 
 
-def _json(motions: list[GroundMotion], misfits: list[Misfit]) -> dict[str, Any]:
-    """What is said of each motion, with its response spectrum."""
+def _json(motions: list[GroundMotion], misfits: list[Misfit]) -> dict[str, object]:
+    """Return the numbers of each motion, with its response spectrum."""
     from heeltoe.motion.spectrum import response_spectrum
     from heeltoe.result.write import motion_json
 
@@ -176,7 +182,7 @@ def _written(
         if option_value is not None and len(motions) > 1:
             raise InputError("motion-one", option, f"{len(motions)} motions")
     if figure is not None and figure.suffix.lower() not in (".png", ".svg", ".pdf"):
-        raise InputError("figure-format", "--figure", figure)
+        raise InputError("file-ending", "--figure", figure, kind="a figure", endings=".png, .svg or .pdf")
     if into is not None:
         check_directory(into, "--out")
         try:
@@ -229,9 +235,18 @@ def _motions(
         ]
     path = find(file, Path.cwd(), field="FILE-or-NAME")
     options = {"unit": unit, "time_step": step, "layout": layout, "factor": factor}
-    if channel is None:
-        return read_channels(path, **options)  # type: ignore[arg-type]
-    return [read_record(path, channel, **options, assume=True)]  # type: ignore[arg-type]
+    try:
+        if channel is None:
+            return read_channels(path, **options)  # type: ignore[arg-type]
+        return [read_record(path, channel, **options, assume=True)]  # type: ignore[arg-type]
+    except InputError as error:
+        # A case has fields for what are options here.
+        error.field, error.remedy = (_FIELD_OF_CASE.sub(_option_of, text) for text in (error.field, error.remedy))
+        raise
+
+
+def _option_of(field: re.Match[str]) -> str:
+    return f"--{field[1].replace('_', '-')}"
 
 
 def _files_of(folder: str) -> list[str]:

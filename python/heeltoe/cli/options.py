@@ -54,7 +54,7 @@ class RunOptions:
             raise InputError("vtk-rigid", "--vtk")
 
     def runs(self) -> int | Literal["cheap"] | None:
-        """Return how many runs with the shaking varied are asked for; a report has what costs little without asking."""
+        """Return the requested number of runs with the shaking varied; a report has the cheap ones by default."""
         if self.spread is None:
             return "cheap" if self.report else None
         if self.spread == "none":

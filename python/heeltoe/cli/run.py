@@ -13,11 +13,11 @@ from heeltoe.base.atomic_files import check_directory, files
 from heeltoe.cli.common import (
     NO_RESULT,
     CasePath,
-    CaseUnits,
     Changes,
     Details,
     JsonPath,
     MotionSource,
+    OtherUnits,
     Peak,
     Workbook,
     check_json,
@@ -30,23 +30,22 @@ from heeltoe.cli.common import (
     status,
     units_of,
 )
-from heeltoe.cli.many import Suite, run_suite_command
+from heeltoe.cli.many import Suite, run_levels_command, run_suite_command
 from heeltoe.cli.options import RunOptions
-from heeltoe.cli.streams import end_if_deaf
 from heeltoe.errors.error import InputError
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
-    from heeltoe.models.flexible.body.cost import Cost
+    from heeltoe.models.cost import Cost
     from heeltoe.result.response import Response
     from heeltoe.study.small.run_table import SmallStudy
 
 #: Changes of fields, as options give them.
-FieldChanges = Sequence[str | Mapping[str, Any]]
+FieldChanges = Sequence[str | Mapping[str, object]]
 
 
 class Run(TyperCommand):
-    """A command whose option ``--spread`` needs no value, which is empty then; typer itself knows no such option."""
+    """A command whose option ``--spread`` needs no value, which is empty then; typer itself has no optional values."""
 
     def parse_args(self, ctx: typer.Context, args: list[str]) -> list[str]:  # type: ignore[override]
         words = list(args)
@@ -70,8 +69,8 @@ def run(
     ] = "auto",
     motion: MotionSource = None,
     pga: Peak = None,
-    reverse: Annotated[bool, typer.Option("--reverse", help="Reverse the sign of the motion.")] = False,
-    duration: Annotated[str | None, typer.Option(metavar="30s", help="Length of the run.")] = None,
+    reverse: Annotated[bool, typer.Option("--reverse", help="Reverse the sign of all motions.")] = False,
+    duration: Annotated[str | None, typer.Option(hidden=True, help="--set motion.duration=30s")] = None,
     set_: Changes = None,
     spread: Annotated[
         str | None,
@@ -87,7 +86,7 @@ def run(
     vtk: Annotated[
         bool, typer.Option("--vtk", help="With --out: VTK files of the flexible model for ParaView.")
     ] = False,
-    units: CaseUnits = None,
+    units: OtherUnits = None,
     output_step: Annotated[
         str | None,
         typer.Option(
@@ -97,11 +96,7 @@ def run(
     ] = None,
     evidence: Annotated[
         str | None,
-        typer.Option(
-            metavar="full|step|none",
-            help="Convergence checks of the flexible model: full (other step, other mesh, shaking varied by 1 %), "
-            "step (other step only) or none.",
-        ),
+        typer.Option(hidden=True, help="--set flexible.evidence=none"),
     ] = None,
     vary: Annotated[
         list[str] | None,
@@ -123,7 +118,8 @@ def run(
         list[str] | None,
         typer.Option(
             metavar="FOLDER|FILE",
-            help="Run a suite instead: every record of a folder, or records one by one, both signs of each.",
+            help="Run a suite: each record of a folder, or each file, with both signs; fields of [suite] say how "
+            "(--set suite.judge=mean).",
         ),
     ] = None,
     sa: Annotated[
@@ -132,19 +128,14 @@ def run(
             metavar="0.5g[@0.3s]", help="Scale the motion, or each record of a suite, to Sa at a period (default: T1)."
         ),
     ] = None,
-    match: Annotated[
-        str | None, typer.Option(metavar="en1998:0.3g,B", help="Match each record of a suite to this spectrum.")
+    match: Annotated[str | None, typer.Option(hidden=True, help="--set suite.match=en1998:0.3g,B")] = None,
+    target: Annotated[str | None, typer.Option(hidden=True, help="--set suite.target=en1998:0.3g,B")] = None,
+    judge: Annotated[str | None, typer.Option(hidden=True, help="--set suite.judge=mean")] = None,
+    vertical: Annotated[bool, typer.Option("--vertical", hidden=True, help="--set suite.vertical=true")] = False,
+    levels: Annotated[
+        Path | None,
+        typer.Option(metavar="LEVELS.toml", help="Run a suite at each level of earthquake of these criteria."),
     ] = None,
-    target: Annotated[
-        str | None, typer.Option(metavar="en1998:0.3g,B", help="Draw this spectrum with those of a suite.")
-    ] = None,
-    judge: Annotated[
-        str | None,
-        typer.Option(metavar="largest|mean|median|84%", help="What of a suite is held against the limits."),
-    ] = None,
-    vertical: Annotated[
-        bool, typer.Option("--vertical", help="Use the vertical components in a suite, told by their names.")
-    ] = False,
     resume: Annotated[bool, typer.Option("--resume", help="Continue a suite that was interrupted, in --out.")] = False,
     details: Details = False,
 ) -> None:
@@ -156,6 +147,26 @@ def run(
     request.check()
     changes: list[str | Mapping[str, Any]] = [*(set_ or [])]
     changes += [] if evidence is None else [f"flexible.evidence={evidence}"]
+    if levels is not None:
+        others = {
+            "--motion": motion,
+            "--pga": pga,
+            "--reverse": reverse,
+            "--duration": duration,
+            "--spread": spread,
+            "--csv": csv,
+            "--vtk": vtk,
+            "--output-step": output_step,
+            "--vary": vary,
+            "--sa": sa,
+            "--out": out,
+            "--report": report,
+            "--xlsx": xlsx,
+            **{name: value for name, value in suite.options().items() if name != "--motions"},
+        }
+        refuse(others, "levels-option")
+        run_levels_command(read_case(case, changes), levels, suite, request)
+        return
     if motions or "motions" in read_fields(Path(case)):
         others = {
             "--motion": motion,
@@ -180,7 +191,7 @@ def run(
 
 
 def _run(path: str, changes: FieldChanges, reverse: bool, output_step: str | None, request: RunOptions) -> None:
-    """Read the case with its changes, run it, write and show what is asked for."""
+    """Read the case with its changes, run it, write and show the results."""
     from heeltoe.case.read import read_case
     from heeltoe.units.parse import parse
     from heeltoe.views.terminal.show import show
@@ -199,22 +210,26 @@ def _run(path: str, changes: FieldChanges, reverse: bool, output_step: str | Non
 
         check_directory(place, "--out", names(request.suffix, report=request.report))
     check_json(request.json)
+    from heeltoe.models.cost import writing_cost
+    from heeltoe.models.run import record_cost, wish_cost
+
+    say_cost(record_cost(case))
     with status() as say:
         result: Response | SmallStudy
         if request.vary:
             result = _table(path, changes, request, step, say)
         else:
-            from heeltoe.models.run import cost_of
             from heeltoe.study.small.analysis import analyse
 
-            say_cost(case, cost_of(case, request.model, step, runs if isinstance(runs, int) else 0))
+            cost = wish_cost(case, request.model, step, runs if isinstance(runs, int) else 0)
+            say_cost(cost and cost + writing_cost(files=place is not None, report=request.report))
             result = analyse(case, request.model, output_step=step, spread=runs, say=say)
         # Files first: if they cannot be written that is all there is to say.
         earlier = [] if place is None else files(place)
         written = [] if place is None else _write(result, case, request, place, say)
     details = case if request.details else None
     finish(
-        result.to_json(),
+        result.to_json,
         request.json,
         written,
         lambda console: show(result, console, units, details),
@@ -224,7 +239,7 @@ def _run(path: str, changes: FieldChanges, reverse: bool, output_step: str | Non
         raise typer.Exit(NO_RESULT)
 
 
-def _scaling_to_sa(case: Case, sa: str) -> dict[str, Any]:
+def _scaling_to_sa(case: Case, sa: str) -> dict[str, object]:
     """Return the changes that scale the motion of a case to a spectral acceleration, as 0.5g@0.3s; without a period at
     the first one of the dam."""
     if case.motion is None:
@@ -250,9 +265,9 @@ def _table(
     path: str, changes: FieldChanges, request: RunOptions, step: float | None, say: Callable[[str], None]
 ) -> SmallStudy:
     """Run a table of runs."""
-    from heeltoe.models.run import cost_of
+    from heeltoe.models.run import cost_of, wish_cost
     from heeltoe.models.run import run as run_model
-    from heeltoe.study.small.run_table import parse_axes, run_small
+    from heeltoe.study.small.run_table import parse_axes, run_small, table_cost
 
     def run_one(varied: Case) -> Response:
         return run_model(varied, request.model, output_step=step)
@@ -263,8 +278,9 @@ def _table(
     def progress(done: int, of: int) -> None:
         say(f"running the {request.model} model, {done} of {of} runs done")
 
-    end_if_deaf()
-    return run_small(path, changes, parse_axes(request.vary or []), run_one, cost=cost, progress=progress)
+    axes = parse_axes(request.vary or [])
+    say_cost(table_cost(path, changes, axes, lambda varied: wish_cost(varied, request.model, step)))
+    return run_small(path, changes, axes, run_one, cost=cost, progress=progress)
 
 
 def _write(

@@ -11,13 +11,14 @@ from heeltoe.base.atomic_files import check_directory
 from heeltoe.cli.common import (
     NO_RESULT,
     CasePath,
-    CaseUnits,
     Changes,
     Details,
     JsonPath,
+    OtherUnits,
     check_json,
     check_units,
     finish,
+    say_cost,
     status,
     units_of,
 )
@@ -41,12 +42,13 @@ def solve(
     ] = "auto",
     set_: Changes = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write curve, table and JSON here.")] = None,
-    units: CaseUnits = None,
+    units: OtherUnits = None,
     json_: JsonPath = None,
     details: Details = False,
 ) -> None:
     """Find the value of a field at which a limit is just met, by both signs of the motion."""
     from heeltoe.case.read import read_case
+    from heeltoe.study.small.solve import search_cost
     from heeltoe.study.small.solve import solve as solve_case
     from heeltoe.views.files.write import SOLVED, write_solved
     from heeltoe.views.terminal.dam import print_drawing
@@ -61,6 +63,7 @@ def solve(
     ends = None if between is None else [part.strip() for part in between.split(",")]
     if ends is not None and len(ends) != 2:
         raise InputError("solve-order", "--between", shown(between))
+    say_cost(search_cost(loaded, model))
     with status() as say:
         solution = solve_case(
             loaded, field, until, model=model, between=None if ends is None else (ends[0], ends[1]), progress=say
@@ -71,6 +74,6 @@ def solve(
         print_solved(solution, console, in_units, details=details)
         print_drawing(loaded, console, in_units)
 
-    finish(solution.to_json(), json_, written, show)
+    finish(solution.to_json, json_, written, show)
     if not solution.crossings:
         raise typer.Exit(NO_RESULT)

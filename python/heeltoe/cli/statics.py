@@ -13,12 +13,12 @@ import typer
 from heeltoe.base.atomic_files import check_directory, files
 from heeltoe.cli.common import (
     CasePath,
-    CaseUnits,
     Changes,
     Details,
     JsonPath,
-    MotionSource,
-    Peak,
+    OtherMotion,
+    OtherPeak,
+    OtherUnits,
     Workbook,
     check_json,
     check_units,
@@ -29,6 +29,7 @@ from heeltoe.cli.common import (
     refuse,
     removed_files,
     resolved_path,
+    say_cost,
     status,
     units_of,
 )
@@ -59,8 +60,8 @@ def statics(
             metavar="auto|rigid|decoupled|flexible", help="Model used to compute the residual slip; overrides the case."
         ),
     ] = None,
-    motion: MotionSource = None,
-    pga: Peak = None,
+    motion: OtherMotion = None,
+    pga: OtherPeak = None,
     spectrum: Annotated[
         str | None,
         typer.Option(
@@ -86,9 +87,9 @@ def statics(
     ] = False,
     xlsx: Workbook = False,
     every_section: Annotated[
-        bool, typer.Option("--every-section", help="Draw every section, not only the governing one.")
+        bool, typer.Option("--every-section", hidden=True, help="Draw every section, not only the governing one.")
     ] = False,
-    units: CaseUnits = None,
+    units: OtherUnits = None,
     details: Details = False,
 ) -> None:
     """Check the stability before, during (pseudo-static) and after the earthquake."""
@@ -108,7 +109,7 @@ def _judged_by(criteria: str) -> str:
 
 @dataclass(frozen=True)
 class _Options:
-    """What is asked for beside the case, as it was typed."""
+    """Options beside the case, as typed."""
 
     slip: str | None
     model: str | None
@@ -150,10 +151,10 @@ class _Options:
 
 
 def _statics(path: str, changes: list[str], json_: str | None, units: str | None, request: _Options) -> None:
-    """Read the case with its changes, judge it, write and show what is asked for."""
+    """Read the case with its changes, judge it, write and show the results."""
     from heeltoe.case.read import read_case
-    from heeltoe.study.small.run_table import parse_axes
-    from heeltoe.study.small.statics import StaticsTable, judge, statics_json, statics_table
+    from heeltoe.study.small.run_table import parse_axes, table_cost
+    from heeltoe.study.small.statics import StaticsTable, judge, statics_cost, statics_json, statics_table
     from heeltoe.views.terminal.statics import print_sections, print_statics_table
 
     loaded, after = read_case(path, changes), request.after()
@@ -165,10 +166,14 @@ def _statics(path: str, changes: list[str], json_: str | None, units: str | None
         check_directory(place, "--out", OWN)
     check_json(json_)
     earlier = [] if place is None else files(place)
+    if not request.vary:
+        say_cost(statics_cost(loaded, after))
     with status() as say:
         results: Joints | StaticsTable
         if request.vary:
-            results = statics_table(path, changes, parse_axes(request.vary), after, say, spectrum=request.spectrum)
+            axes = parse_axes(request.vary)
+            say_cost(table_cost(path, changes, axes, lambda varied: statics_cost(varied, after)))
+            results = statics_table(path, changes, axes, after, say, spectrum=request.spectrum)
         else:
             results = judge(loaded, after, say, spectrum=request.spectrum)
         written = [] if place is None else _write(results, loaded, request, place, shown, say)
@@ -179,8 +184,13 @@ def _statics(path: str, changes: list[str], json_: str | None, units: str | None
         else:
             print_sections(results, console, shown, sheet=request.sheet, details=request.details)
 
-    data = results.to_json() if isinstance(results, StaticsTable) else statics_json(results)
-    finish(data, json_, written, show, removed_files(place, earlier))
+    finish(
+        lambda: results.to_json() if isinstance(results, StaticsTable) else statics_json(results),
+        json_,
+        written,
+        show,
+        removed_files(place, earlier),
+    )
 
 
 def _write(

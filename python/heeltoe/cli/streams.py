@@ -48,7 +48,7 @@ def print_data(text: str) -> None:
 
 @contextmanager
 def streams() -> Iterator[None]:
-    """Make sure of the standard streams while a command runs, and that all it has said is said.
+    """Guard the standard streams while a command runs, and flush them at its end.
 
     Raises
     ------
