@@ -31,7 +31,7 @@ def pytest_run(place: Path, *options: str) -> tuple[int, list[str]]:
 @pytest.mark.slow
 def test_the_last_lines_name_what_no_test_raises(tmp_path):
     (tmp_path / "test_nothing.py").write_text(
-        "from heeltoe import InputError\ndef test_one(): InputError('case-file-missing', 'dam.toml')\n"
+        "from heeltoe import InputError\ndef test_one(): InputError('source-missing', 'dam.toml', expected='a case')\n"
     )
     code, lines = pytest_run(tmp_path)
     assert code == 1
@@ -39,7 +39,7 @@ def test_the_last_lines_name_what_no_test_raises(tmp_path):
     named = [line for line in lines if line.startswith("FAILED catalogue: ")]
     assert lines[-1 - len(named) : -1] == named
     assert "FAILED catalogue: error case-file-encoding" in named
-    assert not [line for line in named if line.endswith(" case-file-missing")]
+    assert not [line for line in named if line.endswith(" source-missing")]
     assert pytest_run(tmp_path, "-k", "one")[0] == 0
 
 

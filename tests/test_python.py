@@ -113,9 +113,9 @@ def test_what_is_no_case_is_refused_by_every_public_function(case, response, tmp
         lambda given: heeltoe.with_spread(response, given),
     ):
         for given in ("file.toml", response, None):
-            with pytest.raises(InputError, match=r"is not a case; give what heeltoe\.read_case returns") as refused:
+            with pytest.raises(InputError, match=r"is not a case; give the result of heeltoe\.read_case") as refused:
                 call(given)
-            assert (refused.value.code, refused.value.field) == ("not-a-case", "case")
+            assert (refused.value.code, refused.value.field) == ("wrong-kind", "case")
     for call in (
         lambda given: heeltoe.animate(case, given, tmp_path / "dam.html"),
         lambda given: heeltoe.write_report(case, given, tmp_path),
@@ -123,7 +123,7 @@ def test_what_is_no_case_is_refused_by_every_public_function(case, response, tmp
     ):
         with pytest.raises(InputError) as refused:
             call("rigid")
-        assert refused.value.code == "not-a-response"
+        assert refused.value.code == "wrong-kind"
     with pytest.raises(InputError, match="motion: a str is not a ground motion"):
         rigid(case, "elcentro-1940-180-nga")
 
@@ -132,9 +132,9 @@ def test_many_blocks_and_motions_are_lists(case, response):
     motion, block = response.motion, build_block(case)
     for blocks, motions, code, field in (
         ([block, "file.toml"], [motion], "blocks-shape", "blocks[1]"),
-        (case, [motion], "not-a-list", "blocks"),
-        (block, [motion], "not-a-list", "blocks"),
-        ([block], motion, "not-a-list", "motions"),
+        (case, [motion], "wrong-kind", "blocks"),
+        (block, [motion], "wrong-kind", "blocks"),
+        ([block], motion, "wrong-kind", "motions"),
         ([block], ["elcentro"], "blocks-motion", "motions[0]"),
     ):
         with pytest.raises(InputError) as refused:
@@ -165,4 +165,4 @@ def test_tables_for_pandas(case, response, grid, monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(InputError, match=r"pip install pandas") as refused:
         GroundMotion.from_points([0.0, 1.0], np.zeros(2)).to_pandas()
-    assert refused.value.code == "pandas-package"
+    assert refused.value.code == "package-missing"

@@ -37,7 +37,7 @@ def help_of(place: Path) -> dict[str, tuple[Fields, Any]]:
     """Return what must be in a case that has the fields of records and of sections in files."""
     corners = {"section": {"file": str(place / "corners.csv"), "unit": "m"}}
     beside: dict[str, tuple[Fields, Any]] = {f"section.{name}": (corners, "1") for name in ("file", "layer", "unit")}
-    for block in ("motion", "motion.vertical"):
+    for block in ("motion", "motion.vertical", "motion.cross_valley"):
         file = {block: {"file": str(place / "record.txt")}}
         for name in ("file", "channel", "unit", "time_step"):
             beside[f"{block}.{name}"] = (file, "1")

@@ -27,7 +27,7 @@ USUAL: dict[str, list[str | Path]] = {
     "animate": [BLOCK, "--to=page.html"],
     "motion": ["record.txt"],
     "study": ["study.json", "--dry-run"],
-    "new": [],
+    "new": ["fresh"],
     "examples": [],
     "app": ["--no-browser", "--public"],
     "explain": ["crack.friction"],

@@ -20,7 +20,7 @@ LONG = "x" * 300
 
 
 def test_a_case_without_end(tmp_path):
-    assert refusal("/dev/zero").code == "case-file-large"
+    assert refusal("/dev/zero").code == "too-large"
 
 
 def test_more_moments_than_there_is_room_for():
@@ -38,7 +38,7 @@ def test_a_home_of_nobody_is_a_name():
 
 
 @pytest.mark.parametrize(
-    ("text", "code"), [("*Node\n *INCLUDE, INPUT=/dev/zero\n", "mesh-include"), (None, "mesh-large")]
+    ("text", "code"), [("*Node\n *INCLUDE, INPUT=/dev/zero\n", "mesh-include"), (None, "too-large")]
 )
 def test_meshes_that_lead_elsewhere_or_never_end(tmp_path, text, code):
     pytest.importorskip("meshio")

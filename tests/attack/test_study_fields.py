@@ -61,6 +61,9 @@ def paths() -> Iterator[tuple[str, ...]]:
         way = path.replace("from_", "from").replace("events[0]", "events").split(".")
         if path in names:
             yield "vary", FRICTION, *way[1:]
+        elif path.startswith("motions.processing"):
+            # Its steps are those of a case, read by the same code.
+            yield "motions", "processing"
         elif path.startswith("motions.events"):
             yield "motions", "events", "0", way[-1]
         else:

@@ -43,6 +43,7 @@ def place(tmp_path_factory) -> Path:
     directory = tmp_path_factory.mktemp("docs")
     (directory / "examples").symlink_to(ROOT / "examples")
     (directory / "my-record.AT2").write_text(RECORD)
+    (directory / "TESTS.csv").write_text("normal stress [MPa],peak shear [MPa]\n0.5,0.6\n1,1.1\n1.5,1.4\n2,1.9\n")
     (directory / "records").mkdir()
     (directory / "records" / "my-record.AT2").write_text(RECORD)
     assert command("new", "mydam", cwd=directory).returncode == 0

@@ -30,6 +30,14 @@ def test_links_lead_somewhere():
     assert not lead_somewhere("README.md", "docs/rigid.md#no-such-heading")
 
 
+def test_tests_that_are_named_are_there():
+    """SECURITY.md names the test of each of its promises."""
+    named = [pair for text in PAGES.values() for pair in re.findall(r"`(tests/[\w./-]+\.py)::(\w+)", text)]
+    assert len(named) > 1
+    missing = [(file, name) for file, name in named if f"def {name}(" not in (ROOT / file).read_text(encoding="utf-8")]
+    assert missing == []
+
+
 def test_source_files_are_named_so_that_they_are_found():
     wrong = []
     for page, text in PAGES.items():

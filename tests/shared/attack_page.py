@@ -23,12 +23,12 @@ _TEXT = """# Attacks
 
 *Accepted* is an answer that holds what {judge} asks of it: no NaN, no contradiction of
 outcome, verdict, limits and numbers, an exit code that fits. *Refused* is a sentence for each field that is wrong, exit
-code 2, and no file written or changed. *No result* is a run whose outcome says why it has none, exit code 3. Anything
+code 2, and no file written or changed. *No result* is a run whose outcome gives the reason, exit code 3. Anything
 else is a defect: a traceback, a run that computes longer than its limit, a file that is left behind, a letter that
 controls a terminal. Pairs of features are also compared with the table of [what goes with
 what](generated/combinations.md).
 
-The cases are in {generator}; a defect names the seed that makes its case. Of twins and laws,
+The cases are in {generator}; a defect names the seed that makes its case. For twins and laws,
 *accepted* is a comparison that agrees.
 """
 

@@ -114,9 +114,23 @@ LIFT: Fields = {
 ROUGH: Fields = {"asperity_height": "2 mm", "wave_length": "50 mm", "wear": "1e-5 m^2/J"}
 STIFF: Fields = {"anchors": GONE, "uplift.during_shaking": GONE, "uplift.opening": GONE}
 NO_COEFFICIENTS: Fields = {"crack.static_friction": GONE, "crack.kinetic_friction": GONE, "statics.cohesion": GONE}
+#: A dam that slides both ways, and does not lift.
+CROSS: Fields = {
+    **STIFF,
+    "crack.static_friction": 0.45,
+    "crack.kinetic_friction": 0.4,
+    "motion.cross_valley": {"points": [["0 s", "0 g"], ["0.15 s", "1.4 g"], ["0.3 s", "-1 g"], ["0.4 s", "0 g"]]},
+}
 #: For fields that stand only in another case than the base, or have no value there: what changes first, then the value.
 HELPED: dict[str, tuple[Fields, Any]] = {
     "title": ({}, "another"),
+    "crack.side_gap": (CROSS, "0 mm"),
+    "motion.cross_valley.reverse": (CROSS, True),
+    **{
+        f"motion.cross_valley.processing[{step}].{name}": (CROSS, None)
+        for step, values in STEPS.items()
+        for name in ("order", "displacement", "share", "ends", "start", "end", "damping", "allow", *values)
+    },
     "motion.sign": ({"motion.reverse": GONE}, "reversed"),
     "section.upstream": ({"section": FACES}, [["0 m", 0.1], ["12 m", 0.0]]),
     "section.downstream": ({"section": FACES}, [["0 m", 0.7], ["25 m", 0.0]]),
@@ -129,6 +143,22 @@ HELPED: dict[str, tuple[Fields, Any]] = {
         {"section": {"polygon": [["0 m", "0 m"], ["26 m", "0 m"], ["5 m", "30 m"], ["0 m", "30 m"]]}},
         [["-2 m", "0 m"], ["26 m", "0 m"], ["5 m", "30 m"], ["0 m", "30 m"]],
     ),
+    **{
+        f"crack.band.{name}": ({"crack.band": {"low": 0.5, **ends}}, value)
+        for ends, name, value in (
+            ({}, "low", 0.55),
+            ({"high": 0.8}, "high", 0.9),
+            ({}, "judge", "low"),
+            ({"slip_weakening": {"residual_friction": 0.4, "slip": "5 mm"}}, "slip_weakening.residual_friction", 0.3),
+            ({"slip_weakening": {"residual_friction": 0.4, "slip": "5 mm"}}, "slip_weakening.slip", "2 mm"),
+            (
+                {"speed_weakening": {"residual_friction": 0.4, "speed": "1 cm/s"}},
+                "speed_weakening.residual_friction",
+                0.3,
+            ),
+            ({"speed_weakening": {"residual_friction": 0.4, "speed": "1 cm/s"}}, "speed_weakening.speed", "2 cm/s"),
+        )
+    },
     "crack.friction": ({"crack.static_friction": GONE, "crack.kinetic_friction": GONE, "crack.friction": 0.6}, 0.5),
     **{
         f"crack.law.{name}": ({**NO_COEFFICIENTS, "crack.law": law}, value)
@@ -275,6 +305,8 @@ HELPED |= {
     "suite.vertical": (SUITE, True),
     "suite.unit": (SUITE, "g"),
     "suite.time_step": (SUITE, "0.01 s"),
+    "suite.layout": (SUITE, "rows"),
+    "suite.factor": (SUITE, "divide"),
 }
 _NUMBER = re.compile(r"-?\d+(?:\.\d*)?(?:e[+-]?\d+)?")
 

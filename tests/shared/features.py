@@ -21,6 +21,7 @@ CHANGES: dict[str, Fields] = {
     "three cracks": {"further_cracks": [{"elevation": "70 m"}, {"elevation": "90 m"}]},
     "kinks": {"crack.kinks": [["30 m", "0 m"]]},
     "kinks off the straight line": {"crack.kinks": [["30 m", "0.5 m"]]},
+    "a measured loss of rocking": {"crack.rocking_loss": 0.05},
     "roughness": {"crack.roughness": {"asperity_height": "2 mm", "wave_length": "50 mm"}},
     "a friction law": {"crack.law": LAW},
     "a law with cohesion": {"crack.law": BOND},
@@ -47,6 +48,8 @@ CHANGES: dict[str, Fields] = {
     "virtual water that does not rotate": {"reservoir.virtual_mass_rotates": False},
     "Zangar's water pressure": {"reservoir.hydrodynamic": "zangar"},
     "compressible water": {"reservoir.compressible": True},
+    "shaking across the valley": {"motion.cross_valley": {"points": [["0 s", "0 g"], ["1 s", "0.05 g"]]}},
+    "an inclined crack": {"crack.inclination": "2 deg"},
     "elastic rock": {"rock": {"modulus": "20 GPa"}},
     "water that follows the vertical motion": {
         "reservoir.follows_vertical_motion": True,

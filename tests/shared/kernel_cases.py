@@ -27,7 +27,7 @@ def named(**values: Any) -> dict[str, Any]:
 
 
 def rows(block: dict[str, Any]) -> Floats:
-    """Return the kernel's (21,) or (n, 21) array of a named block."""
+    """Return the kernel's (22,) or (n, 22) array of a named block."""
     return np.ascontiguousarray(np.stack([block[name] for name in BLOCK], axis=-1), dtype=float)
 
 

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from shared.record_samples import GAL, WAVE, rows
@@ -165,8 +167,8 @@ DATOS DE ACELERACION:
 """
 
 
-def bhrc(values: np.ndarray = 10.0 * WAVE) -> str:
-    """Two components in tenths of g."""
+def bhrc(values: np.ndarray = 10.0 * WAVE, ways: Mapping[str, float] = {"L1": 1.0, "V2": 0.5}) -> str:
+    """Components in tenths of g, each with its share of the values."""
     numbers = f"{rows(np.zeros(100, dtype=int), 16, '5d')}\n{rows(np.zeros(50), 8, '10.3f')}\n"
     return "".join(
         f"""\
@@ -186,12 +188,12 @@ UNITS ARE SECONDS AND G/10
 {numbers}{rows(share * values, 10, "13.6E")}
 /&
 """
-        for way, share in (("L1", 1.0), ("V2", 0.5))
+        for way, share in ways.items()
     )
 
 
-def renadic(values: np.ndarray = 10.0 * WAVE) -> str:
-    """Two components as pairs of time and tenths of g, in columns that touch."""
+def renadic(values: np.ndarray = 10.0 * WAVE, ways: Mapping[str, float] = {"EW": 1.0, "V": 0.5}) -> str:
+    """Components as pairs of time and tenths of g, in columns that touch, each with its share of the values."""
     numbers = f"{rows(np.zeros(100, dtype=int), 16, '5d')}\n{rows(np.zeros(50), 8, '10.3f')}\n"
     return "".join(
         f"""\
@@ -211,16 +213,22 @@ RMS ACCEL OF COMPLETE RECORD = 0.106 G
 {numbers}{rows(np.column_stack([_LATE + 0.01 * np.arange(len(values)), share * values]).ravel(), 10, "7.3f")}
 /&  ----------  END OF DATA FOR CHANNEL {number}  ----------
 """
-        for number, way, share in ((1, "EW", 1.0), (2, "V", 0.5))
+        for number, (way, share) in enumerate(ways.items(), 1)
     )
 
 
-def csmip_v1(values: np.ndarray = 10.0 * WAVE, *, equal: bool = False, of_1998: bool = False) -> str:
-    """Two components: as pairs of time and tenths of g, or, as of late, in equal steps and g, in the words of two
+def csmip_v1(
+    values: np.ndarray = 10.0 * WAVE,
+    *,
+    equal: bool = False,
+    of_1998: bool = False,
+    ways: Mapping[str, float] = {"90 DEG": 1.0, "UP": 0.5},
+) -> str:
+    """Components: as pairs of time and tenths of g, or, as of late, in equal steps and g, in the words of two
     years."""
     numbers = f"{rows(np.zeros(100, dtype=int), 16, '5d')}\n{rows(np.zeros(50), 8, '10.3f')}\n"
     parts = []
-    for number, way, share in ((1, "90 DEG", 1.0), (2, "UP", 0.5)):
+    for number, (way, share) in enumerate(ways.items(), 1):
         of = share * values
         if equal:
             units = "Units of uncor data are sec and g ."
