@@ -27,8 +27,8 @@ ABSENT = (
     Absent(
         "Thesis, sections 6.5.1 to 6.5.3: the slips and rotations of its elastic blocks",
         ("flexible",),
-        "their ground motions and moduli are not told; elastic-impulse, elastic-rocking and contactors take others, "
-        "and are held to rigid theory and to an independent program",
+        "their ground motions and moduli are not published; elastic-impulse, elastic-rocking and contactors take "
+        "others, and are held to rigid theory and to an independent program",
     ),
     Absent(
         "Thesis, table 7.7, friction 0.8 and water of 100 m",

@@ -286,7 +286,7 @@ CASES: dict[str, Declared] = {
         'dams", Journal of Structural Engineering, ASCE 117 (1991), 3698-3719; '
         f"{_PROTOTYPE}",
         _EXACT,
-        "What is chaotic is judged by its spread under 99 to 101 % of the shaking.",
+        "Chaotic numbers are judged by their spread under 99 to 101 % of the shaking.",
         history=thesis_dams.triangular_response,
         records=True,
     ),

@@ -31,8 +31,8 @@ from validation.sources import ENDS_WITH_MOTION, plane_case
 from validation.thesis_dams import record_named
 
 #: Dams with a straight crack and constant friction, with a friction law, a crack with two kinks, or two cracks; plain
-#: ones on elastic rock before water with sound, and those with a bond on the crack.
-Kind = Literal["plain", "law", "kinks", "two cracks", "rock and water", "bonds"]
+#: ones on elastic rock before water with sound, those with a bond on the crack, and plain ones whose rock is assumed.
+Kind = Literal["plain", "law", "kinks", "two cracks", "rock and water", "bonds", "assumed rock"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 #: So many of those that are called converged must stay where they are.
 COVERED = 0.95
@@ -157,6 +157,8 @@ def draw(seed: int, kind: Kind = "plain") -> Case:
     if kind == "two cracks":
         friction = float(own.uniform(0.6, 1.4))
         fields["further_cracks"] = [{"elevation": f"{height * own.uniform(0.4, 0.85)} m", "friction": friction}]
+    if kind == "assumed rock":
+        return Case.of(fields)
     if kind not in ("rock and water", "bonds"):
         fields |= {"rock": "rigid"}
         fields["reservoir"] |= {"compressible": False}

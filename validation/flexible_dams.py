@@ -73,7 +73,7 @@ def periods() -> Iterator[Row]:
         dam = build_flexible_dam(_case(corners, concrete, friction=1.0))
         computed = intact_periods(dam, len(printed), water=False)
         for number, (reference, ours) in enumerate(zip(printed, computed, strict=True), 1):
-            remark = "good for 1 %: the drawing of the section is lost, or its Poisson's ratio is not told"
+            remark = "good for 1 %: the drawing of the section is lost, or its Poisson's ratio is not published"
             yield Row(f"{name}, period {number}", reference, float(ours), 0.01, remark=remark, kind="thesis")
         fine = build_flexible_dam(_case(corners, concrete, friction=1.0, elements_across=16))
         change = float(np.abs(intact_periods(fine, len(printed), water=False) / computed - 1.0).max())

@@ -57,7 +57,7 @@ class Runs:
         yield Row(
             "worst ledger, unexplained over turnover", 0.0, self._residual, 1e-9, relative=False, kind="condition"
         )
-        what = "most energy made by contact, over what it takes"
+        what = "most energy made by contact, over the energy it takes"
         yield Row(what, 0.0, self._gained, GAINED, relative=False, remark=remark, kind="condition")
 
 

@@ -59,8 +59,8 @@ BONDED = (
 SLIP = Source(
     "thesis",
     0.07,
-    "the thesis' slips are good for 7 %: so much its untold version of the record takes off the exact rigid block's "
-    "(table-7.6-taft)",
+    "the thesis' slips are good for 7 %: so much its unpublished version of the record takes off the exact rigid "
+    "block's (table-7.6-taft)",
 )
 SMALL_SLIP = Source(
     "thesis", 0.10, "good for 10 %: the version of the record (7 %, table-7.6-taft) and a slip of two digits"

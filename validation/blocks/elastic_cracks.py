@@ -106,7 +106,9 @@ def kinked_crack() -> Iterator[Row]:
         strength = _G * math.tan(math.atan(friction) + rise)
         kind = f"teeth of {degrees:g} degrees, friction {friction}"
         held = float(np.abs(flexible(sawtooth(rise, friction, 0.95 * strength)).histories["slip_m"]).max())
-        yield Row(f"{kind}, 95 % of what it bears: largest slip [m]", 0.0, held, 1e-3, relative=False, kind="condition")
+        yield Row(
+            f"{kind}, 95 % of its resistance: largest slip [m]", 0.0, held, 1e-3, relative=False, kind="condition"
+        )
         push = 1.4 * strength
         ours = float(flexible(sawtooth(rise, friction, push)).histories["slip_m"][-1])
         uphill = push * math.cos(rise) - _G * math.sin(rise)

@@ -61,7 +61,7 @@ def rough_crack() -> Iterator[Row]:
         push = share * strength
         points = [["0 s", f"{-push!r} g"], ["0.5 s", f"{-push!r} g"], ["0.5 s", "0 g"], ["2 s", "0 g"]]
         ours = rigid(_rough(friction, slope, wear=1e-5, points=points)).summary["roughness"]["plastic_work_j_m2"] > 0.0
-        what = f"pushed by {share} of what it bears: slips and wears"
+        what = f"pushed by {share} of its resistance: slips and wears"
         yield Row(what, float(moves), float(ours), 0.0, relative=False)
     for height in (0.005, 0.01):
         ours = rigid(_rough(friction, 0.15, height)).summary["roughness"]["peak_dilation_m"]

@@ -49,7 +49,7 @@ def lixouri() -> Iterator[Row]:
     """
     read = "read off the published curve, good for 3 mm"
     stiff = (
-        "its block is a stiff elastic and plastic oscillator, of a period that is not told: periods of 0.02 to 0.1 s "
+        "its block is a stiff elastic and plastic oscillator, of an unpublished period: periods of 0.02 to 0.1 s "
         "move an independent one by up to 39 mm under these records"
     )
     for name, published in _CEPHALONIA.items():
@@ -91,7 +91,7 @@ def slammer() -> Iterator[Row]:
     for name, published in _SLAMMER.items():
         record = record_named(name)
         for (peak, yields), both in published.items():
-            for way, sign, printed in zip(("as it is", "reversed"), (-1.0, 1.0), both, strict=True):
+            for way, sign, printed in zip(("as recorded", "reversed"), (-1.0, 1.0), both, strict=True):
                 if printed is None:
                     continue
                 motion = record.scaled_to(peak * _STANDARD_G)

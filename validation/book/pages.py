@@ -26,7 +26,7 @@ _COLUMNS = {
 }
 _INTRODUCTION = """# Validation
 
-Every number that heeltoe is held to, beside the number it is held against: {cases} cases, {rows} rows. All of it is
+Every validated number beside its reference: {cases} cases, {rows} rows. All of it is
 made from the programs of `validation/` by `make book`; the tests compute it again and fail where a page
 says something else. A case is run again with
 
@@ -95,7 +95,7 @@ def index(book: dict[str, Rows]) -> str:
     text = _INTRODUCTION.format(cases=len(CASES), rows=sum(total.values()), verdicts=f"In all {_in_words(total)}.")
     absent = [[gap.what, ", ".join(gap.models), gap.why] for gap in ABSENT]
     return (
-        f"{_MADE}\n\n{text}{_table(heads, lines)}\n\n## What cannot be reproduced\n\n"
+        f"{_MADE}\n\n{text}{_table(heads, lines)}\n\n## Results that cannot be reproduced\n\n"
         f"{_table(['what', 'model', 'why'], absent)}\n"
     )
 
