@@ -1,11 +1,13 @@
 """Make the figures of the documentation from the examples: `python -m docs.make_figures`, at the root."""
 
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from matplotlib import rc_context
 from matplotlib.figure import Figure
+from PIL import Image, ImageSequence
 
-from heeltoe import decoupled, read_case, rigid
+from heeltoe import animate, decoupled, read_case, rigid, run
 from heeltoe.study.small.overturning import overturning_map
 from heeltoe.study.small.run_table import parse_axes, run_small
 from heeltoe.views.figures.crack_level import crack_level_figure
@@ -77,7 +79,23 @@ def measured_beam() -> Figure:
     return figure
 
 
+def moving_dam(place: Path) -> None:
+    """Write the moving picture of the README: the elastic typical dam, small enough for a page."""
+    changes = ["flexible.evidence=none", "motion.duration=8s"]
+    case = read_case(EXAMPLES / "typical-base.toml", changes)
+    with TemporaryDirectory() as folder:
+        whole = Path(folder) / "dam.gif"
+        animate(case, run(case, "flexible"), whole, frames_per_second=3.0, speed=0.5, window=(1.5, 6.0))
+        with Image.open(whole) as film:
+            pictures = [
+                frame.convert("RGB").resize((640, 360), Image.Resampling.LANCZOS).quantize(16, dither=Image.Dither.NONE)
+                for frame in ImageSequence.Iterator(film)
+            ]
+    pictures[0].save(place, save_all=True, append_images=pictures[1:], duration=333, loop=0, optimize=True)
+
+
 if __name__ == "__main__":
+    moving_dam(HERE / "typical-base.gif")
     varied = parse_axes(["crack.friction=0.8,1.0,1.2", "uplift.pattern=uniform,triangular"])
     grid = run_small(EXAMPLES / "koyna.toml", [], varied, decoupled)
     save(koyna_top(), HERE / "koyna-top.png", dpi=110)

@@ -140,7 +140,7 @@ def _commands() -> Iterator[str]:
     commands: dict[str, Any] = typer.main.get_command(app).commands  # type: ignore[attr-defined]
     for name, command in commands.items():
         arguments = [param for param in command.params if param.param_type_name == "argument"]
-        options = [param for param in command.params if param.param_type_name == "option" and param.name != "help"]
+        options = [param for param in command.params if _is_listed(param)]
         text = " ".join((command.help or "").split())
         called = " ".join([f"heeltoe {name}", *(argument.metavar or argument.name.upper() for argument in arguments)])
         yield from (f"## heeltoe {name}", "", _text(text), "", f"    {called}{' [OPTIONS]' if options else ''}", "")
@@ -154,6 +154,11 @@ def _commands() -> Iterator[str]:
                 f": {_text(getattr(item, 'help', None) or 'What it is about.')}{default}",
                 "",
             )
+
+
+def _is_listed(parameter: Any) -> bool:
+    """Whether the help of a command lists a parameter as an option."""
+    return parameter.param_type_name == "option" and parameter.name != "help" and not parameter.hidden
 
 
 def _worth_saying(parameter: Any) -> bool:

@@ -1,0 +1,41 @@
+"""Print the table of docs/flexible.md of how far slips move with the time step on rock.
+
+python docs/steps_on_rock.py
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import heeltoe
+from heeltoe.case.model import Case
+from heeltoe.models.flexible.body.modes import part_periods
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+DAMS = ("typical-base", "triangular", "stepped-crack", "koyna-top", "typical-height", "two-cracks")
+#: Steps over the period of the part that vibrates fastest, and the longest one at a four-hundredth [s].
+PARTS, LONGEST = (400, 200, 100), 2e-4
+
+
+def slip_mm(case: Case, step: float) -> float:
+    """Return the slip of the worse sign at a step [s], of the upper crack [mm]."""
+    stepped = case.with_(f"flexible.time_step={step} s", "flexible.evidence=none")
+    return 1e3 * heeltoe.run(stepped, "flexible").cracks[0].residual_slip_m
+
+
+def main() -> None:
+    """Print a row for each dam."""
+    print("| slip, mm | 1/400 | 1/200 | 1/100 |")
+    print("| --- | --- | --- | --- |")
+    for name in DAMS:
+        case = heeltoe.read_case(EXAMPLES / f"{name}.toml")
+        dam = build_flexible_dam(case)
+        period = min(float(part_periods(modes, 1)[0]) for modes in dam.modes[: dam.free])
+        shortest = min(period / PARTS[0], LONGEST)
+        slips = (slip_mm(case, shortest * PARTS[0] / part) for part in PARTS)
+        print(f"| {name} | {' | '.join(f'{slip:.1f}' for slip in slips)} |")
+
+
+if __name__ == "__main__":
+    main()
