@@ -128,6 +128,7 @@ lint: check $(VENV)/.built
 sizes: check $(VENV)/.packages
 	@$(BIN)/python .ci/sizes.py
 	@$(BIN)/python .ci/spine.py
+	@$(BIN)/python .ci/knobs.py
 
 validate: check $(VENV)/.built
 	$(BIN)/python -m validation $(CASE)

@@ -1,16 +1,19 @@
 """Counts in how many places a rule of the result stands. A report to look at; it never fails.
 
-python .ci/spine.py [root of another copy]
+python .ci/spine.py [root of another copy that is installed]
 """
 
 from __future__ import annotations
 
 import ast
+import contextlib
+import io
 import re
 import sys
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from pathlib import Path
+from types import FrameType
 
 ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
 PACKAGE = (ROOT if ROOT.is_dir() else ROOT.parents[1]) / "python" / "heeltoe"
@@ -92,6 +95,27 @@ def circles(trees: dict[str, ast.Module]) -> list[list[str]]:
     return found
 
 
+def calls_of_a_run() -> Counter[str]:
+    """Return how many calls the second rigid run of an example in a process makes, by the file that is called."""
+    from heeltoe.cli.main import main as heeltoe
+
+    counts: Counter[str] = Counter()
+
+    def count(frame: FrameType, event: str, _: object) -> None:
+        file = frame.f_code.co_filename
+        if event == "call" and file.startswith(str(PACKAGE)) and frame.f_code.co_name != "<module>":
+            counts[file] += 1
+
+    case = PACKAGE.parents[1] / "examples" / "typical-base.toml"
+    sys.argv = ["heeltoe", "run", str(case), "--model", "rigid"]
+    for profile in (None, count):
+        sys.setprofile(profile)
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(SystemExit):
+            heeltoe()
+        sys.setprofile(None)
+    return counts
+
+
 def main() -> None:
     """Print the counts."""
     trees = modules()
@@ -105,7 +129,7 @@ def main() -> None:
     )
     loose = sum("dict[str, Any]" in line or "Mapping[str, Any]" in line for line in lines)
     quoted = {text for tree in trees.values() for text in texts(tree)}
-    rings = circles(trees)
+    rings, calls = circles(trees), calls_of_a_run()
     rows = [
         ("lines of Python", sum(path.read_text("utf-8").count("\n") for path in PACKAGE.rglob("*.py")), ""),
         ("lists of outcomes", *counted(lists_of(trees, OUTCOMES, 5))),
@@ -115,6 +139,7 @@ def main() -> None:
         ("files with residual_slip_m", sum("residual_slip_m" in text for text in sources.values()), ""),
         ("quoted keys of results", keys, ""),
         ("lines with dict[str, Any] or Mapping[str, Any]", loose, ""),
+        ("calls of a rigid run, from command to printed answer", calls.total(), f"in {len(calls)} files"),
         ("circles of files", len(rings), "; ".join(" ".join(ring) for ring in rings)),
     ]
     for name, count, where in rows:
