@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 A_WAIT = 5.0
 _TIMES = ((86400.0, "days"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
 # Seconds and bytes of a sample of the motion of a rigid block, and of a second of a decoupled one, which steps by 1 ms.
-_SAMPLE, _CHAIN = (2.7e-5, 3.2e3), (0.03, 4e5)
+_SAMPLE, _CHAIN = (2.7e-5, 3.2e3), (0.03, 8e5)
 # Seconds and bytes of each number in the file of a record, how much of that is looked at for how long they are [B], and
 # how many bytes one of a compressed file has.
 _READ, _LOOKED_AT, _PACKED = (2.4e-6, 200.0), 1 << 16, 3.0
 # Of the figures and tables of a run, and of a report.
-_FILES, _REPORT = (3.3, 2e8), (4.3, 2.5e8)
+_FILES, _REPORT = (3.3, 2e8), (9.0, 5e8)
 
 
 @dataclass(frozen=True)
