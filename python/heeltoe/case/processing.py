@@ -159,7 +159,7 @@ class ScaleTime(Step):
 
 
 CorrectionStep = Annotated[Baseline | BandPass | Taper | CutToWindow, Field(discriminator="step")]
-"""A step that does the same to each component of an earthquake, told by its field ``step``."""
+"""A step that does the same to each component of an earthquake; its field ``step`` names it."""
 ProcessingStep = Annotated[
     Baseline | BandPass | Taper | CutSignificant | CutToWindow | ScaleToArias | ScaleToSpectrum | ScaleTime,
     Field(discriminator="step"),

@@ -95,7 +95,7 @@ def run_many(runner: Runner, output: Output) -> None:
     def announce(expected: Outlook) -> None:
         if not announced:
             say_cost(expected.cost)
-        # What has been estimated alone is no number of the study.
+        # A number that is estimated alone is none of the study.
         if announced or "flexible" not in expected.plan.study.model:
             print_outlook(expected, words)
         announced.append(expected)

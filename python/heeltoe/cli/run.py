@@ -147,38 +147,24 @@ def run(
     request.check()
     changes: list[str | Mapping[str, Any]] = [*(set_ or [])]
     changes += [] if evidence is None else [f"flexible.evidence={evidence}"]
+    of_one_run = {
+        "--motion": motion,
+        "--reverse": reverse,
+        "--duration": duration,
+        "--spread": spread,
+        "--csv": csv,
+        "--vtk": vtk,
+        "--output-step": output_step,
+        "--vary": vary,
+    }
     if levels is not None:
-        others = {
-            "--motion": motion,
-            "--pga": pga,
-            "--reverse": reverse,
-            "--duration": duration,
-            "--spread": spread,
-            "--csv": csv,
-            "--vtk": vtk,
-            "--output-step": output_step,
-            "--vary": vary,
-            "--sa": sa,
-            "--out": out,
-            "--report": report,
-            "--xlsx": xlsx,
-            **{name: value for name, value in suite.options().items() if name != "--motions"},
-        }
-        refuse(others, "levels-option")
+        of_one_suite = {name: value for name, value in suite.options().items() if name != "--motions"}
+        others = {"--pga": pga, "--sa": sa, "--out": out, "--report": report, "--xlsx": xlsx}
+        refuse(of_one_run | others | of_one_suite, "levels-option")
         run_levels_command(read_case(case, changes), levels, suite, request)
         return
     if motions or "motions" in read_fields(Path(case)):
-        others = {
-            "--motion": motion,
-            "--reverse": reverse,
-            "--duration": duration,
-            "--spread": spread,
-            "--csv": csv,
-            "--vtk": vtk,
-            "--output-step": output_step,
-            "--vary": vary,
-        }
-        refuse(others, "suite-option")
+        refuse(of_one_run, "suite-option")
         run_suite_command(case, read_case(case, changes), pga, suite, request)
         return
     refuse(suite.options(), "suite-needs")

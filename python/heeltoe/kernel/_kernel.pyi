@@ -198,7 +198,7 @@ class CrossingSummary:
 
 @final
 class Crossing:
-    """What a block did across the valley.
+    """Motion of a block across the valley.
 
     Attributes
     ----------
@@ -226,7 +226,7 @@ class BlockRun:
     rough
         What its asperities have been through, where it is rough.
     crossing
-        What it did across the valley, where the ground shakes that way.
+        Motion across the valley, where the ground shakes that way.
     exact
         Whether closed forms carry it from event to event, or the walk was integrated.
     outcome, final_mode

@@ -92,7 +92,7 @@ class Fall(Block):
 
 
 class LawFits(Block):
-    """What shear tests say of the friction of a joint."""
+    """Friction of a joint by shear tests."""
 
     tests: Annotated[int, Number("Tests.")]
     used: Annotated[int, Number("Tests that were fitted: of specimens with several stages the first stages alone.")]
@@ -103,7 +103,7 @@ class LawFits(Block):
     high: Annotated[float, Number("Upper end of it.")]
     fits: Annotated[list[LawFit], Number("The laws.")]
     falls: Annotated[list[Fall], Number("Whether the friction falls by slip or speed, where the tests can say.")]
-    notes: Annotated[list[Sentence], Number("What a reader must know of the tests.")]
+    notes: Annotated[list[Sentence], Number("Remarks on the tests.")]
     crack: Annotated[str, Number("The friction as a block of a case file.")]
 
     @property

@@ -20,7 +20,7 @@ from heeltoe.errors.error import InputError, shown
 from heeltoe.errors.sanitize import near
 from heeltoe.units.parse import parse, plain_number
 
-#: What a table may have, with the kind of quantity; None for words.
+#: Columns of a table, with the kind of quantity; None for words.
 COLUMNS: dict[str, str | None] = {
     "specimen": None,
     "surface": None,

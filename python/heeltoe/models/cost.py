@@ -1,4 +1,4 @@
-"""What a wish takes, estimated before it begins: time on one core, and memory on top of that of the program.
+"""The cost of a run, estimated before it begins: time on one core, and memory on top of that of the program.
 
 The factors of blocks, of records and of tables were measured on one core at some 3 GHz with records of 10 to 60 minutes
 and files of up to 50 MB; those of elastic parts are in :mod:`heeltoe.models.flexible.body.cost`."""
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
 
-#: What takes longer than this is announced before it begins [s].
+#: A run that takes longer than this is announced before it begins [s].
 A_WAIT = 5.0
 _TIMES = ((86400.0, "days"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
 # Seconds and bytes of a sample of the motion of a rigid block, and of a second of a decoupled one, which steps by 1 ms.
@@ -21,7 +21,7 @@ _SAMPLE, _CHAIN = (2.7e-5, 3.2e3), (0.03, 8e5)
 # Seconds and bytes of each number in the file of a record, how much of that is looked at for how long they are [B], and
 # how many bytes one of a compressed file has.
 _READ, _LOOKED_AT, _PACKED = (2.4e-6, 200.0), 1 << 16, 3.0
-# Of the figures and tables of a run, and of a report.
+# Seconds and bytes of the figures and tables of a run, and of a report.
 _FILES, _REPORT = (3.3, 2e8), (9.0, 5e8)
 
 
@@ -50,7 +50,7 @@ class Cost:
         return f"{two_digits(max(self.seconds / factor, 1.0))} {unit} and {two_digits(max(self.memory / 1e9, 0.1))} GB"
 
 
-#: What next to nothing costs.
+#: The cost of next to nothing.
 NOTHING = Cost()
 
 

@@ -352,7 +352,7 @@ class WithoutCrossValley(Block):
 
 
 class CrossValley(Block):
-    """What a block did across the valley, positive to the left bank."""
+    """Motion of a block across the valley, positive to the left bank."""
 
     residual_slip_cross_m: Annotated[
         float, Number("Slip across the valley at the end, positive to the left bank.", "m")
@@ -394,7 +394,7 @@ class BlockNumbers(CrackNumbers):
     overturned_about: Annotated[str | None, Number("Corner about which a block has overturned; null where it has not.")]
     cross_valley: Annotated[
         CrossValley | None,
-        Number("What a block did across the valley; null where the ground does not shake that way."),
+        Number("Motion of a block across the valley; null where the ground does not shake that way."),
     ] = None
 
 

@@ -207,7 +207,7 @@ class ResponseData(Numbered):
     signs
         What the motion does as recorded and reversed, where both were run: the response is that of the worse way.
     friction_band
-        What other frictions of the crack do, where the case has a band of them.
+        Results with other frictions of the crack, where the case has a band of them.
     crest
         How the crest moves; None where the model does not say.
     """

@@ -143,11 +143,11 @@ pub struct Run {
     pub worn: Option<Wear>,
     /// What the asperities have been through, where the crack is rough.
     pub rough: Option<Roughness>,
-    /// What the block has done across the valley, where the ground shakes that way.
+    /// Motion of the block across the valley, where the ground shakes that way.
     pub crossing: Option<Crossing>,
 }
 
-/// What a block has done across the valley; positive to the left bank.
+/// Motion of a block across the valley; positive to the left bank.
 #[derive(Clone, Debug, Default)]
 pub struct Crossing {
     /// At the moments asked for: place (m), velocity (m/s), friction (N/m).
@@ -160,7 +160,7 @@ pub struct Crossing {
     pub range: [f64; 2],
     /// Length of the path of the slip, along and across together (m).
     pub path: f64,
-    /// What the neighbours have taken (N s/m).
+    /// Impulse on the neighbours (N s/m).
     pub side_impulse: f64,
     /// How long one of them held the block (s).
     pub time_at_side: f64,

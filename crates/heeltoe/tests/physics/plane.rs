@@ -9,7 +9,7 @@ use heeltoe::rigid::{
 
 use crate::numbers::{near, OPTIONS, SLIP};
 
-/// Of the programs that computed the figures.
+/// The programs that computed the figures.
 const GRAVITY: f64 = 9.80665;
 
 /// A slab that never lifts, of so much mass along the stream and 1 across.
@@ -39,7 +39,7 @@ const FREE: Across = Across {
     start: [0.0; 2],
 };
 
-/// What shakes: moments, along, across, up.
+/// Moments and ground accelerations along, across, up.
 struct Ground {
     time: Vec<f64>,
     along: Vec<f64>,

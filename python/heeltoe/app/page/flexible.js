@@ -41,7 +41,7 @@ export class FlexibleRun {
     /** Runs a dam that takes too long to follow the sliders. */
     this.long = element("button", { type: "button", class: "main", onclick: () => this.runLong() }, "Run the elastic dam");
     talk.on("elastic", (answer) => this.hear(answer));
-    // What fails is answered, too: the card shall not wait for ever.
+    // A failed run is answered, too: the card must not wait for ever.
     talk.on("answered", (answer) => {
       if (answer.serial === this.serial && answer.of !== "elastic") this.hear({ ...answer, waits: answer.text });
     });

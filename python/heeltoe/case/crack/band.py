@@ -1,4 +1,4 @@
-"""What else the friction of a crack may be: the block ``[crack.band]``."""
+"""Other frictions that a crack may have: the block ``[crack.band]``."""
 
 from __future__ import annotations
 

@@ -150,7 +150,7 @@ class Crack(CrackFields):
     roughness: Roughness | None = None
     """Asperities that the block climbs and wears; the coefficients are then those of the flanks."""
     band: Band | None = None
-    """What else the friction may be: a run for each, and which of them the limits judge."""
+    """Other frictions: a run for each, and which of them the limits judge."""
 
     @model_validator(mode="after")
     @gathered

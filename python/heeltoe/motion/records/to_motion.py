@@ -45,7 +45,7 @@ _IN_ONE_G_TOO = {"%g": 100.0}
 _SAME, _FAR_PEAK, _FAR_DURATION = 1e-3, 0.05, 0.01
 
 
-#: What to do with the factors in headers of several files: multiply by them, divide by them, or leave values as they
+#: Use of the factors in headers of several files: multiply by them, divide by them, or leave values as they
 #: are that contain them.
 HeaderFactor = Literal["multiply", "divide", "contain"]
 

@@ -22,9 +22,9 @@ class SobolIndex(Block):
 
     name: Annotated[str, Number("The field, or `motion` or `strength`.")]
     first: Annotated[float, Number("Share of the variance that it makes by itself.")]
-    first_interval: Annotated[list[float], Number("What that lies within.")]
+    first_interval: Annotated[list[float], Number("Bounds of that index.")]
     total: Annotated[float, Number("Share of the variance that it makes together with all others.")]
-    total_interval: Annotated[list[float], Number("What that lies within.")]
+    total_interval: Annotated[list[float], Number("Bounds of that index.")]
 
 
 class Sobol(Block):
@@ -44,7 +44,7 @@ class FieldValue(TypedDict):
 
 
 class FieldEffect(TypedDict):
-    """What the values of a field do by themselves, and how far they and the base case are apart."""
+    """Effect of the values of one field, and how far they and the base case are apart."""
 
     name: str
     span: float
@@ -52,7 +52,7 @@ class FieldEffect(TypedDict):
 
 
 class Tornado(TypedDict):
-    """What each field does by itself, that of the largest span first: behind it are so many motions, others are left
+    """Effect of each field alone, that of the largest span first: behind it are so many motions, others are left
     out; without any there is no mean of the base case."""
 
     motions: int

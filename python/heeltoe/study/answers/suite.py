@@ -33,7 +33,7 @@ class SuiteLimit(LimitCheck):
     """A number over the records of a suite beside what the case allows."""
 
     elevation_m: Annotated[
-        float | None, Number("Of the bonded joint that is judged, where there are several cracks.", "m")
+        float | None, Number("Elevation of the bonded joint that is judged, where there are several cracks.", "m")
     ] = None
 
 
@@ -53,7 +53,7 @@ class GoverningRun(Block):
 
 
 class SuiteRecord(Block):
-    """What a dam does in a record, by its worse sign; numbers without sign."""
+    """Results of a dam in a record, by its worse sign; numbers without sign."""
 
     motion: Annotated[str, Number("Which record.")]
     event: Annotated[str, Number("The event of the record.")]
@@ -89,12 +89,10 @@ class SuiteRecord(Block):
 
 
 class SuiteModel(Block):
-    """What a suite says by one model."""
+    """Results of a suite by one model."""
 
     model: Annotated[str, Number("Which model.")]
-    records: Annotated[
-        list[SuiteRecord], Number("What the dam does in each record, by its worse sign; numbers without sign.")
-    ]
+    records: Annotated[list[SuiteRecord], Number("Results in each record, by its worse sign; numbers without sign.")]
     statistics: Annotated[
         Mapping[str, Mapping[str, float | None]], Number("Numbers over the records, each by its worse sign.")
     ]
@@ -104,9 +102,9 @@ class SuiteModel(Block):
 
 
 class SuiteAnswer(Block):
-    """What a suite of records says."""
+    """Results of a suite of records."""
 
-    judge: Annotated[str, Number("Which number over the records is held against the limits.")]
+    judge: Annotated[str, Number("Statistic over the records that the limits judge.")]
     models: Annotated[list[SuiteModel], Number("The same by each model.")]
 
 

@@ -167,7 +167,7 @@ def component_of(motion: GroundMotion, name: str, *, several: bool, row: Listed 
     several
         Whether it is one of several in the file.
     row
-        What a list says of the file.
+        Entries of a list on the file.
     """
     listed = row or Listed()
     way = listed.way or way_of(motion.component)

@@ -20,7 +20,7 @@ _YEARS = re.compile(r"(\d+(?:\.\d+)?)[\s-]*(?:years?|yrs?|y|a)\b")
 _PERIOD = re.compile(r"^sa\D{0,3}(\d*\.?\d+)")
 _PROBABILITY = re.compile(r"\b(?:poes?|pe|aep|prob\w*)\b")
 _RATE = re.compile(r"\b(?:rates?|afe|maf|mafe|frequency|freq|lambda)\b|1/(?:yr|year|a)\b")
-# What makes another number of a rate, of a probability, or of a strength.
+# Words that make another number of a rate, of a probability, or of a strength.
 _LOGARITHM = re.compile(r"\b(?:log\s?_?(?:10|e)?|ln)(?:\b|(?=[\s_(\[]|pga|pgv|sa|afe))")
 _OTHER = re.compile(
     r"non[\s-]?exceed|densit|occurrence|\b10\s?(?:\^|\*\*|-\d|e-?\d)|/\s?(?:day|d|week|month)\b"

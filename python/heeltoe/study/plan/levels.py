@@ -51,7 +51,7 @@ class Level(Fields):
     judge: Literal["largest", "mean", "median", "84%"] = "largest"
     """Which number over the records the limits judge."""
     limits: Limits = Limits()
-    """What is allowed at this level."""
+    """Limits of this level."""
     factor: Annotated[DimensionlessNumber, Field(gt=0.0, le=100.0)] | None = None
     """Factor against sliding that must be left after the earthquake, by the static checks with the judged slip."""
     residual_friction: FrictionCoefficient | None = None

@@ -27,7 +27,7 @@ class LevelCheck(Block):
 
     name: Annotated[str, Number("Field of `limits`, or post_seismic_factor.")]
     value: Annotated[float | None, Number("The judged number over the records, SI; null where the dam fails.")]
-    allowed: Annotated[float, Number("What is allowed, SI; of a factor what is required.")]
+    allowed: Annotated[float, Number("The limit, SI; for a factor the required value.")]
     met: Annotated[bool, Number("Whether that is met.")]
 
     @property
@@ -42,7 +42,7 @@ class LevelCheck(Block):
 
 
 class LevelResult(Block):
-    """What the dam does at one level of earthquake."""
+    """Results at one level of earthquake."""
 
     return_period_years: Annotated[float, Number("Mean time between such earthquakes, in years.")]
     records: Annotated[int, Number("Earthquakes of the suite.")]
@@ -62,7 +62,7 @@ class LevelResult(Block):
 
 
 class LevelResults(Block):
-    """What the dam does at every level of earthquake."""
+    """Results at every level of earthquake."""
 
     title: Annotated[str, Number("Title of the case.")]
     criteria: Annotated[str, Number("Whose criteria they are.")]

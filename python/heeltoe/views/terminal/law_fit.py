@@ -1,4 +1,4 @@
-"""What the terminal shows of friction laws that were fitted to shear tests."""
+"""Friction laws that were fitted to shear tests, in the terminal."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the terminal shows of criteria by level: a row for each level, and what is not met."""
+"""Criteria by level in the terminal: a row for each level, and the limits that are not met."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ pub(super) const ERROR: f64 = 1e-14;
 /// Part of the speed, in its first direction, that a step keeps: the friction of a block that all but turns back
 /// changes its sign in a moment of which the terms of the series say nothing.
 const KEPT: f64 = 0.1;
-/// What a step is shortened by that does not keep it.
+/// Factor on a step that fails its bound.
 const SHORTER: f64 = 0.6;
 
 /// Forces per mass across the valley: on a piece, each as its value and its change per second.
@@ -23,7 +23,7 @@ pub(super) struct Forces {
     pub push: [[f64; 2]; 2],
     /// Largest friction of a block that slides (m/s2).
     pub rub: [f64; 2],
-    /// Of one that rests (m/s2).
+    /// Bound of a block at rest (m/s2).
     pub hold: [f64; 2],
 }
 

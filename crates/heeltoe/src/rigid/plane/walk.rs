@@ -18,7 +18,7 @@ use super::straight;
 /// Events in which time does not move, after which it never will.
 const STANDING: u32 = 1000;
 
-/// What a block has across the valley.
+/// Mass and gaps of a block across the valley.
 #[derive(Clone, Copy, Debug)]
 pub struct Across {
     /// Mass that moves across the valley, per metre of dam: concrete alone (kg/m).
@@ -154,7 +154,7 @@ fn rests(block: &Block) -> bool {
     select(&reactions, Mode::Rest, &moving, &mut Felt::default()) == Some(Mode::Rest)
 }
 
-/// What goes on from here: a motion, or rest for so long. It is made and used up in one place, and moves nowhere.
+/// The next piece: a motion, or a time of rest. It is made and used up in one place, and moves nowhere.
 #[allow(clippy::large_enum_variant)]
 enum Going {
     Rests { length: f64, lifts: bool },
@@ -452,7 +452,7 @@ impl Plane<'_> {
         Some(step)
     }
 
-    /// What the neighbour takes.
+    /// Impulse that the neighbour takes.
     fn take_side(&mut self, here: &Here, step: f64) {
         if self.side == 0.0 {
             return;
