@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from heeltoe import InputError, run
+from heeltoe import InputError, run, run_suite
 from shared.command import command
 from shared.dams import ROOT, example
+from shared.studies import earthquakes
 
 QUICK = (
     "flexible.elements_across=4",
@@ -79,6 +80,14 @@ def test_verdict_json_and_terminal_have_a_line_for_each(tmp_path):
     assert "friction of 0.8: slides" in reply.stdout
     page = next(tmp_path.rglob("report.html")).read_text(encoding="utf-8")
     assert "friction of 0.8" in page
+
+
+def test_a_suite_that_would_judge_another_friction_than_it_runs_is_refused(tmp_path):
+    records = earthquakes(tmp_path / "records")
+    case = example("typical-base", *QUICK, "limits.residual_slip=100mm").with_({"crack.band": {"low": 0.8}})
+    assert run_suite(case, records, model="rigid").suite.models[0].limits
+    with pytest.raises(InputError, match=r'crack\.band\.judge: "worst" judges a single run'):
+        run_suite(case.with_({"crack.band.judge": "worst"}), records, model="rigid")
 
 
 def test_without_a_band_nothing_is_added():

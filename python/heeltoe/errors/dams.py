@@ -114,6 +114,10 @@ OF_DAMS: dict[str, tuple[str, str]] = {
     # the band of the friction
     "band-order": ("{value} is more than the highest, {high}", "give the lower coefficient as low"),
     "band-judge": ("the band has no {value}", "give that end, or judge another one"),
+    "band-many": (
+        "{value} judges a single run; studies and suites run the best estimate",
+        'write judge = "best", and run the other frictions by crack.friction',
+    ),
     "band-law": ("the crack has a friction law, which falls by itself", "give crack.friction, or leave the fall out"),
     "band-falls": ("{value} is more than the friction of the crack, {peak}", "give a friction that falls"),
     "band-low": ("{value} is more than the friction of the crack, {friction}", "give less"),

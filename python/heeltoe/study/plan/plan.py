@@ -19,7 +19,7 @@ from heeltoe.case.model import Case
 from heeltoe.case.paths import value_of
 from heeltoe.case.read import read_case
 from heeltoe.case.warnings import case_warnings, rock_warnings
-from heeltoe.errors.error import InputError
+from heeltoe.errors.error import InputError, shown
 from heeltoe.mechanics.beam import step_warnings
 from heeltoe.models.rigid.across import check_across
 from heeltoe.models.run import earthquake
@@ -476,6 +476,9 @@ def plan_of(study: Study, case: Case | None = None) -> Plan:
         hazard = read_hazard(study.hazard, measure, case.gravity, study.directory, period)
     names = None if dams is None else dams.names
     plan = Plan(study, case, tuple(axes), shakes, events, scale, dams=names, hazard=hazard)
+    band = case.crack.band
+    if band is not None and band.judge != "best":
+        raise InputError("band-many", "crack.band.judge", shown(band.judge))
     bonded = any(crack.bond is not None for crack in case.cracks)
     if study.fragility is not None and study.fragility.limits.cracked_length and not bonded:
         raise InputError("needs-other", "fragility.limits.cracked_length", other="a bonded joint (crack.bond)")
