@@ -88,6 +88,9 @@ export function casePage(talk) {
   });
   talk.on("rigid", (answer) => {
     verdict.textContent = answer.absent || (answer.error && answer.error.text) || answer.verdict || "";
+    // A slider may have moved the case after the page was shown: the server hears of the last place of a hand later.
+    stale = true;
+    refresh();
   });
 
   /** Ask for the case where it may have changed elsewhere, and is seen. */
