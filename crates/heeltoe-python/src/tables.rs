@@ -9,8 +9,8 @@ use rayon::ThreadPool;
 pub type Numbers<'py> = PyReadonlyArray1<'py, f64>;
 
 /// A slip of the caller's, who is the Python half: users never see it.
-pub fn wrong(what: impl Into<String>) -> PyErr {
-    PyValueError::new_err(what.into())
+pub fn wrong(what: impl ToString) -> PyErr {
+    PyValueError::new_err(what.to_string())
 }
 
 /// Rows of equal length, as an array.

@@ -6,6 +6,7 @@
 
 pub mod asperity;
 mod defaults;
+pub mod error;
 pub mod flexible;
 pub mod friction;
 pub mod inside;
@@ -14,3 +15,5 @@ pub mod rigid;
 pub mod spectrum;
 pub mod stop;
 mod table;
+
+pub use error::Error;

@@ -45,6 +45,7 @@ macro_rules! named {
         $(#[$about])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(u8)]
+        #[non_exhaustive]
         pub enum $type {
             $($(#[$doc])* $variant,)+
         }

@@ -1,5 +1,6 @@
 //! The ground's motion as the kernels read it: accelerations `a(t)`, linear between the samples.
 
+use crate::Error;
 use std::borrow::Cow;
 
 use super::block::Affine;
@@ -29,14 +30,11 @@ impl<'a> Shaking<'a> {
     ///
     /// # Errors
     /// Less than two moments, or not as many accelerations as moments.
-    pub fn new(
-        time: &'a [f64],
-        horizontal: &'a [f64],
-        vertical: Option<&'a [f64]>,
-    ) -> Result<Self, &'static str> {
+    pub fn new(time: &'a [f64], horizontal: &'a [f64], vertical: Option<&'a [f64]>) -> Result<Self, Error> {
         let n = time.len();
         if n < 2 || horizontal.len() != n || vertical.is_some_and(|v| v.len() != n) {
-            return Err("a motion needs two samples or more, and as many accelerations as times");
+            let why = "a motion needs two samples or more, and as many accelerations as times";
+            return Err(Error::Motion(why));
         }
         let up = |k: usize| vertical.map_or(&[0.0][..], |v| &v[k..n.min(k + STRETCH)]);
         let stretches: Vec<_> = (0..n)

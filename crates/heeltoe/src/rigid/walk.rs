@@ -55,6 +55,7 @@ pub(super) enum Cause {
     Normal,
     Cone,
     Stop,
+    /// A corner comes down, or a side against its neighbour.
     Gap(usize),
     /// A block in the air passes a valley or a peak of a rough crack, or slides over a peak.
     Turn,
@@ -283,14 +284,16 @@ pub(super) trait Carried<'a, const N: usize> {
     }
 }
 
-/// Blocks whose motion between two events has a closed form.
-pub(super) trait Exactly<'a, const N: usize>: Carried<'a, N, Piece = Piece<2>> {
+/// Blocks that are carried to the next event, whatever the length of the way, on a ground of G components.
+pub(super) trait Exactly<'a, const N: usize, const G: usize>:
+    Carried<'a, N, Piece = Piece<G>>
+{
     /// Move to the next event or to the end of the piece; returns the time that took and what ended it.
-    fn advance(&mut self, piece: &Piece<2>, time: f64) -> (f64, Option<Ended>);
+    fn advance(&mut self, piece: &Piece<G>, time: f64) -> (f64, Option<Ended>);
 
     /// Go from event to event to the end of a piece that begins at `time`; false where the run cannot continue.
     #[inline(always)]
-    fn cross(&mut self, whole: &Piece<2>, time: f64) -> bool {
+    fn cross(&mut self, whole: &Piece<G>, time: f64) -> bool {
         let mut local = 0.0;
         let mut cause = None;
         loop {

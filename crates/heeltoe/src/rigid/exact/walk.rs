@@ -227,7 +227,7 @@ impl<'a> Single<'a> for Exact<'a> {
     }
 }
 
-impl<'a> Exactly<'a, 1> for Exact<'a> {
+impl<'a> Exactly<'a, 1, 2> for Exact<'a> {
     #[inline(always)]
     fn advance(&mut self, piece: &Piece<2>, time: f64) -> (f64, Option<Ended>) {
         self.move_to_event(piece, time)

@@ -1,10 +1,22 @@
 //! A motion in the plane on a stretch of time: velocities and speed as polynomials, and where they do what.
 
+use super::super::ledger::Work;
+
 /// Coefficients of a velocity: order [`super::series::ORDER`], and what a start adds to it.
 pub(super) const TERMS: usize = 16;
+/// One over each number.
+pub(super) const INVERSE: [f64; TERMS + 2] = {
+    let mut inverse = [f64::INFINITY; TERMS + 2];
+    let mut k = 1;
+    while k < TERMS + 2 {
+        inverse[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    inverse
+};
 
-/// A polynomial of a velocity.
-pub(super) type Terms = [f64; TERMS];
+/// Along, across and the speed: polynomials of the velocity and of its size.
+pub(super) type Terms = [[f64; 3]; TERMS];
 
 /// The parts of a stretch into which a bound that does not decide is cut at most.
 const CUTS: u32 = 60;
@@ -16,79 +28,108 @@ pub(super) struct Flight {
     pub begin: f64,
     /// How long they hold (s).
     pub length: f64,
-    /// Velocity along and across (m/s).
-    pub velocity: [Terms; 2],
-    /// Its size (m/s).
-    pub speed: Terms,
+    /// Velocity along and across, and its size (m/s).
+    pub terms: Terms,
 }
 
-/// Value of a polynomial.
-pub(super) fn value(terms: &Terms, t: f64) -> f64 {
-    terms.iter().rev().fold(0.0, |sum, term| sum * t + term)
+/// Integrals of along, across and the speed from the start of a flight: ways, and moments of them about its start.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ways {
+    pub way: [f64; 3],
+    pub moment: [f64; 3],
 }
 
-/// Value of its derivative.
-pub(super) fn slope(terms: &Terms, t: f64) -> f64 {
-    let mut sum = 0.0;
-    for k in (1..TERMS).rev() {
-        sum = sum * t + k as f64 * terms[k];
+impl Ways {
+    /// Work of the force `f0 + f1 t` along one of them, and its size.
+    pub(super) fn work(&self, i: usize, [f0, f1]: [f64; 2]) -> Work {
+        let (steady, changing) = (f0 * self.way[i], f1 * self.moment[i]);
+        Work {
+            net: steady + changing,
+            size: steady.abs() + changing.abs(),
+        }
+    }
+}
+
+/// Values of the polynomials.
+#[inline]
+pub(super) fn value(terms: &Terms, t: f64) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for term in terms.iter().rev() {
+        for i in 0..3 {
+            sum[i] = sum[i] * t + term[i];
+        }
     }
     sum
 }
 
-/// Integral from zero.
-pub(super) fn integral(terms: &Terms, t: f64) -> f64 {
-    let mut sum = 0.0;
+/// Integrals from zero of the polynomials, and of them times the time.
+#[inline]
+fn integrals(terms: &Terms, t: f64) -> [[f64; 3]; 2] {
+    let mut sums = [[0.0; 3]; 2];
     for k in (0..TERMS).rev() {
-        sum = sum * t + terms[k] / (k + 1) as f64;
+        for i in 0..3 {
+            sums[0][i] = sums[0][i] * t + terms[k][i] * INVERSE[k + 1];
+            sums[1][i] = sums[1][i] * t + terms[k][i] * INVERSE[k + 2];
+        }
     }
-    sum * t
-}
-
-/// Integral from zero of the polynomial times the time.
-fn moment(terms: &Terms, t: f64) -> f64 {
-    let mut sum = 0.0;
-    for k in (0..TERMS).rev() {
-        sum = sum * t + terms[k] / (k + 2) as f64;
-    }
-    sum * t * t
+    [sums[0].map(|sum| sum * t), sums[1].map(|sum| sum * t * t)]
 }
 
 impl Flight {
-    /// Velocity along or across after a time.
-    pub(super) fn velocity(&self, i: usize, t: f64) -> f64 {
-        value(&self.velocity[i], self.begin + t)
+    /// A block that goes on as it does for no time.
+    pub(super) fn moment(velocity: [f64; 2]) -> Self {
+        let mut terms = [[0.0; 3]; TERMS];
+        terms[0] = [velocity[0], velocity[1], velocity[0].hypot(velocity[1])];
+        Flight {
+            begin: 0.0,
+            length: 0.0,
+            terms,
+        }
+    }
+
+    /// Velocities along and across, and the speed, after a time.
+    #[inline]
+    pub(super) fn velocities(&self, t: f64) -> [f64; 3] {
+        value(&self.terms, self.begin + t)
     }
 
     /// Acceleration along or across after a time.
-    pub(super) fn acceleration(&self, i: usize, t: f64) -> f64 {
-        slope(&self.velocity[i], self.begin + t)
+    fn acceleration(&self, i: usize, t: f64) -> f64 {
+        let t = self.begin + t;
+        let mut sum = 0.0;
+        for k in (1..TERMS).rev() {
+            sum = sum * t + k as f64 * self.terms[k][i];
+        }
+        sum
     }
 
-    /// Way along or across after a time.
-    pub(super) fn way(&self, i: usize, t: f64) -> f64 {
-        let terms = &self.velocity[i];
-        integral(terms, self.begin + t) - integral(terms, self.begin)
-    }
-
-    /// Length of the path after a time.
-    pub(super) fn path(&self, t: f64) -> f64 {
-        integral(&self.speed, self.begin + t) - integral(&self.speed, self.begin)
-    }
-
-    /// Work of the force `f0 + f1 t` on one of the velocities, or on the speed, and its size.
-    pub(super) fn work(&self, terms: &Terms, [f0, f1]: [f64; 2], t: f64) -> [f64; 2] {
-        let (from, to) = (self.begin, self.begin + t);
-        let way = integral(terms, to) - integral(terms, from);
-        let turning = moment(terms, to) - moment(terms, from) - from * way;
-        let (steady, changing) = (f0 * way, f1 * turning);
-        [steady + changing, steady.abs() + changing.abs()]
+    /// Ways along, across and of the path after a time.
+    #[inline]
+    pub(super) fn ways(&self, t: f64) -> Ways {
+        let [mut way, mut moment] = integrals(&self.terms, self.begin + t);
+        if self.begin > 0.0 {
+            let [way_before, moment_before] = integrals(&self.terms, self.begin);
+            for i in 0..3 {
+                way[i] -= way_before[i];
+                moment[i] -= moment_before[i] + self.begin * way[i];
+            }
+        }
+        Ways { way, moment }
     }
 
     /// Moments up to `end` at which the velocity along or across changes its sign, ascending.
     pub(super) fn turns(&self, i: usize, end: f64) -> Vec<f64> {
         let mut turns = Vec::new();
-        let [starts, ends] = [0.0, end].map(|t| [self.velocity(i, t), self.acceleration(i, t)]);
+        let last = self.begin + end;
+        let change = self.terms[1..]
+            .iter()
+            .rev()
+            .fold(0.0, |sum, term| (sum + term[i].abs()) * last);
+        if self.terms[0][i].abs() > change {
+            return turns;
+        }
+        let velocity = |t: f64| self.velocities(t)[i];
+        let [starts, ends] = [0.0, end].map(|t| [velocity(t), self.acceleration(i, t)]);
         if starts[0] * ends[0] > 0.0 && starts[1] * ends[1] > 0.0 {
             return turns;
         }
@@ -100,17 +141,14 @@ impl Flight {
         }
         cuts.push(end);
         for pair in cuts.windows(2) {
-            turns.extend(changes(|t| self.velocity(i, t), pair[0], pair[1]));
+            turns.extend(changes(velocity, pair[0], pair[1]));
         }
         turns
     }
 
     /// The first moment up to `end` at which the way along or across exceeds `limit` in the direction `way`, 1 or -1.
     pub(super) fn reaches(&self, i: usize, limit: f64, way: f64, end: f64) -> Option<f64> {
-        if limit == f64::INFINITY {
-            return None;
-        }
-        let beyond = |t: f64| way * self.way(i, t) - limit;
+        let beyond = |t: f64| way * self.ways(t).way[i] - limit;
         let mut from = 0.0;
         for to in self.turns(i, end).into_iter().chain([end]) {
             if beyond(to) > 0.0 {
@@ -128,7 +166,7 @@ impl Flight {
         let last = self.begin + end;
         let mut steepest = 0.0;
         for k in (2..TERMS).rev() {
-            steepest = steepest * last + (k * (k - 1)) as f64 * self.velocity[0][k].abs();
+            steepest = steepest * last + (k * (k - 1)) as f64 * self.terms[k][0].abs();
         }
         positive_until(&at, f1.abs() + c.abs() * steepest, [0.0, end], CUTS)
     }

@@ -10,9 +10,11 @@
 //! pushes it into them; friction acts along the stream alone then.
 //!
 //! Between samples F and N are linear in time. `series` has the power series of a motion on its way, `start` those
-//! from rest, `straight` the motion of which one component is held, `walk` goes from event to event.
+//! from rest, `straight` the motion of which one component is held, `walk` goes
+//! from event to event, and `keep` keeps what there is to keep.
 
 mod flight;
+mod keep;
 mod series;
 mod start;
 mod straight;

@@ -1,13 +1,20 @@
 //! The power series of a slide on its way: `M u' = F - T e`, `e = u / |u|`, F and T linear in time.
 //!
-//! Order by order, with `s = |u|`: `s^2 = u . u`, `e s = u`, `(k + 1) M u_(k+1) = F_k - (T e)_k`.
+//! Order by order, with `s = |u|`: `s' = u' . e`, `e s = u`, `(k + 1) M u_(k+1) = F_k - (T e)_k`.
 
-use super::flight::{value, Flight, Terms, TERMS};
+use super::flight::{value, Flight, Terms, INVERSE, TERMS};
 
 /// Order of the series.
-pub(super) const ORDER: usize = 14;
-/// Error of a velocity in one step (m/s).
-pub(super) const ERROR: f64 = 1e-14;
+pub(super) const ORDER: usize = TERMS - 1;
+/// Largest last term of a momentum, per mass, in one step (m/s).
+const ERROR: f64 = 1e-13;
+/// Largest effect of the last term of a velocity that friction takes away at once on where the block goes (m).
+const WAY: f64 = 1e-14;
+/// Both are as much smaller as a block has not yet gone so fast (m/s) and so far (m), so that its books close, but for
+/// the smallest of factors.
+const FAST: f64 = 0.1;
+const FAR: f64 = 0.01;
+const LEAST: f64 = 1e-6;
 /// Part of the speed, in its first direction, that a step keeps: the friction of a block that all but turns back
 /// changes its sign in a moment of which the terms of the series say nothing.
 const KEPT: f64 = 0.1;
@@ -27,8 +34,26 @@ pub(super) struct Forces {
     pub hold: [f64; 2],
 }
 
+/// Bounds of the last terms of a step: of what lasts (m/s), of the way of what passes (m).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    pub error: f64,
+    pub way: f64,
+}
+
+impl Bounds {
+    /// Those of a block that has gone so fast and so far.
+    pub(super) fn new(speed: f64, path: f64) -> Self {
+        Bounds {
+            error: ERROR * (speed / FAST).clamp(LEAST, 1.0),
+            way: WAY * (path / FAR).clamp(LEAST, 1.0),
+        }
+    }
+}
+
 impl Forces {
     /// The same from `t` seconds later on.
+    #[inline]
     pub(super) fn after(&self, t: f64) -> Self {
         let later = |[value, slope]: [f64; 2]| [value + slope * t, slope];
         Forces {
@@ -38,74 +63,111 @@ impl Forces {
             ..*self
         }
     }
+
+    /// Largest acceleration along and across in the next `t` seconds, without its sign.
+    #[inline]
+    pub(super) fn fastest(&self, t: f64) -> [f64; 2] {
+        let most = |[value, slope]: [f64; 2]| value.abs().max((value + slope * t).abs());
+        let rub = most(self.rub);
+        [(most(self.push[0]) + rub) / self.mass, most(self.push[1]) + rub]
+    }
+
+    /// How long a block of this speed goes on at most before friction stops it; none where it may not do so at once, or
+    /// not in `left` seconds.
+    pub(super) fn stops_within(&self, speed: f64, left: f64) -> Option<f64> {
+        let [[fx, jx], [fy, jy]] = self.push;
+        let [rub, rub_slope] = self.rub;
+        // What friction exceeds the force by falls no faster than this; sqrt(u . M u) falls by it, over the mass.
+        let spare = rub - (fx * fx + fy * fy).sqrt();
+        if spare <= 0.0 {
+            return None;
+        }
+        let time = 2.0 * speed * self.mass.max(1.0) / spare;
+        let falls = jx.abs() + jy.abs() + rub_slope.abs();
+        (time < left && falls * time < 0.5 * spare).then_some(time)
+    }
 }
 
-/// How a block goes on that moves with the velocity `u`, for `left` seconds at most.
-pub(super) fn go_on(forces: &Forces, u: [f64; 2], left: f64) -> Flight {
-    let mass = [forces.mass, 1.0];
-    let mut velocity = [[0.0; TERMS]; 2];
-    let mut direction = [[0.0; ORDER]; 2];
-    let mut speed = [0.0; TERMS];
-    let first = u[0].hypot(u[1]);
-    for i in 0..2 {
-        velocity[i][0] = u[i];
-        direction[i][0] = u[i] / first;
-    }
-    speed[0] = first;
+/// How a block goes on that moves with the velocity `u`, for `left` seconds at most. It stops in no more than `stops`
+/// seconds where that is given.
+pub(super) fn go_on(forces: &Forces, u: [f64; 2], left: f64, stops: Option<f64>, bounds: Bounds) -> Flight {
+    let per = [1.0 / forces.mass, 1.0];
+    let first = (u[0] * u[0] + u[1] * u[1]).sqrt();
+    let inverse = 1.0 / first;
+    let mut terms: Terms = [[0.0; 3]; TERMS];
+    terms[0] = [u[0], u[1], first];
+    let mut direction = [[0.0; 2]; TERMS];
+    direction[0] = u.map(|u| u * inverse);
+    let d0 = direction[0];
+    // k u_k.
+    let mut growth = [[0.0; 2]; TERMS];
     let [rub, rub_slope] = forces.rub;
-    for k in 0..=ORDER {
+    for k in 0..TERMS {
         if k > 0 {
-            let mut square = 0.0;
-            for j in 0..=k {
-                square += velocity[0][j] * velocity[0][k - j] + velocity[1][j] * velocity[1][k - j];
+            // Two sums each, of every second term, as an addition waits for the one before.
+            let mut longer = [[0.0; 2]; 2];
+            let mut turned = [[0.0; 2]; 2];
+            let known = growth[1..k].iter().zip(&terms[1..k]);
+            for (j, ((growth, term), d)) in known.zip(direction[1..k].iter().rev()).enumerate() {
+                for i in 0..2 {
+                    longer[j % 2][i] += growth[i] * d[i];
+                    turned[j % 2][i] += term[2] * d[i];
+                }
             }
-            for j in 1..k {
-                square -= speed[j] * speed[k - j];
+            let along = |i: usize| longer[0][i] + longer[1][i] + growth[k][i] * d0[i];
+            let speed = (along(0) + along(1)) * INVERSE[k];
+            terms[k][2] = speed;
+            for i in 0..2 {
+                direction[k][i] = (terms[k][i] - speed * d0[i] - turned[0][i] - turned[1][i]) * inverse;
             }
-            speed[k] = square / (2.0 * first);
         }
         if k == ORDER {
             break;
         }
         for i in 0..2 {
+            let mut force = -rub * direction[k][i];
             if k > 0 {
-                let mut e = velocity[i][k];
-                for j in 1..=k {
-                    e -= speed[j] * direction[i][k - j];
-                }
-                direction[i][k] = e / first;
-            }
-            let mut force = -rub * direction[i][k];
-            if k > 0 {
-                force -= rub_slope * direction[i][k - 1];
+                force -= rub_slope * direction[k - 1][i];
             }
             if k < 2 {
                 force += forces.push[i][k];
             }
-            velocity[i][k + 1] = force / (mass[i] * (k + 1) as f64);
+            growth[k + 1][i] = force * per[i];
+            terms[k + 1][i] = growth[k + 1][i] * INVERSE[k + 1];
         }
     }
-    let mut length = reach(&velocity, &speed, ORDER, left);
-    let kept = |t: f64| u[0] * value(&velocity[0], t) + u[1] * value(&velocity[1], t);
-    while kept(length) < KEPT * first * first {
+    // Friction turns the velocity back to where the force has it at the rate T / (m s). What a step errs by in M u across
+    // that direction lasts no longer; so does all of it where the block is about to stop.
+    let Bounds { error, way } = bounds;
+    let lasting = stops.map_or(error, |time| error.max((way / time).min(KEPT * first)));
+    let passing = (way * rub * inverse / forces.mass.max(1.0))
+        .min((first * error).sqrt())
+        .max(lasting);
+    let [c, s] = d0;
+    let whole = forces.mass * c * c + s * s;
+    let errors = |term: &[f64; 3]| {
+        let lasts = (forces.mass * c * term[0] + s * term[1]).abs() / whole;
+        let passes = (c * term[1] - s * term[0]).abs();
+        (lasts / lasting).max(passes / passing)
+    };
+    let mut length = reach(&terms, ORDER, errors, left);
+    let mut end = value(&terms, length);
+    while u[0] * end[0] + u[1] * end[1] < KEPT * first * first {
         length *= SHORTER;
+        end = value(&terms, length);
     }
     Flight {
         begin: 0.0,
         length,
-        velocity,
-        speed,
+        terms,
     }
 }
 
-/// How far the last two terms of the series allow to go, `left` at most.
-pub(super) fn reach(velocity: &[Terms; 2], speed: &Terms, last: usize, left: f64) -> f64 {
-    let mut length = left;
-    for k in [last - 1, last] {
-        let term = velocity[0][k].abs().max(velocity[1][k].abs()).max(speed[k].abs());
-        if term > 0.0 {
-            length = length.min((ERROR / term).powf(1.0 / k as f64));
-        }
-    }
-    length
+/// How far the last two terms of the series allow to go, `left` at most; `errors` says how many times its bound a term is.
+pub(super) fn reach(terms: &Terms, last: usize, errors: impl Fn(&[f64; 3]) -> f64, left: f64) -> f64 {
+    let shortest = [last - 1, last]
+        .into_iter()
+        .map(|k| -errors(&terms[k]).ln() * INVERSE[k])
+        .fold(f64::INFINITY, f64::min);
+    left.min(shortest.exp())
 }

@@ -7,7 +7,7 @@
 //! the onset is asymptotic and goes far beyond.
 
 use super::flight::{value, Flight, TERMS};
-use super::series::{reach, Forces, ORDER};
+use super::series::{reach, Bounds, Forces};
 
 /// Order of the series of an onset.
 const ONSET: usize = 13;
@@ -16,14 +16,15 @@ pub(super) const REST: f64 = 1e-9;
 /// Part of its first acceleration that a block keeps on one step.
 const KEPT: f64 = 0.1;
 
-/// How a block that is at rest begins to slide, for `left` seconds at most; `None` where it does not.
-pub(super) fn begin(forces: &Forces, left: f64) -> Option<Flight> {
+/// How a block that is at rest begins to slide, for `left` seconds at most; `None` where it does not. `fastest` is how
+/// fast it has been before (m/s).
+pub(super) fn begin(forces: &Forces, left: f64, fastest: f64) -> Option<Flight> {
     // Where the force has exceeded friction so short a time ago that nothing has moved since, it does so from there on.
     let [exceeds, rate] = excess(forces);
     if rate > 0.0 {
         let since = exceeds.max(0.0) / rate;
         if 0.5 * rate * since * since < REST * forces.mass.min(1.0) {
-            let onset = onset(&forces.after(-since), left, since);
+            let onset = onset(&forces.after(-since), left, since, fastest);
             if onset.is_some() {
                 return onset;
             }
@@ -32,7 +33,7 @@ pub(super) fn begin(forces: &Forces, left: f64) -> Option<Flight> {
     if exceeds <= 0.0 {
         return None;
     }
-    jump(forces, left)
+    jump(forces, left, fastest)
 }
 
 /// How much the force exceeds friction, and its change per second (m/s2).
@@ -135,7 +136,7 @@ impl Angle {
 }
 
 /// The start of a block whose force exceeds friction at once.
-fn jump(forces: &Forces, left: f64) -> Option<Flight> {
+fn jump(forces: &Forces, left: f64, fastest: f64) -> Option<Flight> {
     let (a, e) = direction(forces);
     let ([m00, m01, m11], [along, across]) = turned(forces, e);
     let [rub, rub_slope] = forces.rub;
@@ -160,11 +161,11 @@ fn jump(forces: &Forces, left: f64) -> Option<Flight> {
         alpha[k] = (p * corner - m01 * a * q) / determinant;
         angle.rho[k] = (m00 * q - m01 * p) / determinant;
     }
-    Some(flight(1, &alpha, &angle, e, left, 0.0))
+    Some(flight(1, &alpha, &angle, e, [left, 0.0], fastest))
 }
 
 /// The start of a block whose force just equals friction, and exceeds it from now on. `since` seconds of it are over.
-fn onset(forces: &Forces, left: f64, since: f64) -> Option<Flight> {
+fn onset(forces: &Forces, left: f64, since: f64, fastest: f64) -> Option<Flight> {
     let [[fx, _], [fy, _]] = forces.push;
     let size = fx.hypot(fy);
     let [rub, rub_slope] = forces.rub;
@@ -193,7 +194,7 @@ fn onset(forces: &Forces, left: f64, since: f64) -> Option<Flight> {
         let g = term(&across) - rub * angle.sine(k) - rub_slope * before;
         angle.rho[k] = (g - n * (m01 * alpha[k - 1] + m11 * beta)) / rub;
     }
-    Some(flight(2, &alpha, &angle, e, left, since))
+    Some(flight(2, &alpha, &angle, e, [left, since], fastest))
 }
 
 /// The velocities of `t^power (alpha e + alpha rho n)`.
@@ -202,29 +203,36 @@ fn flight(
     alpha: &[f64; ONSET + 1],
     angle: &Angle,
     [c, s]: [f64; 2],
-    left: f64,
-    since: f64,
+    [left, since]: [f64; 2],
+    fastest: f64,
 ) -> Flight {
-    let mut velocity = [[0.0; TERMS]; 2];
-    let mut speed = [0.0; TERMS];
+    let mut terms = [[0.0; 3]; TERMS];
     // The onset knows one term less of alpha than of rho.
     let last = ONSET + 1 - power;
     for k in 0..=last {
         let beta: f64 = (0..k).map(|j| alpha[j] * angle.rho[k - j]).sum();
-        velocity[0][k + power] = c * alpha[k] - s * beta;
-        velocity[1][k + power] = s * alpha[k] + c * beta;
-        speed[k + power] = (0..=k).map(|j| alpha[j] * angle.r[k - j]).sum();
+        let speed = (0..=k).map(|j| alpha[j] * angle.r[k - j]).sum();
+        terms[k + power] = [c * alpha[k] - s * beta, s * alpha[k] + c * beta, speed];
     }
-    const { assert!(ONSET < TERMS && ORDER < TERMS) };
-    let mut length = reach(&velocity, &speed, last + power, left + since);
-    let forward = |t: f64| c * value(&velocity[0], t) + s * value(&velocity[1], t);
+    const { assert!(ONSET + 1 < TERMS) };
+    let likely = alpha[0] * (left + since).powi(power as i32);
+    let bounds = Bounds::new(fastest.max(likely), 0.0);
+    let mut length = reach(
+        &terms,
+        last + power,
+        |term| term.iter().fold(0.0, |most: f64, term| most.max(term.abs())) / bounds.error,
+        left + since,
+    );
+    let forward = |t: f64| {
+        let [along, across, _] = value(&terms, t);
+        c * along + s * across
+    };
     while forward(length) < KEPT * alpha[0] * length.powi(power as i32) {
         length *= 0.6;
     }
     Flight {
         begin: since,
         length: (length - since).clamp(0.0, left),
-        velocity,
-        speed,
+        terms,
     }
 }

@@ -17,13 +17,14 @@ pub(super) fn go_on(forces: &Forces, u: f64, way: f64, left: f64) -> (Flight, bo
         a0 = 0.0;
     }
     let stop = event::quadratic(way * u, way * a0, way * a1 / 2.0, left);
-    let mut velocity = [[0.0; TERMS]; 2];
-    velocity[0][..3].copy_from_slice(&[u, a0, a1 / 2.0]);
+    let mut terms = [[0.0; 3]; TERMS];
+    for (terms, term) in terms.iter_mut().zip([u, a0, a1 / 2.0]) {
+        *terms = [term, 0.0, way * term];
+    }
     let flight = Flight {
         begin: 0.0,
         length: stop.unwrap_or(left),
-        speed: velocity[0].map(|term| way * term),
-        velocity,
+        terms,
     };
     (flight, stop.is_some())
 }

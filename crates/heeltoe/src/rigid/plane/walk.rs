@@ -4,19 +4,21 @@ use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
 use super::super::choice::{select, Moving, TIE};
 use super::super::event;
 use super::super::exact;
-use super::super::ledger::Work;
 use super::super::mode::{Mode, Slip};
 use super::super::reaction::{Felt, Reactions};
-use super::super::result::{Crossing, Event, EventKind, Moment, Outcome, Run};
+use super::super::result::{Crossing, Outcome, Run};
 use super::super::shaking::{Piece, Shaking};
-use super::super::walk::{Options, Walk, Wanted};
+use super::super::walk::{Blow, Carried, Cause, Ended, Exactly, Options, Walk, Wanted};
 use super::flight::Flight;
-use super::series::{self, Forces};
+use super::series::{self, Bounds, Forces};
 use super::start::{self, REST};
 use super::straight;
 
-/// Events in which time does not move, after which it never will.
-const STANDING: u32 = 1000;
+/// The gaps to the neighbours, beside those of heel and toe.
+pub(super) const SIDES: [(usize, f64); 2] = [(TOE + 1, 1.0), (TOE + 2, -1.0)];
+/// A normal force, or what is left of friction, that is more than this part of its size is not zero: no rounding makes
+/// it so.
+const CLEAR: f64 = 1e-9;
 
 /// Mass and gaps of a block across the valley.
 #[derive(Clone, Copy, Debug)]
@@ -38,23 +40,39 @@ pub struct CrossShaking<'a> {
     pub cross: &'a [f64],
 }
 
+impl CrossShaking<'_> {
+    /// A piece of the motion along the stream and upward, from sample `k` on, with that across the valley.
+    pub(super) fn whole(&self, piece: &Piece<2>, k: usize) -> Piece<3> {
+        let ([along, up], [along_rate, up_rate]) = (piece.ground, piece.rate);
+        let cross_rate = (self.cross[k + 1] - self.cross[k]) / piece.left;
+        Piece {
+            ground: [along, up, self.cross[k]],
+            rate: [along_rate, up_rate, cross_rate],
+            left: piece.left,
+        }
+    }
+}
+
 /// The state of the motion across the valley and what is known of the present piece.
-struct Plane<'a> {
-    walk: Walk<'a>,
-    across: Across,
-    crossing: Crossing,
+pub(super) struct Plane<'a> {
+    pub walk: Walk<'a>,
+    pub across: Across,
+    pub crossing: Crossing,
     /// Coefficients of friction of a block that rests and of one that slides.
     friction: [f64; 2],
     /// Mass along the stream.
-    mass: f64,
+    pub mass: f64,
     /// Force along the stream.
     push: Affine,
     /// The normal forces of heel and toe without an acceleration along the stream, and per unit of that.
     normal: [Affine; 2],
-    per_acceleration: [f64; 2],
-    standing: u32,
+    pub per_acceleration: [f64; 2],
     /// Whether a neighbour holds the block, 1 to the left, -1 to the right.
-    side: f64,
+    pub side: f64,
+    /// Its largest speed so far.
+    pub fastest: f64,
+    /// How the block goes on.
+    going: Going,
 }
 
 impl Across {
@@ -125,8 +143,9 @@ pub fn simulate(
         push,
         normal: [heel, toe].map(|force| force.times(-1.0)),
         per_acceleration: [per_heel, per_toe],
-        standing: 0,
         side: 0.0,
+        fastest: 0.0,
+        going: Going::rest(0.0),
     };
     let lies = [HEEL, TOE]
         .iter()
@@ -154,19 +173,30 @@ fn rests(block: &Block) -> bool {
     select(&reactions, Mode::Rest, &moving, &mut Felt::default()) == Some(Mode::Rest)
 }
 
-/// The next piece: a motion, or a time of rest. It is made and used up in one place, and moves nowhere.
+/// The next stretch: a motion, or a time of rest. It is made and used up in one place, and moves nowhere.
 #[allow(clippy::large_enum_variant)]
-enum Going {
+#[derive(Clone, Copy)]
+pub(super) enum Going {
     Rests { length: f64, lifts: bool },
     Moves { flight: Flight, stops: bool },
 }
 
+impl Going {
+    pub(super) fn rest(length: f64) -> Self {
+        Going::Rests { length, lifts: false }
+    }
+
+    fn moves(&self) -> bool {
+        matches!(self, Going::Moves { .. })
+    }
+}
+
 /// The ground on a piece, from where the block is.
-struct Here {
-    left: f64,
-    forces: Forces,
+pub(super) struct Here {
+    pub left: f64,
+    pub forces: Forces,
     /// The normal forces without an acceleration along the stream.
-    normal: [[f64; 2]; 2],
+    pub normal: [[f64; 2]; 2],
 }
 
 impl Plane<'_> {
@@ -178,94 +208,106 @@ impl Plane<'_> {
         }
     }
 
-    fn kinetic_energy(&self) -> f64 {
+    pub(super) fn kinetic_energy(&self) -> f64 {
         let along = self.walk.block.kinetic_energy(&self.walk.summary.velocity);
         along + 0.5 * self.across.mass * self.crossing.velocity * self.crossing.velocity
     }
 
     /// From sample to sample.
     fn run(&mut self, shaking: &CrossShaking) {
-        let (time, cross) = (shaking.level.time, shaking.cross);
-        for (k, piece) in shaking.level.pieces(0).enumerate() {
+        let level = shaking.level;
+        let n = level.time.len();
+        let mut k = 0;
+        while k + 1 < n {
+            if self.velocity() == [0.0; 2] {
+                k = self.rest_until(shaking, k);
+                if k + 1 >= n {
+                    break;
+                }
+            }
+            let Some(piece) = level.pieces(k).next() else {
+                break;
+            };
+            k += 1;
             if piece.left <= 0.0 {
                 continue;
             }
-            if self.walk.stopped() {
-                return;
-            }
-            let rate = (cross[k + 1] - cross[k]) / piece.left;
-            if !self.cross(&piece, [cross[k], rate], time[k]) {
+            if self.walk.stopped() || !self.cross(&shaking.whole(&piece, k - 1), level.time[k - 1]) {
                 return;
             }
         }
-        let last = time.len() - 1;
-        self.walk.summary.end_time = time[last];
-        let ground = shaking.level.at(shaking.level.last());
+        self.set_time(level.time[n - 1]);
+        self.walk.summary.mode = self.walk.mode;
+        self.record_end(shaking);
+    }
+
+    /// While the block rests nothing moves: return the last sample before rest may end, and keep the block at the moments
+    /// that are wanted until then.
+    fn rest_until(&mut self, shaking: &CrossShaking, from: usize) -> usize {
+        let (level, y) = (shaking.level, self.crossing.position);
+        let apart = SIDES
+            .iter()
+            .zip(self.across.gap)
+            .all(|((_, side), gap)| side * y < gap);
+        let n = level.time.len();
+        // Friction less the force, linear as they are, is concave in time: what holds at two samples does so between.
+        let stays = (from..n).take_while(|k| apart && self.clears(level.at(*k), shaking.cross[*k]));
+        let k = from + stays.count().max(1) - 1;
+        if k > from {
+            self.walk.mode = Mode::Rest;
+            self.side = 0.0;
+        }
+        self.walk.summary.time_by_mode[Mode::Rest.kind()] += level.time[k] - level.time[from];
+        if self.walk.observed() {
+            for (piece, j) in level
+                .pieces(from)
+                .zip(from..k)
+                .filter(|(piece, _)| piece.left > 0.0)
+            {
+                let here = self.here(&shaking.whole(&piece, j));
+                self.record(&here, &Going::rest(piece.left), level.time[j + 1], level.time[j]);
+            }
+        }
+        k
+    }
+
+    /// Whether a block at rest is clear of every limit under this ground.
+    fn clears(&self, ground: [f64; 2], cross: f64) -> bool {
+        let [heel, toe] = [0, 1].map(|i| self.normal[i].at(ground));
+        let hold = self.friction[0] * (heel + toe);
+        let (along, across) = (self.push.at(ground), self.across.mass * cross);
+        let least = CLEAR * (heel + toe);
+        heel > least && toe > least && along * along + across * across < (1.0 - CLEAR) * hold * hold
+    }
+
+    /// Keep the block at the moments that are left, all of them at the end.
+    fn record_end(&mut self, shaking: &CrossShaking) {
+        let last = shaking.level.last();
+        let [along, up] = shaking.level.at(last);
         let piece = Piece {
-            ground,
+            ground: [along, up, shaking.cross[last]],
             ..Piece::still(0.0)
         };
-        let here = self.here(&piece, [cross[shaking.level.last()], 0.0]);
-        let still = Flight {
-            begin: 0.0,
-            length: 0.0,
-            velocity: [[0.0; super::flight::TERMS]; 2],
-            speed: [0.0; super::flight::TERMS],
-        };
-        let going = Going::Rests {
-            length: 0.0,
-            lifts: false,
-        };
-        // At the end nothing is left of the piece: a block that moves does so with what it feels.
-        if self.moves() {
-            let mut flight = still;
-            flight.velocity[0][0] = self.walk.summary.velocity[SLIP];
-            flight.velocity[1][0] = self.crossing.velocity;
-            let going = Going::Moves { flight, stops: false };
-            self.record(&here, &going, f64::INFINITY, time[last]);
+        let here = self.here(&piece);
+        // Nothing is left of the piece: a block that moves does so with what it feels.
+        let velocity = self.velocity();
+        let going = if velocity == [0.0; 2] {
+            Going::rest(0.0)
         } else {
-            self.record(&here, &going, f64::INFINITY, time[last]);
-        }
+            let flight = Flight::moment(velocity);
+            Going::Moves { flight, stops: false }
+        };
+        self.record(&here, &going, f64::INFINITY, self.walk.summary.end_time);
     }
 
-    /// Go from event to event to the end of a piece; false where the run cannot continue.
-    fn cross(&mut self, whole: &Piece<2>, [cross, rate]: [f64; 2], time: f64) -> bool {
-        let mut local = 0.0;
-        loop {
-            let piece = whole.rest(local);
-            let here = self.here(&piece, [cross + rate * local, rate]);
-            self.walk.summary.end_time = time + local;
-            let was = self.walk.mode;
-            let going = self.choose(&here);
-            self.note(was);
-            let Some(step) = self.advance(&here, &going, time + local) else {
-                return false;
-            };
-            let moved = local + step > local;
-            let ended = step < here.left;
-            local += step;
-            if !ended {
-                return true;
-            }
-            self.standing = if moved { 0 } else { self.standing + 1 };
-            if self.walk.summary.events >= self.walk.options.event_limit {
-                self.walk.summary.outcome = Outcome::EventLimit;
-            } else if self.standing > STANDING {
-                self.walk.summary.outcome = Outcome::Cycling;
-            }
-            if self.walk.summary.outcome != Outcome::Done || self.walk.stopped() {
-                self.walk.summary.end_time = time + local;
-                return false;
-            }
-        }
+    /// Velocities along and across.
+    fn velocity(&self) -> [f64; 2] {
+        [self.walk.summary.velocity[SLIP], self.crossing.velocity]
     }
 
-    fn moves(&self) -> bool {
-        self.walk.summary.velocity[SLIP] != 0.0 || self.crossing.velocity != 0.0
-    }
-
-    fn here(&self, piece: &Piece<2>, cross: [f64; 2]) -> Here {
-        let on = |force: &Affine| [force.at(piece.ground), force.slope(piece.rate)];
+    fn here(&self, piece: &Piece<3>) -> Here {
+        let ([along, up, cross], [along_rate, up_rate, cross_rate]) = (piece.ground, piece.rate);
+        let on = |force: &Affine| [force.at([along, up]), force.slope([along_rate, up_rate])];
         let normal = self.normal.each_ref().map(on);
         let whole = [0, 1].map(|k| normal[0][k] + normal[1][k]);
         let per = |force: [f64; 2], scale: f64| force.map(|f| f * scale);
@@ -275,7 +317,7 @@ impl Plane<'_> {
             left: piece.left,
             forces: Forces {
                 mass: self.mass / mass,
-                push: [per(on(&self.push), 1.0 / mass), [-cross[0], -cross[1]]],
+                push: [per(on(&self.push), 1.0 / mass), [-cross, -cross_rate]],
                 rub,
                 hold,
             },
@@ -284,31 +326,22 @@ impl Plane<'_> {
     }
 
     /// How the block goes on.
-    fn choose(&mut self, here: &Here) -> Going {
+    fn choose_way(&mut self, here: &Here) -> Going {
         self.side = self.held(here);
-        let u = [self.walk.summary.velocity[SLIP], self.crossing.velocity];
+        let u = self.velocity();
         let straight = self.side != 0.0 || here.forces.push[1] == [0.0; 2] && u[1] == 0.0;
-        let going = if u == [0.0; 2] {
-            if straight {
-                self.rest_straight(here)
-            } else {
-                self.rest(here)
+        match (u == [0.0; 2], straight) {
+            (true, true) => self.rest_straight(here),
+            (true, false) => self.rest(here),
+            (false, true) => self.slide_straight(here, u[0], u[0].signum()),
+            (false, false) => {
+                let speed = (u[0] * u[0] + u[1] * u[1]).sqrt();
+                let stops = here.forces.stops_within(speed, here.left);
+                let bounds = Bounds::new(self.fastest.max(speed), self.crossing.path);
+                let flight = series::go_on(&here.forces, u, here.left, stops, bounds);
+                Going::Moves { flight, stops: false }
             }
-        } else if straight {
-            self.slide_straight(here, u[0], u[0].signum())
-        } else {
-            let flight = series::go_on(&here.forces, u, here.left);
-            Going::Moves { flight, stops: false }
-        };
-        self.walk.mode = match &going {
-            Going::Rests { .. } => Mode::Rest,
-            Going::Moves { flight, .. } if flight.velocity(0, flight.length) < 0.0 => {
-                Mode::Slide(Slip::Upstream)
-            }
-            Going::Moves { .. } => Mode::Slide(Slip::Downstream),
-        };
-        self.walk.summary.mode = self.walk.mode;
-        going
+        }
     }
 
     /// Which neighbour the block lies against and is pushed into, if any.
@@ -348,7 +381,7 @@ impl Plane<'_> {
         }
         let stays = spare > 0.0 || spare == 0.0 && change * here.left >= -TIE * size;
         if !stays {
-            if let Some(flight) = start::begin(&here.forces, here.left) {
+            if let Some(flight) = start::begin(&here.forces, here.left, self.fastest) {
                 return Going::Moves { flight, stops: false };
             }
         }
@@ -394,218 +427,121 @@ impl Plane<'_> {
         Going::Moves { flight, stops }
     }
 
-    /// Move to the next event or to the end of the piece, and keep what there is to keep; returns the time that took,
-    /// or none where a corner lifts.
-    fn advance(&mut self, here: &Here, going: &Going, time: f64) -> Option<f64> {
-        let mut lifted = false;
-        let mut strikes = 0.0;
-        let mut step = match going {
-            Going::Rests { length, lifts } => {
-                lifted = *lifts;
-                *length
-            }
-            Going::Moves { flight, .. } => flight.length,
+    /// Move to the next event or to the end of a stretch, and keep what there is to keep; returns the time that took, and
+    /// what ended it.
+    fn go_on(&mut self, here: &Here, going: &Going, time: f64) -> (f64, Option<Cause>) {
+        let (step, cause) = match going {
+            Going::Rests { length, lifts: true } => (*length, Some(Cause::Normal)),
+            Going::Rests { length, .. } => (*length, None),
+            Going::Moves { flight, .. } => self.first_event(here, flight),
         };
-        if let Going::Moves { flight, .. } = going {
-            for (normal, per) in here.normal.into_iter().zip(self.per_acceleration) {
-                if let Some(t) = flight.first_fall(normal, per, step) {
-                    step = t;
-                    lifted = true;
-                }
-            }
-            for (gap, side) in self.across.gap.into_iter().zip([1.0, -1.0]) {
-                let room = (gap - side * self.crossing.position).max(0.0);
-                if self.side == 0.0 {
-                    if let Some(t) = flight.reaches(1, room, side, step) {
-                        step = t;
-                        strikes = side;
-                        lifted = false;
-                    }
-                }
-            }
-        }
         if self.walk.observed() {
             // The end of a step belongs to what comes after it.
             self.record(here, going, time + step, time);
         }
-        let kind = self.walk.mode.kind();
-        self.walk.summary.time_by_mode[kind] += step;
+        self.walk.summary.time_by_mode[self.walk.mode.kind()] += step;
         self.take_side(here, step);
-        if let Going::Moves { flight, stops } = going {
-            self.move_on(here, flight, step);
-            if strikes != 0.0 {
-                self.strike(strikes, time + step);
-            } else if *stops && step >= flight.length {
-                self.walk.summary.velocity[SLIP] = 0.0;
-            }
-            let u = [self.walk.summary.velocity[SLIP], self.crossing.velocity];
-            if u[0].hypot(u[1]) < REST && step > 0.0 {
-                self.walk.summary.velocity[SLIP] = 0.0;
-                self.crossing.velocity = 0.0;
-            }
-        }
-        if lifted {
-            self.walk.summary.end_time = time + step;
-            self.walk.summary.outcome = Outcome::LiftsAcross;
-            return None;
-        }
-        Some(step)
-    }
-
-    /// Impulse that the neighbour takes.
-    fn take_side(&mut self, here: &Here, step: f64) {
-        if self.side == 0.0 {
-            return;
-        }
-        let [push, slope] = here.forces.push[1];
-        self.crossing.time_at_side += step;
-        self.crossing.side_impulse += (self.across.mass * step * (push + 0.5 * step * slope)).abs();
-    }
-
-    /// Take over the end of a step.
-    fn move_on(&mut self, here: &Here, flight: &Flight, step: f64) {
-        let mass = self.across.mass;
-        let force = here.forces.push.map(|f| f.map(|f| f * mass));
-        let rub = here.forces.rub.map(|f| -f * mass);
-        let s = &mut self.walk.summary;
-        for (velocity, force) in flight.velocity.iter().zip(force) {
-            // Where a neighbour holds the block the force into it does no work.
-            let [net, size] = flight.work(velocity, force, step);
-            s.ledger.apply(Work { net, size });
-        }
-        let [net, size] = flight.work(&flight.speed, rub, step);
-        s.ledger.rub(Work { net, size });
-        self.crossing.path += flight.path(step);
-        let kind = self.walk.mode.kind();
-        for turn in flight.turns(0, step) {
-            let at = s.position[SLIP] + flight.way(0, turn);
-            s.slip_range = [s.slip_range[0].min(at), s.slip_range[1].max(at)];
-        }
-        let c = &mut self.crossing;
-        for turn in flight.turns(1, step) {
-            let at = c.position + flight.way(1, turn);
-            c.range = [c.range[0].min(at), c.range[1].max(at)];
-        }
-        let way = flight.way(0, step);
-        s.position[SLIP] += way;
-        s.slip_by_mode[kind] += way;
-        s.velocity[SLIP] = flight.velocity(0, step);
-        c.position += flight.way(1, step);
-        c.velocity = flight.velocity(1, step);
-        s.slip_range = [
-            s.slip_range[0].min(s.position[SLIP]),
-            s.slip_range[1].max(s.position[SLIP]),
-        ];
-        c.range = [c.range[0].min(c.position), c.range[1].max(c.position)];
-    }
-
-    /// Come to rest against a neighbour, across the valley.
-    fn strike(&mut self, side: f64, time: f64) {
-        let speed = self.crossing.velocity;
-        let mass = self.across.mass;
-        let lost = 0.5 * mass * speed * speed;
-        let gap = self.across.gap[usize::from(side < 0.0)];
-        let c = &mut self.crossing;
-        c.position = side * gap;
-        c.range = [
-            c.range[0].max(-self.across.gap[1]),
-            c.range[1].min(self.across.gap[0]),
-        ];
-        c.velocity = 0.0;
-        c.side_impulse += mass * speed.abs();
-        c.side_strikes += 1;
-        let s = &mut self.walk.summary;
-        s.ledger.strike(lost);
-        s.events += 1;
-        s.end_time = time;
-        let event = Event {
-            energy_lost: lost,
-            ..self.event(EventKind::SideStrikes, self.walk.mode)
+        let Going::Moves { flight, stops } = going else {
+            return (step, cause);
         };
-        self.walk.tell(event);
-    }
-
-    /// Tell of a start or a stop.
-    fn note(&mut self, before: Mode) {
-        let after = self.walk.mode;
-        let kind = match (before.sticks(), after.sticks()) {
-            (true, false) => EventKind::SlipStarts,
-            (false, true) => EventKind::SlipStops,
-            _ => return,
-        };
-        self.walk.summary.events += 1;
-        self.walk.summary.slip_stops += u64::from(kind == EventKind::SlipStops);
-        let event = self.event(kind, before);
-        self.walk.tell(event);
-    }
-
-    fn event(&self, kind: EventKind, before: Mode) -> Event {
-        let s = &self.walk.summary;
-        Event {
-            time: s.end_time,
-            kind,
-            before,
-            after: self.walk.mode,
-            position: s.position,
-            velocity: s.velocity,
-            approach: s.velocity,
-            impulse: [0.0; 3],
-            energy_lost: 0.0,
+        self.move_on(here, flight, step);
+        let stands = *stops && step >= flight.length;
+        let [along, across] = self.velocity();
+        let crawls = along * along + across * across < REST * REST;
+        if cause.is_none() && step > 0.0 && (stands || crawls) {
+            self.stand();
+            return (step, Some(Cause::Stop));
         }
+        (step, cause)
     }
 
-    /// Keep the block at every wanted moment before `until`; `since` is when the present step began.
-    fn record(&mut self, here: &Here, going: &Going, until: f64, since: f64) {
-        while let Some(time) = self.walk.next_moment(until) {
-            let t = time - since;
-            let (moment, crossing) = self.moment(here, going, t.max(0.0));
-            self.crossing.kept.push(crossing);
-            self.walk.keep(moment);
+    /// The first event on a stretch, or its end.
+    fn first_event(&self, here: &Here, flight: &Flight) -> (f64, Option<Cause>) {
+        let (mut step, mut cause) = (flight.length, None);
+        let [along, across] = here.forces.fastest(step);
+        for (normal, per) in here.normal.into_iter().zip(self.per_acceleration) {
+            let [value, slope] = normal;
+            let most = along * per.abs();
+            if value > most && value + slope * step > most {
+                continue;
+            }
+            if let Some(t) = flight.first_fall(normal, per, step) {
+                (step, cause) = (t, Some(Cause::Normal));
+            }
         }
+        for ((number, side), gap) in SIDES.into_iter().zip(self.across.gap) {
+            let room = (gap - side * self.crossing.position).max(0.0);
+            let most = step * (self.crossing.velocity.abs() + step * across);
+            if self.side != 0.0 || room > most {
+                continue;
+            }
+            if let Some(t) = flight.reaches(1, room, side, step) {
+                (step, cause) = (t, Some(Cause::Gap(number)));
+            }
+        }
+        (step, cause)
+    }
+}
+
+impl<'a> Carried<'a, 1> for Plane<'a> {
+    type Piece = Piece<3>;
+
+    fn walks(&mut self) -> &mut [Walk<'a>; 1] {
+        std::array::from_mut(&mut self.walk)
     }
 
-    /// The block after some time of a step, and the place, velocity and friction across the valley.
-    fn moment(&self, here: &Here, going: &Going, t: f64) -> (Moment, [f64; 3]) {
-        let (mut moment, mut position, mut velocity) =
-            (self.at_rest(), self.crossing.position, self.crossing.velocity);
-        let mass = self.across.mass;
-        let rub = mass * (here.forces.rub[0] + here.forces.rub[1] * t);
-        let push = here.forces.push.map(|[f, j]| mass * (f + j * t));
-        let (friction, across, acceleration) = match going {
-            Going::Rests { .. } => {
-                let across = if self.side == 0.0 { -push[1] } else { 0.0 };
-                (-push[0], across, 0.0)
-            }
-            Going::Moves { flight, .. } => {
-                let t = t.min(flight.length);
-                let u = [flight.velocity(0, t), flight.velocity(1, t)];
-                let speed = u[0].hypot(u[1]);
-                let [along, across] = u.map(|u| if speed > 0.0 { -rub * u / speed } else { 0.0 });
-                moment.position[SLIP] += flight.way(0, t);
-                moment.velocity[SLIP] = u[0];
-                position += flight.way(1, t);
-                velocity = u[1];
-                let acceleration = (push[0] + along) / self.mass;
-                (along, across, acceleration)
-            }
-        };
-        moment.acceleration[SLIP] = acceleration;
-        let pressed = |i: usize| {
-            let [value, slope] = here.normal[i];
-            value + slope * t + self.per_acceleration[i] * acceleration
-        };
-        moment.reaction = [friction, pressed(0), pressed(1)];
-        (moment, [position, velocity, across])
+    fn velocities(&self) -> [Vector; 1] {
+        [self.walk.summary.velocity]
     }
 
-    fn at_rest(&self) -> Moment {
-        let s = &self.walk.summary;
-        Moment {
-            mode: self.walk.mode,
-            position: s.position,
-            velocity: s.velocity,
-            acceleration: [0.0; 3],
-            reaction: [0.0; 3],
+    fn find_modes(&mut self, piece: &Piece<3>) -> Option<[Mode; 1]> {
+        self.going = self.choose_way(&self.here(piece));
+        let moved = self.velocity() != [0.0; 2];
+        Some([match (&self.going, self.walk.mode) {
+            (Going::Rests { .. }, _) => Mode::Rest,
+            // To turn on the way is no event.
+            (_, Mode::Slide(way)) if moved => Mode::Slide(way),
+            (Going::Moves { flight, .. }, _) if flight.velocities(flight.length)[0] < 0.0 => {
+                Mode::Slide(Slip::Upstream)
+            }
+            _ => Mode::Slide(Slip::Downstream),
+        }])
+    }
+
+    fn enter(&mut self) {}
+
+    fn collide(&mut self, gap: usize) -> Option<Blow<1>> {
+        Some(self.strike(gap))
+    }
+
+    fn seize(&mut self) -> Option<Blow<1>> {
+        None
+    }
+}
+
+impl<'a> Exactly<'a, 1, 3> for Plane<'a> {
+    fn advance(&mut self, piece: &Piece<3>, time: f64) -> (f64, Option<Ended>) {
+        let (mut here, mut going, mut local) = (self.here(piece), self.going, 0.0);
+        loop {
+            let (step, cause) = self.go_on(&here, &going, time + local);
+            if cause == Some(Cause::Normal) {
+                self.give_up(Outcome::LiftsAcross);
+            }
+            let ended = step >= here.left;
+            let stands = local + step <= local;
+            local += step;
+            if cause.is_some() {
+                return (local, cause.map(|cause| (0, cause)));
+            }
+            if ended {
+                return (piece.left, None);
+            }
+            here = self.here(&piece.rest(local));
+            let moves = going.moves();
+            going = self.choose_way(&here);
+            if stands || going.moves() != moves {
+                return (local, Some((0, Cause::Cone)));
+            }
         }
     }
 }

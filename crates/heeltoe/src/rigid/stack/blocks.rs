@@ -12,6 +12,7 @@
 use super::super::block::{inverse, Affine, Block, BlockNumbers, Vector, HEEL, SLIP, TOE};
 use super::solve::{Six, Square};
 use crate::table::numbers;
+use crate::Error;
 
 numbers! {
     /// Where the upper block's reference point is, seen from that of all above the lower crack, along and across that.
@@ -47,7 +48,7 @@ impl Stack {
     ///
     /// # Errors
     /// The lower block is left with no positive mass: the blocks are not those of one dam.
-    pub fn new(lower: &BlockNumbers, upper: &BlockNumbers, place: &Place) -> Result<Self, &'static str> {
+    pub fn new(lower: &BlockNumbers, upper: &BlockNumbers, place: &Place) -> Result<Self, Error> {
         let (sine, cosine) = place.turned.sin_cos();
         let carried = [
             [cosine, sine, sine * place.along - cosine * place.across],
@@ -61,7 +62,7 @@ impl Stack {
         let definite =
             diagonal[0] > 0.0 && diagonal[0] * diagonal[1] > beside[0] * beside[0] && determinant(&own) > 0.0;
         if !definite {
-            return Err("the lower block is left with no positive mass");
+            return Err(Error::Blocks("the lower block is left with no positive mass"));
         }
         let inverses = [inverse(diagonal, beside), {
             let beside = [above[0][1], above[0][2], above[1][2]];

@@ -218,7 +218,7 @@ impl<'a> Carried<'a, 2> for Blocks<'a> {
     }
 }
 
-impl<'a> Exactly<'a, 2> for Blocks<'a> {
+impl<'a> Exactly<'a, 2, 2> for Blocks<'a> {
     fn advance(&mut self, piece: &Piece<2>, time: f64) -> (f64, Option<Ended>) {
         self.move_to_event(piece, time)
     }

@@ -1,6 +1,7 @@
 //! The ground's motion: `(a_h, a_v, alpha)(t)`, linear between the samples; the ground may turn, too.
 
 use super::super::shaking::{Piece as Level, Range, Shaking};
+use crate::Error;
 
 /// Ground acceleration: horizontal, upward, rotation (counter-clockwise about the middle of the crack).
 pub(super) type Ground = [f64; 3];
@@ -30,9 +31,10 @@ impl<'a> TurningShaking<'a> {
     ///
     /// # Errors
     /// Not as many accelerations as moments.
-    pub fn new(level: Shaking<'a>, turning: Option<&'a [f64]>) -> Result<Self, &'static str> {
+    pub fn new(level: Shaking<'a>, turning: Option<&'a [f64]>) -> Result<Self, Error> {
         if turning.is_some_and(|a| a.len() != level.time.len()) {
-            return Err("a motion needs as many rotational accelerations as times");
+            let why = "a motion needs as many rotational accelerations as times";
+            return Err(Error::Motion(why));
         }
         Ok(TurningShaking { level, turning })
     }
