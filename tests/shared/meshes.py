@@ -7,13 +7,14 @@ import numpy as np
 from heeltoe.models.flexible.mesh.checks import (
     jacobians,
 )
-from heeltoe.models.flexible.mesh.dam import dam_mesh
+from heeltoe.models.flexible.mesh.dam import dam_mesh, graded_cracks
 from shared.outlines import make
 
 
 def meshed(corners, elevation=0.0, directory=".", **options):
     case = make(corners, elevation, flexible=options)
-    return dam_mesh(case.based_in(Path(directory))), case.cut
+    case = case.based_in(Path(directory))
+    return dam_mesh(case, graded_cracks(case)), case.cut
 
 
 def bodies(mesh):

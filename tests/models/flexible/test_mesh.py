@@ -46,11 +46,54 @@ def test_two_parts_meet_node_by_node():
     mesh, section = meshed(TYPICAL, 90.0)
     upper, lower = mesh.upper, mesh.lower
     assert 70 <= len(upper.elements) <= 110
-    assert 80 <= len(lower.elements) <= 110
+    # With rows that grow away from the small elements at the ends of the crack.
+    assert 80 <= len(lower.elements) <= 140
     assert lower.nodes[lower.crack] == pytest.approx(upper.nodes[upper.crack], abs=1e-12)
     assert lower.nodes[lower.fixed] == pytest.approx(np.column_stack([np.linspace(0, 80, 17), np.zeros(17)]))
     assert area(upper) == pytest.approx(section.area)
     assert area(lower) == pytest.approx(4040.0 - section.area)
+
+
+def test_crack_at_a_height_has_small_elements_at_both_ends():
+    mesh, _ = meshed(TYPICAL, 90.0)
+    # Of 8 each is twice as long as the one before it, up to the middle of the 8 m.
+    halves = np.array([1.0, 2.0, 4.0, 8.0])
+    lengths = np.concatenate([halves, halves[::-1]]) * 4.0 / halves.sum()
+    for body in bodies(mesh):
+        assert np.diff(body.nodes[body.crack[::2], 0]) == pytest.approx(lengths)
+        # At the distance of the width from the crack all elements of a row are equal again.
+        levels = np.unique(body.nodes[body.upstream[::2], 1])
+        far = levels[np.abs(levels - 90.0) >= 8.0]
+        for level in far:
+            row = np.sort(body.nodes[np.abs(body.nodes[:, 1] - level) < 1e-9, 0])
+            assert np.diff(row) == pytest.approx((row[-1] - row[0]) / 16)
+        assert len(far) > 1
+        # Neither needles at the ends nor rows thicker than the elements are there.
+        thin = np.abs(np.diff(body.nodes[body.upstream[::2], 1]))
+        assert thin[np.argmin(np.abs(levels[:-1] - 90.0))] == pytest.approx(lengths[0], rel=0.5)
+
+
+def test_each_graded_element_is_two_of_twice_as_many():
+    fine, coarse = (meshed(TYPICAL, 90.0, elements_across=across)[0].upper for across in (16, 8))
+    assert fine.nodes[fine.crack[::4]] == pytest.approx(coarse.nodes[coarse.crack[::2]])
+
+
+@pytest.mark.parametrize(
+    ("elevation", "options"),
+    [
+        (0.0, {}),
+        (90.0, {"damping": "thesis"}),
+        (90.0, {"virtual_mass": "thesis"}),
+        (90.0, {"contact": "idce", "damping": "stiffness"}),
+        (90.0, {"elements_away": 4}),
+        (90.0, {"elements_across": 2}),
+    ],
+    ids=["base", "damping", "virtual mass", "penalties", "rows that grow", "few"],
+)
+def test_other_meshes_stay_even(elevation, options):
+    mesh, section = meshed(TYPICAL, elevation, **options)
+    face = mesh.upper.nodes[mesh.upper.crack, 0]
+    assert face == pytest.approx(np.linspace(0.0, section.crack_width, face.size))
 
 
 def test_another_number_of_elements_below():
@@ -88,7 +131,8 @@ def test_mesh_has_the_shape_of_the_section(corners, tenths, across, below):
 @pytest.mark.parametrize(("across", "away", "halvings"), [(32, 4, 3), (24, 5, 2), (20, 5, 1), (10, 5, 0), (80, 10, 3)])
 def test_rows_grow_away_from_the_crack(elevation, across, away, halvings):
     mesh, section = meshed(TYPICAL, elevation, elements_across=across, elements_away=away)
-    even, _ = meshed(TYPICAL, elevation, elements_across=across)
+    # Rows that stay as many are those of a graded crack.
+    even, _ = meshed(TYPICAL, elevation, elements_across=across, **({"virtual_mass": "thesis"} if halvings else {}))
     assert make(TYPICAL, flexible={"elements_across": across, "elements_away": away}).flexible.row_counts() == (
         across // 2**halvings,
         halvings,
@@ -176,7 +220,10 @@ def test_layer_too_thin():
 
 
 def test_tip_needs_two_elements_across():
-    with pytest.raises(InputError, match=r"flexible\.elements_across: 1 element across cannot fill a pointed crest"):
+    with pytest.raises(
+        InputError,
+        match=r"flexible\.elements_across: 1 is out of range; give a value of at least 2, as the crest is pointed",
+    ):
         meshed(TRIANGLE, elements_across=1)
 
 

@@ -6,6 +6,7 @@ have any shape whose crack and area are those of the section."""
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -14,6 +15,7 @@ import numpy as np
 import shapely
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.case.crack.kinks import climbs
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.geometry.axes import in_x_and_z
@@ -95,17 +97,20 @@ class DamMesh:
 
     @property
     def parts(self) -> tuple[BodyMesh, ...]:
-        """Those that there are."""
+        """Parts of the dam, one or more."""
         return self.above if self.lower is None else (*self.above, self.lower)
 
 
-def dam_mesh(case: Case) -> DamMesh:
+def dam_mesh(case: Case, graded: Sequence[bool] | None = None) -> DamMesh:
     """Return the mesh of the dam.
 
     Parameters
     ----------
     case
         Its block `flexible` says how fine, or names files.
+    graded
+        Along which cracks, from the crest down, elements become smaller towards both ends, see :func:`graded_cracks`;
+        None for none, as where all cracks are bonded.
 
     Raises
     ------
@@ -113,45 +118,74 @@ def dam_mesh(case: Case) -> DamMesh:
         Where rows of elements cannot follow the section or the crack, or a mesh from a file is unfit.
     """
     options, section, directory = case.flexible, case.cut, case.base_directory
+    graded, grounded = graded or [False] * len(case.single_crack_cases), _is_grounded(case)
     if case.further_cracks:
-        above = _parts_above(case)
-        section = case.single_crack_cases[-1].cut
-        if case.outline.area - section.area <= _NOTHING * section.area:
+        above = _parts_above(case, graded, grounded=grounded)
+        lowest = case.single_crack_cases[-1]
+        if grounded:
             return DamMesh(above, None)
         counts = options.row_counts(below=True)
-        return DamMesh(above, _own(*_faces_below(case.single_crack_cases[-1]), counts, section, above=False))
+        return DamMesh(above, _own(*_faces_below(lowest), counts, lowest.cut, above=False, graded=graded[-1]))
     below = case.outline.area - section.area
-    # At the base, or along a sloping one, there is nothing below.
-    grounded = below <= _NOTHING * section.area
     _check_ends(section, grounded=grounded)
     if options.mesh_above:
         upper = _from_file(directory / options.mesh_above, section, section.area, above=True)
     else:
-        upper = _own(section.upstream_face, section.downstream_face, options.row_counts(), section, above=True)
+        faces = section.upstream_face, section.downstream_face
+        upper = _own(*faces, options.row_counts(), section, above=True, graded=graded[0])
     if grounded:
         if options.mesh_below:
-            raise InputError("mesh-none-below", "flexible.mesh_below", options.mesh_below)
+            raise InputError(
+                "option-foreign",
+                "flexible.mesh_below",
+                options.mesh_below,
+                owner="a dam whose crack is at the base",
+                remedy="",
+            )
         return DamMesh((upper,), None)
     if options.mesh_below:
         return DamMesh((upper,), _from_file(directory / options.mesh_below, section, below, above=False))
     counts = options.row_counts(below=True)
-    return DamMesh((upper,), _own(*_faces_below(case), counts, section, above=False))
+    return DamMesh((upper,), _own(*_faces_below(case), counts, section, above=False, graded=graded[0]))
 
 
-def _parts_above(case: Case) -> tuple[BodyMesh, ...]:
+def graded_cracks(case: Case) -> list[bool]:
+    """Return of which cracks, from the crest down, the elements become smaller towards both ends: a part that rocks
+    above the base stands on much less than an even element.
+
+    The thesis has even elements. Kinks and bonds need them everywhere along the crack, and who gives a mesh or rows
+    that grow has his own.
+    """
+    options, single_crack_cases = case.flexible, case.single_crack_cases
+    as_in_thesis = "thesis" in (options.damping, options.virtual_mass) or options.contact == "idce"
+    halved = options.row_counts()[1] or options.row_counts(below=True)[1]
+    if as_in_thesis or halved or options.mesh_above or options.mesh_below:
+        return [False] * len(single_crack_cases)
+    graded = [not (climbs(alone.crack.kinks) or alone.crack.bond) for alone in single_crack_cases]
+    graded[-1] = graded[-1] and not _is_grounded(case)
+    return graded
+
+
+def _is_grounded(case: Case) -> bool:
+    """Return whether the lowest crack is at the base, or along a sloping one, so that nothing is below it."""
+    above = case.single_crack_cases[-1].cut.area
+    return bool(case.outline.area - above <= _NOTHING * above)
+
+
+def _parts_above(case: Case, graded: Sequence[bool], *, grounded: bool) -> tuple[BodyMesh, ...]:
     """Return the parts above each of several cracks, from the crest down."""
     counts = away, halvings = case.flexible.row_counts()
     sections = [single_crack_case.cut for single_crack_case in case.single_crack_cases]
-    grounded = case.outline.area - sections[-1].area <= _NOTHING * sections[-1].area
     for section in sections:
         _check_ends(section, grounded=grounded and section is sections[-1])
     first = sections[0]
-    result = [_own(first.upstream_face, first.downstream_face, counts, first, above=True)]
-    for high, low in pairwise(sections):
+    result = [_own(first.upstream_face, first.downstream_face, counts, first, above=True, graded=graded[0])]
+    for (high, low), (at_high, at_low) in zip(pairwise(sections), pairwise(graded), strict=True):
         upstream = _up_to(low.upstream_face, high.heel)
         downstream = _up_to(low.downstream_face, high.toe)
         faces = followed(upstream, downstream, away, above=False)
-        mesh = _between(*meshed_rows(faces.upstream, faces.downstream, away, (halvings, halvings)), high, low)
+        rows = meshed_rows(faces.upstream, faces.downstream, away, (halvings, halvings), (at_low, at_high))
+        mesh = _between(*rows, high, low)
         result.append(replace(mesh, missed=faces.missed))
     return tuple(result)
 
@@ -180,13 +214,21 @@ def _nearest(nodes: Floats, point: tuple[float, float]) -> int:
 
 
 def _own(
-    upstream: Floats, downstream: Floats, counts: tuple[int, int], section: CutSection, *, above: bool
+    upstream: Floats,
+    downstream: Floats,
+    counts: tuple[int, int],
+    section: CutSection,
+    *,
+    above: bool,
+    graded: bool = False,
 ) -> BodyMesh:
-    """Return the program's own mesh between two faces, with such counts of its rows' elements."""
+    """Return the program's own mesh between two faces, with such counts of its rows' elements, which may be graded
+    along the crack."""
     away, halvings = counts
     faces = followed(upstream, downstream, away, above=above)
     finer = (halvings, 0) if above else (0, halvings)
-    mesh = _body(*meshed_rows(faces.upstream, faces.downstream, away, finer), section, "section", above=above)
+    ends = (graded, False) if above else (False, graded)
+    mesh = _body(*meshed_rows(faces.upstream, faces.downstream, away, finer, ends), section, "section", above=above)
     return replace(mesh, missed=faces.missed)
 
 

@@ -21,7 +21,7 @@ _KINKS, _FEW = 2.0, 20.0
 
 @dataclass(frozen=True, eq=False)
 class Faces:
-    """What a mesh follows.
+    """Faces that a mesh follows.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class Faces:
 
 
 def followed(upstream: Floats, downstream: Floats, across: int, *, above: bool) -> Faces:
-    """Return the faces of a part with no more kinks than rows of so many elements can have; `above` the crack with a
+    """Return the faces of a part with no more kinks than rows of `across` elements can have; `above` the crack with a
     level crest."""
     faces = upstream, downstream
     if above:

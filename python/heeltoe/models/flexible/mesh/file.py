@@ -15,7 +15,7 @@ import numpy as np
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.base.input_files import read_bounded
-from heeltoe.errors.error import InputError
+from heeltoe.errors.error import InputError, package
 from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
 
 _EXPECTED = "a mesh in a format that meshio reads, for example .msh, .vtu or .inp"
@@ -73,10 +73,8 @@ def read_quadrilaterals(path: Path) -> tuple[Floats, Integers]:
 
 
 def _read(path: Path) -> Any:
-    try:
+    with package(str(path), "meshio"):
         import meshio
-    except ImportError:
-        raise InputError("package-missing", str(path), "meshio", install="pip install meshio") from None
     try:
         content = read_bounded(path, _LARGEST)
         # Ansys has files of the same ending.
@@ -86,7 +84,12 @@ def _read(path: Path) -> Any:
                 "too-large", str(path), f"{_LARGEST // 10**6} MB", expected="a mesh of some thousand elements"
             )
         if re.search(rb"^\s*\*include", content, re.IGNORECASE | re.MULTILINE):
-            raise InputError("mesh-include", str(path))
+            raise InputError(
+                "source-unreadable",
+                str(path),
+                reason="it includes another file",
+                expected="all of the mesh in one file",
+            )
         # It is read once more, which a pipe does not bear.
         if not path.is_file():
             raise InputError("source-unreadable", str(path), reason="it is not a file", expected=_EXPECTED)

@@ -17,6 +17,7 @@ from heeltoe.errors.error import InputError
 from heeltoe.geometry.axes import in_x_and_z, places
 from heeltoe.models.flexible.mesh.checks import check_elements
 from heeltoe.models.flexible.mesh.dam import BodyMesh, DamMesh
+from heeltoe.models.flexible.mesh.rows import straighten
 
 # An angle of less is that of a straight crack [rad].
 _NO_ANGLE = 1e-9
@@ -67,8 +68,7 @@ def _drawn(mesh: BodyMesh, face: Integers, alone: Case) -> BodyMesh:
     share = np.clip(1.0 - abs(at[:, 1]) / far, 0.0, 1.0)
     moved = share[:, None] * np.column_stack([np.interp(part * width, even, item) for item in shift.T])
     nodes = mesh.nodes + in_x_and_z(moved, section)
-    ends = mesh.elements[:, :4]
-    nodes[mesh.elements[:, 4:]] = (nodes[ends] + nodes[np.roll(ends, -1, axis=1)]) / 2.0
+    straighten(nodes, mesh.elements)
     try:
         check_elements(nodes, mesh.elements, "crack.kinks")
     except InputError:

@@ -3,13 +3,15 @@
 Every line of nodes runs straight from face to face, every kink of a face is on such a line, and the rows grow and
 shrink with the width of the dam. Above and below an inclined crack the lines turn evenly, from the crack's direction
 to level, as they join points of the two faces at the same part of their heights. Towards a crack rows may become
-thinner and their elements as many more: four elements of one row then meet two of the next. A pointed crest ends in
-three fields of quadrilaterals that meet inside the tip, so that the mesh has the very area of the section: blunting
-the tip would need many thin rows and still change weight and water pressure."""
+thinner and their elements as many more: four elements of one row then meet two of the next. Or they become thinner and
+their elements, as many in every row, smaller towards both ends of the crack. A pointed crest ends in three fields of
+quadrilaterals that meet inside the tip, so that the mesh has the very area of the section: blunting the tip would need
+many thin rows and still change weight and water pressure."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -27,6 +29,9 @@ ROWS, _ROWS_OF_TIP = 1.65, 0.75
 _SQUAT, _SLENDER = 1.0, 3.0
 # Steps in which the height of rows is integrated over a segment between kinks; more where they grow with the distance.
 _STEPS, _FINE_STEPS = 100, 4000
+# So many times as long are graded elements in the middle of a crack as at its ends, were they as small as can be: of 8
+# the first is a thirtieth of the width.
+_GRADED = 16.0
 # By so much of the distance to the crack are rows higher than those at it.
 _GROWTH = 0.5
 # A face that runs more than this per unit of rise is a ledge: elements on it would be needles.
@@ -39,7 +44,13 @@ _NEAR = 0.25
 _WEDGE = 0.02
 
 
-def meshed_rows(left: Floats, right: Floats, across: int, finer: tuple[int, int] = (0, 0)) -> tuple[Floats, Integers]:
+def meshed_rows(
+    left: Floats,
+    right: Floats,
+    across: int,
+    finer: tuple[int, int] = (0, 0),
+    graded: tuple[bool, bool] = (False, False),
+) -> tuple[Floats, Integers]:
     """Mesh the part of a section between two faces.
 
     Parameters
@@ -51,6 +62,8 @@ def meshed_rows(left: Floats, right: Floats, across: int, finer: tuple[int, int]
         Number of elements in a row, even where some are finer.
     finer
         How often the elements of the first and of the last row are halved.
+    graded
+        Whether the elements of the first and of the last row, none of which is halved, are :func:`graded_places`.
 
     Returns
     -------
@@ -78,12 +91,17 @@ def meshed_rows(left: Floats, right: Floats, across: int, finer: tuple[int, int]
     start, end = keys[-1]
     pointed = end[0] - start[0] <= 1e-9 * (end[1] - keys[0][0][1])
     if pointed and across < 2:
-        raise InputError("mesh-tip", "flexible.elements_across", f"{across}")
+        raise InputError(
+            "out-of-range", "flexible.elements_across", f"{across}", bound="of at least 2, as the crest is pointed"
+        )
     if pointed:
         # Rows up to half the height of the uppermost segment, the tip from there.
         keys[-1] = ((keys[-2][0] + left[-1]) / 2.0, (keys[-2][1] + left[-1]) / 2.0)
-    lines = _graded(keys, across, across * (ROWS - _ROWS_OF_TIP if pointed else ROWS), finer)
+    smallest = across * float(graded_places(across)[1])
+    least = [smallest if is_graded else 0.5**halved for halved, is_graded in zip(finer, graded, strict=True)]
+    lines = _spread(keys, across, across * (ROWS - _ROWS_OF_TIP if pointed else ROWS), least)
     halvings = _halvings(lines, across, finer)
+    shifts = _shifts(lines, across, graded)
     if sloping:
         ends = (face[[0, -1], 1] for face in faces)
         back = [
@@ -91,13 +109,31 @@ def meshed_rows(left: Floats, right: Floats, across: int, finer: tuple[int, int]
             for points, ends_of_line in zip(zip(*lines, strict=True), ends, strict=True)
         ]
         lines = list(zip(*back, strict=True))
-    fields = _fields(lines, across, halvings)
+    fields = _fields(lines, across, halvings, shifts)
     if pointed:
         fields += _tip(*lines[-1], faces[0][-1], across * 2 ** halvings[-1])
     nodes, elements = _joined(fields)
+    if shifts.any():
+        straighten(nodes, elements)
     if sloping:
         _check_turned(lines, nodes, elements, across * 2 ** max(finer))
     return nodes, elements
+
+
+def graded_places(across: int) -> Floats:
+    """Return the corners of elements that grow evenly from both ends to the middle, as parts of the width, shape
+    (across + 1,). Each element of half as many is two of these."""
+    place = np.linspace(0.0, 1.0, across + 1)
+    near = np.expm1(2.0 * math.log(_GRADED) * np.minimum(place, 1.0 - place)) / (2.0 * (_GRADED - 1.0))
+    near[np.abs(place - 0.5) < 0.25 / across] = 0.5
+    result: Floats = np.where(place <= 0.5, near, 1.0 - near)
+    return result
+
+
+def straighten(nodes: Floats, elements: Integers) -> None:
+    """Put midside nodes between their corners."""
+    ends = elements[:, :4]
+    nodes[elements[:, 4:]] = (nodes[ends] + nodes[np.roll(ends, -1, axis=1)]) / 2.0
 
 
 def _stretched(points: Floats, ends_of_line: Floats, wanted: Floats) -> Floats:
@@ -107,7 +143,7 @@ def _stretched(points: Floats, ends_of_line: Floats, wanted: Floats) -> Floats:
 
 
 def _check_turned(lines: list[Line], nodes: Floats, elements: Integers, across: int) -> None:
-    """Refuse rows that turn so much that nothing is left of their elements."""
+    """Refuse rows that turn until their elements vanish."""
     ends = np.array(lines)
     thinnest = np.diff(ends[:, :, 1], axis=0).min()
     widest = (ends[:, 1, 0] - ends[:, 0, 0]).max() / across
@@ -146,16 +182,16 @@ def _key_lines(left: Floats, right: Floats, across: int) -> list[Line]:
     ]
 
 
-def _graded(keys: list[Line], across: int, wanted: float, finer: tuple[int, int]) -> list[Line]:
+def _spread(keys: list[Line], across: int, wanted: float, least: Sequence[float]) -> list[Line]:
     """Put about as many lines between the key lines as are wanted, close where the part is narrow, and more of them
-    where its first or last elements are finer."""
+    where the smallest of its first or last elements is `least` times as wide as an even one, which is less than 1."""
     widths = np.array([end[0] - start[0] for start, end in keys]) / across
     heights = np.diff([(start[1] + end[1]) / 2.0 for start, end in keys])
     thin = heights < _THINNEST * widths[:-1]
     if thin.any():
         level = keys[int(np.argmax(thin))][0][1]
         raise InputError("mesh-thin", "section", f"{heights[thin][0]:.3g} m", level=f"{level:g} m")
-    steps = _FINE_STEPS if any(finer) else _STEPS
+    steps = _FINE_STEPS if min(least) < 1.0 else _STEPS
     places = (np.arange(steps) + 0.5) / steps
     width = widths[:-1, None] + np.diff(widths)[:, None] * places
 
@@ -174,10 +210,10 @@ def _graded(keys: list[Line], across: int, wanted: float, finer: tuple[int, int]
         fine, coarse = (middle, coarse) if rows(middle).sum() > wanted else (fine, middle)
     levels = np.cumsum([0.0, *heights])
     level = levels[:-1, None] + heights[:, None] * places
-    for end, halved in enumerate(finer):
-        if halved:
-            least = widths[-end] / 2.0**halved
-            highest = np.minimum(highest, least + _GROWTH * np.abs(level - levels[-end]))
+    for end, part in enumerate(least):
+        if part < 1.0:
+            lowest = widths[-end] * part
+            highest = np.minimum(highest, lowest + _GROWTH * np.abs(level - levels[-end]))
     lines = keys[:1]
     for (below, above), density in zip(pairwise(keys), rows(coarse), strict=True):
         passed = np.concatenate([[0.0], np.cumsum(density)])
@@ -206,8 +242,25 @@ def _halvings(lines: list[Line], across: int, finer: tuple[int, int]) -> list[in
     return [max(pair) for pair in zip(first, last, strict=True)]
 
 
-def _fields(lines: list[Line], across: int, halvings: list[int]) -> list[Floats]:
+def _shifts(lines: list[Line], across: int, graded: tuple[bool, bool]) -> Floats:
+    """Return how far downstream of an even one each corner of an element along each line is, as a part of the width of
+    the line, shape (lines, across + 1): the shift of a graded end, which fades up to a distance of its width, or up to
+    the other end."""
+    ends = np.array(lines)
+    levels, widths = ends[:, :, 1].mean(axis=1), ends[:, 1, 0] - ends[:, 0, 0]
+    result: Floats = np.zeros((len(lines), across + 1))
+    for end, is_graded in zip((0, -1), graded, strict=True):
+        if is_graded:
+            reach = min(widths[end], levels[-1] - levels[0])
+            share = np.maximum(1.0 - np.abs(levels - levels[end]) / reach, 0.0)
+            result += share[:, None] * (graded_places(across) - np.linspace(0.0, 1.0, across + 1))
+    return result
+
+
+def _fields(lines: list[Line], across: int, halvings: list[int], shifts: Floats) -> list[Floats]:
     """Return the fields of the rows between lines, see :func:`_field`."""
+    if shifts.any():
+        return [_field(lines, across, shifts)]
     result: list[Floats] = []
     start = 0
     for row, (below, above) in enumerate(pairwise(halvings)):
@@ -234,7 +287,7 @@ _GROUP = (
 
 
 def _halved(below: Line, above: Line, columns: int, *, upwards: bool) -> list[Floats]:
-    """Return the elements of a row of which one line has so many and the other half of them, each as a field of its
+    """Return the elements of a row of which one line has `columns` and the other half of them, each as a field of its
     own; `upwards` where the upper one has fewer."""
     result = []
     for first in range(0, columns, 4):
@@ -250,11 +303,16 @@ def _halved(below: Line, above: Line, columns: int, *, upwards: bool) -> list[Fl
     return result
 
 
-def _field(lines: list[Line], across: int) -> Floats:
-    """Return the points of the elements between lines, midside nodes and centres too, shape (rows, columns, 2)."""
+def _field(lines: list[Line], across: int, shifts: Floats | None = None) -> Floats:
+    """Return the points of the elements between lines, midside nodes and centres too, shape (rows, columns, 2); their
+    corners are shifted along the lines by parts of the width, shape (lines, across + 1)."""
     ends = np.array(lines)
     ends = np.insert(ends, range(1, len(ends)), (ends[1:] + ends[:-1]) / 2.0, axis=0)
     part = np.linspace(0.0, 1.0, 2 * across + 1)[:, None]
+    if shifts is not None:
+        shifts = np.insert(shifts, range(1, across + 1), (shifts[:, 1:] + shifts[:, :-1]) / 2.0, axis=1)
+        shifts = np.insert(shifts, range(1, len(shifts)), (shifts[1:] + shifts[:-1]) / 2.0, axis=0)
+        part = part + shifts[:, :, None]
     points: Floats = ends[:, None, 0] + part * (ends[:, None, 1] - ends[:, None, 0])
     return points
 
