@@ -240,7 +240,9 @@ def test_mirror_image(corners, tenths, up, down):
 
 
 def test_modulus_missing():
-    with pytest.raises(InputError, match=r"concrete\.modulus: is required by the flexible model.*add for example"):
+    with pytest.raises(
+        InputError, match=r"concrete\.modulus: is required but missing; the flexible model needs it, for example"
+    ):
         built(TYPICAL, concrete={})
 
 

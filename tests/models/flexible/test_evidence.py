@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from heeltoe import InputError, flexible
+from heeltoe import InputError, flexible, read_case
 from heeltoe.models.flexible import model
 from heeltoe.models.flexible.body import reduced
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
@@ -184,6 +184,49 @@ def test_the_work_of_runs_is_counted_once():
     trials.prepare([own], [(finer, (1.0, 0.99))])
     assert (trials.runs, trials.work) == (3, 1.0 + 2.0 * 2.0)
     assert trials.cost([(own, (1.0,)), (finer, SCALES)]) == 3.0 * 2.0
+
+
+def test_a_mesh_whose_runs_are_too_many_is_not_built(monkeypatch):
+    """By hand: of twice the elements one run at 4, five at half of that; of what is larger five on the first mesh at a
+    half."""
+    case = read_case(FIELDS | {"flexible": {"elements_across": 2}, "motion": {"file": "elcentro-1940-180-nga"}})
+    shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(MOTION, None, 1.0).shaking)
+    trials, work = Trials(shaken, 1e-3, 0.1), 4.0 + 5.0 * 2.0 + 5.0 * 0.5
+    finer = Level(1, 0)
+    assert trials.cost(refinement._fewest(trials, finer, -1, full=True, means=True)) == work
+
+    def build(*_):
+        raise AssertionError
+
+    monkeypatch.setattr(reduced, "_build", build)
+    monkeypatch.setattr(refinement, "BUDGET", work - 0.1)
+    assert not refinement._affordable(trials, finer, full=True, means=True)
+    monkeypatch.setattr(refinement, "BUDGET", work)
+    with pytest.raises(AssertionError):
+        refinement._affordable(trials, finer, full=True, means=True)
+
+
+@pytest.mark.parametrize(
+    ("fields", "times"),
+    [
+        ({}, 2.0),
+        ({"further_cracks": [{"elevation": "20 m", "friction": 0.7}]}, 2.0),
+        ({"rock": "rigid"}, 1.0),
+        ({"rock": {"modulus": "20 GPa", "damping": 0.0}}, 1.0),
+        ({"uplift": {"during_shaking": "full while open"}}, 1.0),
+        ({"flexible": {"elements_across": 2, "time_step": "1 ms"}}, 1.0),
+    ],
+    ids=["one crack", "two cracks", "rigid", "no damping", "water", "own step"],
+)
+def test_what_stands_beside_a_smooth_run_takes_twice_its_step(fields, times):
+    case = read_case(
+        FIELDS | {"flexible": {"elements_across": 2}, "motion": {"file": "elcentro-1940-180-nga"}} | fields
+    )
+    shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(MOTION, None, 1.0).shaking)
+    step = shaken.first_step()
+    assert shaken.step_beside(step) == times * step
+    # One that no longer follows the dam is none.
+    assert shaken.step_beside(16.0 * step) == 16.0 * step
 
 
 def test_what_evidence_asks_for_may_be_built_ahead(monkeypatch):

@@ -93,9 +93,9 @@ def test_the_warning_of_a_dam_on_its_way_is_that_of_the_verdict():
     stopped = flexible(case, motion)
     assert stopped.residual_slip_m > 0.1
     assert comes_to_rest(stopped)
-    assert "dam-still-moves" not in [warning.code for warning in stopped.warnings]
+    assert "still-moves" not in [warning.code for warning in stopped.warnings]
     moving = flexible(case, motion.cut(0.3))
     assert not comes_to_rest(moving)
-    (text,) = [str(warning) for warning in moving.warnings if warning.code == "dam-still-moves"]
+    (text,) = [str(warning) for warning in moving.warnings if warning.code == "still-moves"]
     assert "in the last 0.15 s its slip changes" in text
     assert "in the last 0.15 s its slip changes" in verdict(moving)

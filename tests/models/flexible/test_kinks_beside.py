@@ -7,7 +7,7 @@ import pytest
 
 from heeltoe import InputError, flexible, read_case, read_study
 from heeltoe.models.statics.cases import usual
-from heeltoe.motion.records import read_record
+from heeltoe.motion.records.read import read_record
 from heeltoe.study.plan.plan import plan_of
 from heeltoe.study.run import batches as parts
 from heeltoe.study.small.spread import with_spread

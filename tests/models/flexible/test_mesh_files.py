@@ -286,5 +286,5 @@ def test_missing_package(tmp_path, own, monkeypatch):
 
 
 def test_mesh_below_without_a_part_below():
-    with pytest.raises(InputError, match=r"flexible\.mesh_below: below\.msh has no place: the crack is at the base"):
+    with pytest.raises(InputError, match=r"flexible\.mesh_below: does not belong to a dam whose crack is at the base"):
         meshed(TYPICAL, mesh_below="below.msh")

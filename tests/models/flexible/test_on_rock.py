@@ -459,7 +459,7 @@ def test_a_result_says_what_rigid_rock_and_water_without_sound_leave_out():
 
 
 def test_what_results_say_of_rigid_rock_is_in_the_table_of_its_page():
-    page = (Path(__file__).parents[3] / "docs/rigid-rock.md").read_text()
+    page = (Path(__file__).parents[3] / "docs/validation/rigid-rock.md").read_text()
     for low, high, cases, share, (first, third) in CLASSES:
         row = next(line for line in page.splitlines() if line.startswith(f"| depth / height {low:g} to {high:g} |"))
         cells = [float(cell) for cell in row.split("|")[2:-1]]

@@ -72,7 +72,7 @@ def test_counts_that_are_none(count):
 def test_a_dam_without_a_modulus():
     with pytest.raises(InputError) as refused:
         dam_periods(plane_case(BLOCK))
-    assert refused.value.code == "modulus-missing"
+    assert refused.value.code == "missing"
 
 
 def test_compressible_water_counts_as_a_mass_and_the_screen_says_so(capsys):

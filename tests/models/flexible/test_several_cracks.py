@@ -10,7 +10,7 @@ import pytest
 from heeltoe.case.model import Case
 from heeltoe.models.flexible.body import bonded as bonded_module
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
-from heeltoe.models.flexible.mesh.dam import DamMesh, _body, dam_mesh
+from heeltoe.models.flexible.mesh.dam import DamMesh, _body, dam_mesh, graded_cracks
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake, flexible
 from shared.dams import plane_case
@@ -19,7 +19,7 @@ from shared.two_cracks import DAM, PULSES, STEP, bonded, same, shaken
 
 def joined(case: Case) -> DamMesh:
     """Return the mesh of a dam with two cracks as that of one with the lower crack alone."""
-    upper, lower = dam_mesh(case).parts
+    upper, lower = dam_mesh(case, graded_cracks(case)).parts
     faces = dict(zip(upper.faces[-1].tolist(), lower.faces[0].tolist(), strict=True))
     count = len(lower.nodes)
     renumbered = np.array([faces.get(node, count + node) for node in range(len(upper.nodes))])
@@ -41,7 +41,7 @@ def test_the_neck_alone_where_the_base_is_bonded():
 def test_the_base_alone_where_the_neck_is_bonded(monkeypatch):
     case = plane_case(DAM)
     two = shaken(bonded(case, 90.0))
-    monkeypatch.setattr(bonded_module, "dam_mesh", lambda _: joined(case))
+    monkeypatch.setattr(bonded_module, "dam_mesh", lambda *_: joined(case))
     # Another damping, by rounding, so that no dam of another mesh is found.
     alone = shaken(
         case.single_crack_cases[1].model_copy(

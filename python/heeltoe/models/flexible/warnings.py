@@ -1,4 +1,4 @@
-"""What a reader of a flexible run must know, and what to do where it stopped."""
+"""Warnings of a flexible run, with remedies where it stopped."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ _UNREST = {
 
 
 def stands(dam: FlexibleDam, block: Block) -> bool:
-    """Whether a dam stands before the earthquake by static equilibrium: with what anchors bear before it moves, or with
-    what they come to bear as it slides or turns."""
+    """Whether a dam stands before the earthquake by static equilibrium: with the anchor forces before it moves, or with
+    those that it reaches as it slides or turns."""
     return (instability(block) is None and dam.start.stands) or _held(block) is not None
 
 

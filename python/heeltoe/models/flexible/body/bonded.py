@@ -1,5 +1,5 @@
-"""What dams share that differ in friction, damping, or in what only their runs read: mesh, matrices, static loads with
-the crack bonded, and modes. Nearly all of the time that setting up takes goes into these."""
+"""Parts that dams share which differ only in friction, damping, or fields that their runs read: mesh, matrices, static
+loads with the crack bonded, and modes. Nearly all the time of the setup goes into these."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from heeltoe.models.flexible.body.modes import (
     intact_modes,
 )
 from heeltoe.models.flexible.body.stress_places import StressPlaces, stress_places
-from heeltoe.models.flexible.mesh.dam import dam_mesh
+from heeltoe.models.flexible.mesh.dam import dam_mesh, graded_cracks
 from heeltoe.models.flexible.mesh.kinks import kinked
 
 # The earthquake plays no part in any dam, nor does what is asked of a run or read by other models.
@@ -82,8 +82,8 @@ _KEPT: Kept[BondedDam] = Kept(4)
 _ELASTIC: Kept[Dam] = Kept(4)
 
 
-def elastic_dam(case: Case) -> Dam:
-    """Mesh and assemble the parts of a case; the last few are kept.
+def elastic_dam(case: Case, *, opens: bool = False) -> Dam:
+    """Mesh and assemble the parts of a case, for cracks that open or remain bonded; the last few are kept.
 
     Raises
     ------
@@ -91,12 +91,14 @@ def elastic_dam(case: Case) -> Dam:
         As :func:`bonded_dam`.
     """
 
+    graded = graded_cracks(case) if opens else None
+
     def build() -> Dam:
-        mesh = kinked(dam_mesh(case), case)
+        mesh = kinked(dam_mesh(case, graded), case)
         check_cost(case, building([part_of(case, part.crack.size, part.nodes.size) for part in mesh.parts]))
         return dam(case, mesh)
 
-    return _ELASTIC.get(case_key(case, NOT_OF_MODES), build)
+    return _ELASTIC.get((opens, case_key(case, NOT_OF_MODES)), build)
 
 
 @one_blas_thread()
@@ -112,8 +114,10 @@ def bonded_dam(case: Case) -> BondedDam:
 
 
 def case_key(case: Case, left_out: Any) -> tuple[str, ...]:
-    """Return a case without what is left out, with where its water has sound and what its mesh files contain."""
-    return case.model_dump_json(exclude=left_out), " ".join(sorted(case.surroundings.sound)), *fingerprints(case)
+    """Return a case without what is left out, with where its water has sound, which of its cracks are graded and what
+    its mesh files contain."""
+    sound, graded = " ".join(sorted(case.surroundings.sound)), str(graded_cracks(case))
+    return case.model_dump_json(exclude=left_out), sound, graded, *fingerprints(case)
 
 
 def fingerprints(case: Case) -> list[str]:
@@ -127,7 +131,7 @@ def fingerprints(case: Case) -> list[str]:
 
 
 def _build(case: Case) -> BondedDam:
-    bonded = elastic_dam(case)
+    bonded = elastic_dam(case, opens=True)
     stiffness = tied(bonded, "stiffness")
     solve = factor(stiffness)
     bent, forces = bonded_state(bonded, solve)

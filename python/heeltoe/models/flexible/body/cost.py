@@ -1,4 +1,4 @@
-"""What elastic parts take, estimated before they are made: time on one core, and memory.
+"""Cost of elastic parts, estimated before they are made: time on one core, and memory.
 
 A part of the dam has d degrees of freedom in its mesh, m modes and k nodes on the crack. Its modes cost d m, the search
 for the equilibrium of the dam k^3. The factors were measured on one core at some 3 GHz with meshes of 2 to 64
@@ -59,7 +59,7 @@ class Part:
 
     @property
     def cost(self) -> Cost:
-        """Of its modes."""
+        """Cost of the modes of the part."""
         numbers = self.freedoms * self.modes
         dense = 3.0 * self.kept >= self.freedoms
         seconds = _DENSE * self.freedoms**3 if dense else _SOLVED * numbers
@@ -67,7 +67,7 @@ class Part:
 
     @property
     def kept_memory(self) -> float:
-        """Of its modes once they are known [B]."""
+        """Memory of the modes once they are known [B]."""
         return NUMBER * _KEPT * self.freedoms * self.modes
 
 
@@ -78,8 +78,8 @@ _GRADED = 25.0
 def part_of(
     case: Case, nodes: int, freedoms: float | None = None, *, cracks: int = 1, slenderness: float = math.inf
 ) -> Part:
-    """Return a part with so many nodes along its one or two cracks; with the program's own mesh if nothing else is
-    said, for which `slenderness` is its height over its width."""
+    """Return a part with a number of nodes along its one or two cracks; by default with the program's own mesh, for
+    which `slenderness` is its height over its width."""
     across = round((nodes / cracks - 1) / 2.0)
     away, _ = case.flexible.halved(across)
     rows = min(ROWS, _FLAT * slenderness)

@@ -59,7 +59,7 @@ class Damping:
     between: Floats = field(default_factory=lambda: np.empty((0, 0)))
 
     def scaled(self, factor: float) -> Damping:
-        """Return so many times this damping."""
+        """Return this damping multiplied by `factor`."""
         return Damping(
             tuple(factor * c for c in self.sticking),
             tuple(factor * c for c in self.free),

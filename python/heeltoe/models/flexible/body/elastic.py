@@ -176,7 +176,7 @@ def side_by_side(dam: Dam, name: str) -> Sparse:
 
 
 def tied(dam: Dam, name: str) -> Sparse:
-    """Return the same of what is free while the cracks are bonded."""
+    """Return the named matrix on the unknowns that are free while the cracks are bonded."""
     return (dam.tie.T @ side_by_side(dam, name) @ dam.tie).tocsc()
 
 
@@ -230,7 +230,7 @@ def stresses(body: Body, displacements: Floats) -> Floats:
 
 
 def stress_rows(body: Body, nodes: Integers) -> Sparse:
-    """Return the matrix (3 k, 2 n) that takes displacements to what :func:`stresses` tells at some nodes (k,)."""
+    """Return the matrix (3 k, 2 n) that takes displacements to the stresses of :func:`stresses` at some nodes (k,)."""
     mesh, points = body.mesh, CORNERS / np.sqrt(3.0)
     inverse = np.linalg.inv(jacobians(mesh.nodes, mesh.elements, points))
     gradients = np.einsum("pnk,epkj->epnj", shape_gradients(points), inverse)
@@ -258,7 +258,7 @@ def stress_rows(body: Body, nodes: Integers) -> Sparse:
 def principal(
     stress: Floats,
 ) -> tuple[Floats, Floats, Floats]:
-    """Return the principal stresses of what :func:`stresses` returns.
+    """Return the principal stresses of the components that :func:`stresses` returns.
 
     Returns
     -------
@@ -320,7 +320,11 @@ def _ice(case: Case, mesh: BodyMesh, place: int) -> Floats:
 def _elasticity(case: Case) -> Floats:
     modulus, poisson = case.concrete.modulus, case.concrete.poisson
     if modulus is None:
-        raise InputError("modulus-missing", "concrete.modulus")
+        raise InputError(
+            "missing",
+            "concrete.modulus",
+            remedy='the flexible model needs it, for example modulus = "20 GPa" under [concrete]',
+        )
     if not _SOFTEST <= modulus <= _STIFFEST:
         raise InputError("out-of-range", "concrete.modulus", f"{modulus:g} Pa", bound="from 1 MPa to 1e7 GPa")
     if case.flexible.plane == "strain":

@@ -138,7 +138,8 @@ class Basis:
         return 1e-6 * float(shape @ (self._stiffness @ shape) / (shape @ (self._mass @ shape)))
 
     def _compliance(self, square: float) -> tuple[Integers, Floats]:
-        """Return the crack's unknowns (k,) in an order of their own, and their compliance (k, k) with so much mass.
+        """Return the crack's unknowns (k,) in an order of their own, and their compliance (k, k) with `square` times
+        the mass.
 
         Where the crack is eliminated last, its part of the factors is that of the inverse.
         """
@@ -199,7 +200,7 @@ class Basis:
 
 
 def reduce(body: Body, keep: int | None = None) -> Modes:
-    """Return the modes of a body, see :class:`Basis`: all of them where nothing is said."""
+    """Return the modes of a body, see :class:`Basis`: all of them by default."""
     return Basis(body).modes(keep)
 
 
@@ -261,7 +262,7 @@ class Intact:
 
 
 def intact_modes(dam: Dam, count: int, stiffness: Sparse, solve: Solve) -> Intact:
-    """Return so many modes, or all where there are fewer, by the factors of the tied `stiffness`."""
+    """Return the lowest `count` modes, or all where there are fewer, by the factors of the tied `stiffness`."""
     mass = tied(dam, "mass")
     squares, shapes = lowest(stiffness, mass, min(count, dam.tie.shape[1]), 0.0, solve)
     return Intact(np.sqrt(squares), side_by_side(dam, "mass") @ (dam.tie @ shapes))

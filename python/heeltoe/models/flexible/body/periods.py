@@ -10,11 +10,11 @@ from typing import Any
 from heeltoe.case.model import Case
 from heeltoe.case.warnings import drawing_text
 from heeltoe.errors.error import InputError, expect
+from heeltoe.kernel.build import build_info
 from heeltoe.models.flexible.body.bonded import bonded_dam
 from heeltoe.models.flexible.body.modes import intact_periods, part_periods
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.surroundings.amplification import Amplification, crest_amplification
-from heeltoe.result.write import build_info
 from heeltoe.units.sentences import written
 
 COUNT = 5
@@ -73,12 +73,12 @@ class DamPeriods:
 
     @property
     def above(self) -> tuple[float, ...]:
-        """Those of the part above the highest crack."""
+        """Periods of the part above the highest crack [s]."""
         return next(iter(self.parts.values()))
 
     @property
     def below(self) -> tuple[float, ...] | None:
-        """Those of the part below the lowest crack; None where that is at the base."""
+        """Periods of the part below the lowest crack [s]; None where that crack is at the base."""
         return list(self.parts.values())[-1] if self.grounded else None
 
     def part_names(self, units: str = "si") -> list[str]:

@@ -22,12 +22,12 @@ from heeltoe.models.flexible.body.bond import kernel_bond
 from heeltoe.models.flexible.body.bonded import NOT_OF_DAM, BondedDam, bonded_dam, case_key
 from heeltoe.models.flexible.body.damping import Damping, damping_of
 from heeltoe.models.flexible.body.elastic import Body, crack_forces
-from heeltoe.models.flexible.body.inside import crack_anchors, following_water, water_on_rock
 from heeltoe.models.flexible.body.modes import Modes
 from heeltoe.models.flexible.body.reservoir import WaterBody, water_body
 from heeltoe.models.flexible.body.rock import RockBody, founded, rock_body
 from heeltoe.models.flexible.body.rocking_thresholds import elastic_give
 from heeltoe.models.flexible.body.stress_places import stress_places
+from heeltoe.models.flexible.body.uplift_and_anchors import crack_anchors, following_water, water_on_rock
 from heeltoe.models.flexible.mesh.kinks import angles
 
 
@@ -158,7 +158,7 @@ class FlexibleDam(BondedDam):
 
     @property
     def give(self) -> tuple[float, float]:
-        """That of the crack asked of, see :func:`heeltoe.models.flexible.body.rocking_thresholds.elastic_give`."""
+        """Give of the governing crack, see :func:`heeltoe.models.flexible.body.rocking_thresholds.elastic_give`."""
         return self.lines[self.asked].give
 
     @property
@@ -185,7 +185,7 @@ _KEPT: Kept[FlexibleDam] = Kept(4)
 @one_blas_thread()
 def build_flexible_dam(case: Case, larger: float = 1.0, shapes_of: float | None = None) -> FlexibleDam:
     """Mesh, assemble and reduce the parts of a case; the last few are kept, by all that they depend on. Rock and water
-    with sound reach so many times `larger` as far as they need, and answer well up to so many times the frequency of
+    with sound reach `larger` times as far as they need, and answer well up to `larger` times the frequency of
     :func:`heeltoe.mechanics.beam.band_of`. The rock may take its shapes from rock of another modulus [Pa].
 
     Raises
@@ -310,7 +310,7 @@ def along_crack(above: Body, section: CutSection) -> Floats:
 
 
 def damped(dam: FlexibleDam, factor: float) -> FlexibleDam:
-    """Return the same dam with so many times its damping."""
+    """Return the same dam with its damping multiplied by `factor`."""
     damping = dam.damping.scaled(factor)
     reduced = tuple(
         replace(part, damping_sticking=sticking, damping_free=free, dampers=rows)

@@ -188,7 +188,7 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0, shapes_of: float
 
 
 def _rock_below(points: Floats, case: Case, larger: float, shapes_of: float | None, *, beyond: int = 0) -> ReducedRock:
-    """Return the rock of a case below nodes (x, z), of which so many are `beyond` the heel, and beyond the toe.
+    """Return the rock of a case below nodes (x, z), `beyond` of which lie beyond the heel, and as many beyond the toe.
 
     The same rock lies below dams that differ in all else, and below the meshes of a dam, of which coarser ones tie its
     base to fewer nodes. Rock with the shapes of another modulus answers well up to a frequency that goes with the root

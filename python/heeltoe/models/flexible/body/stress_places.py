@@ -46,7 +46,7 @@ class StressPlaces:
 
 @dataclass(frozen=True, eq=False)
 class StressRows:
-    """What the kernel takes: rows of the parts, and the steps from one state that is looked at to the next."""
+    """Rows of the parts for the kernel, and the steps between two states whose stresses are computed."""
 
     parts: tuple[Floats, ...]
     stride: int
@@ -98,7 +98,7 @@ def _from_crack(ends: Floats, points: Floats) -> Floats:
 
 
 def _corners(mesh: BodyMesh) -> Floats:
-    """Return the ends of what is held, and the corners of the faces that turn inwards, shape (k, 2)."""
+    """Return the ends of held edges, and the corners of the faces that turn inwards, shape (k, 2)."""
     result = []
     if mesh.fixed.size:
         base = mesh.nodes[mesh.fixed]

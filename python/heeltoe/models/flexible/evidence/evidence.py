@@ -1,4 +1,4 @@
-"""What a result is worth: by how much time step, mesh and one per cent of the shaking move it.
+"""Uncertainty of a result: how far time step, mesh and one per cent of the shaking move it.
 
 A result that is converged in its step may depend on the mesh, and one that is converged in both on the last per cent of
 the shaking. Where friction flutters or a dam strikes and bounces, a single run is one of many equals, which say little
@@ -38,7 +38,7 @@ def may_have_no_limit(case: Case, dam: FlexibleDam) -> bool:
 
 
 def allowed(slip: float) -> float:
-    """Return how uncertain a slip may be that is said to be converged [m]."""
+    """Return the largest uncertainty of a slip that counts as converged [m]."""
     return max(LIMIT * abs(slip), LEAST_M)
 
 
@@ -52,8 +52,8 @@ def worth_of(
     *,
     least: float = 0.0,
 ) -> HeadlineWorth:
-    """Return what a number is worth, by what moves it: uncertain by all together, and never less than what two meshes
-    or two steps that agree by chance may hide, nor than `least` in the unit of the number."""
+    """Return the uncertainty of a number: its changes taken together, and never less than two meshes or two steps that
+    agree by chance may hide, nor than `least` in the unit of the number."""
     moved = sum(part or 0.0 for part in (step, mesh, shaking, surroundings))
     return HeadlineWorth(
         value=value,

@@ -94,7 +94,7 @@ def _equations(dam: FlexibleDam) -> tuple[Floats, Floats, list[tuple[Floats, Flo
 
 
 def _growth(square: Floats, damping: Floats, held: Floats, pushed: Floats, fastest: float) -> tuple[float, float]:
-    """Return growth and period of what is `held` (c, m) at rest by forces that act along `pushed` (c, m), of
+    """Return growth and period of coordinates `held` (c, m) at rest by forces that act along `pushed` (c, m), for
     vibrations up to a circular frequency."""
     free, left = _null(held), _null(pushed).T
     mass, drag, spring = left @ free, left @ damping @ free, left @ (square[:, None] * free)
@@ -110,8 +110,8 @@ def _growth(square: Floats, damping: Floats, held: Floats, pushed: Floats, faste
 
 def _reduced(part: ReducedBody) -> tuple[Floats, Floats, Floats, Floats, Floats]:
     """Return squared frequencies, damping (m, m), dashpots, rows of the water and shapes (m, 2 k) of a part in fewer
-    coordinates: its lowest modes and the static answers to forces on the crack. With rock, whose lowest modes are those
-    of a box that is much larger than the dam, it keeps its own."""
+    coordinates: its lowest modes and the static answers to forces on the crack. A part with rock, whose lowest modes
+    are those of a box that is much larger than the dam, remains unreduced."""
     order = np.argsort(part.omega_squared)
     low, high = order[:_MODES], order[_MODES:]
     if part.boundary.size or high.size <= part.shapes.shape[1]:
@@ -176,17 +176,17 @@ _FEW = 3
 def self_excitation(
     shaken: ShakenDam, run: DamRun, leads: int = 0, ending: Ending | None = None
 ) -> SelfExcitation | None:
-    """Return how a vibration of the dam grows as it slides; None where it never slides. Of several cracks that slide,
-    the fastest growth counts of all of them sliding at once and of one by itself while the others stick; of many, of
-    the one that leads by itself.
+    """Return the growth of a vibration of the dam as it slides; None where it never slides. With several cracks that
+    slide, the fastest growth counts among all of them sliding at once and each by itself while the others stick; with
+    more, only the governing one by itself.
 
     Parameters
     ----------
     shaken
         The dam with its earthquake.
     run
-        The run that is reported. Where the growth matters, the run is repeated at its step
-        with twice the damping.
+        The run that is reported. Where the growth matters, it is repeated with twice the damping, at the step of
+        :meth:`~heeltoe.models.flexible.run.dam_runner.ShakenDam.step_beside`.
     leads
         Place of the crack of whose slip is told.
     ending
@@ -212,7 +212,8 @@ def self_excitation(
     if rate * max(times) > _MATTERS and run.outcome == "ok":
         raw = run.summaries[leads]
         other = replace(shaken, dam=damped(shaken.dam, 2.0))
-        damped_slip = other.run(raw.end_time / raw.steps, ending=ending).summaries[leads].slip
+        step = other.step_beside(raw.end_time / raw.steps)
+        damped_slip = other.run(step, ending=ending).summaries[leads].slip
     return SelfExcitation(
         growth_1_s=rate,
         period_s=period if math.isfinite(period) else None,

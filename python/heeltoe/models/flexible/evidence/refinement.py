@@ -114,13 +114,24 @@ def build_ahead(shaken: ShakenDam, frame_step: float) -> None:
 
 def _affordable(trials: Trials, level: Level, *, full: bool, means: bool) -> bool:
     """Return whether the runs that evidence at a level needs are within what a result may cost."""
-    # The run that is told and one at twice or half its step are the least; they may be too much before a dam is built.
-    steps = (Level(level.mesh, level.halvings + change) for change in (-1, 1))
-    least = min(trials.cost([(level, _AS_IT_IS), (step, _AS_IT_IS)]) for step in steps)
+    # These are the least, whatever the dam is like: they may be too much before it is built.
+    least = min(trials.cost(_fewest(trials, level, change, full=full, means=means)) for change in (-1, 1))
     if trials.work + least > BUDGET:
         return False
     work = trials.work + trials.cost(_Stand(trials, level, full=full).wanted(means=means))
     return work <= BUDGET and trials.expected(level, work).within(trials.dam_of(0).case)
+
+
+def _fewest(trials: Trials, level: Level, change: int, *, full: bool, means: bool) -> _Wanted:
+    """Return the least runs of evidence at a level, where the other step is that of the run, halved `change` times."""
+    halvings = level.halvings + change
+    wanted: _Wanted = [(level, _AS_IT_IS), (Level(level.mesh, halvings), _AS_IT_IS)]
+    if full:
+        scales, longer = SCALES if means else _AS_IT_IS, min(level.halvings, halvings)
+        wanted.append((Level(level.mesh, longer), scales))
+        if wave_bodies(trials.dam_of(0).case):
+            wanted.append((Level(level.mesh - 1, longer, larger=True), scales))
+    return wanted
 
 
 def _worst(evidences: Sequence[EvidenceNumbers]) -> EvidenceNumbers:
@@ -185,7 +196,7 @@ def _scatter(slips: Floats, step: float) -> bool:
 
 
 class _Stand:
-    """What stands beside the run at one level: another step, another mesh, other shaking."""
+    """Runs compared with the run at one level: another step, another mesh, other shaking."""
 
     def __init__(self, trials: Trials, level: Level, *, full: bool) -> None:
         self._trials, self._level, self._full = trials, level, full
@@ -254,7 +265,7 @@ class _Stand:
 
     @property
     def lowers_strength(self) -> bool:
-        """Whether the elements along a joint are so long that its strength is lowered, and nothing bounds by what."""
+        """Whether the elements along a joint are so long that its strength is lowered, and no number can be bounded."""
         return any(self._missing(crack) >= 1.0 for crack in range(self._trials.cracks))
 
     def _missing(self, crack: int) -> float:

@@ -34,8 +34,8 @@ _WORK_OF_MESH = 4.0
 
 @dataclass(frozen=True, order=True)
 class Level:
-    """How fine a run is: so many times twice the elements along the crack and half the step; -1 is half and twice; and
-    whether rock and water reach farther."""
+    """Fineness of a run: twice the elements along the crack and half the step, as many times as the level counts; -1 is
+    half the elements and twice the step; and whether rock and water reach farther."""
 
     mesh: int
     halvings: int
@@ -43,7 +43,7 @@ class Level:
 
     @property
     def work(self) -> float:
-        """What a run costs, of one at level 0."""
+        """Cost of a run relative to one at level 0."""
         return float(_WORK_OF_MESH**self.mesh * 2.0**self.halvings)
 
 
@@ -80,7 +80,7 @@ class Trials:
 
     @property
     def work(self) -> float:
-        """What they have cost together, in runs at level 0."""
+        """Cost of all runs together, in runs at level 0."""
         return sum(level.work for level, _ in self._numbers)
 
     def cost(self, wanted: Iterable[tuple[Level, Sequence[float]]]) -> float:
@@ -89,7 +89,7 @@ class Trials:
         return sum(level.work for level, _ in runs - self._numbers.keys())
 
     def expected(self, level: Level, work: float) -> Cost:
-        """Return what so many runs at level 0 are estimated to take with one at another level among them."""
+        """Return the estimated cost of `work` runs at level 0, with one at another level among them."""
         first = self._shaken[0, False]
         case, end = with_mesh(first.case, level.mesh), first.shaking.end
         parts = building(parts_of(case), surroundings_of(case))
@@ -107,7 +107,7 @@ class Trials:
         return self._shaken[mesh, larger]
 
     def has_mesh(self, mesh: int, least: int) -> bool:
-        """Whether the dam has another mesh with at least so many elements along its crack."""
+        """Whether the dam has another mesh with at least `least` elements along its crack."""
         if with_mesh(self._shaken[0, False].case, mesh).flexible.elements_across < least:
             return False
         try:
@@ -126,7 +126,7 @@ class Trials:
         return float(self.step / 2.0**level.halvings)
 
     def whole(self, level: Level) -> DamRun:
-        """Return a run with its frames, the shaking as it is."""
+        """Return a run with its frames, for the unscaled shaking."""
         if level not in self._whole:
             response = self.dam_of(level.mesh).run(self.step_of(level), self._frame_step, self._ending)
             self._keep(level, response)
@@ -137,8 +137,8 @@ class Trials:
         self._numbers[level, 1.0] = tuple(summary.by_name() for summary in run.summaries)
 
     def prepare(self, whole: Sequence[Level], wanted: Iterable[tuple[Level, Sequence[float]]]) -> None:
-        """Make runs with frames, the first of which is told, and others side by side: the kernel lets go of the
-        interpreter."""
+        """Make runs with frames, the first of which shows its progress, and others side by side: the kernel lets go of
+        the interpreter."""
 
         def make(one: tuple[Level, Sequence[float]]) -> None:
             level, scales = one
@@ -192,6 +192,6 @@ class Trials:
 
 
 def _outcome(cracks: Sequence[Mapping[str, float]], widths: Sequence[float]) -> Outcome:
-    """Return how a run ended, by what it says of each of its cracks, which are so wide [m]."""
+    """Return the outcome of a run from the numbers of each of its cracks, of given widths [m]."""
     rotation = max(float(largest_rotation(row)) for row in cracks)
     return decide(DAM_OUTCOMES[int(cracks[0]["outcome"])], rotation=rotation, off=bool(leaves(cracks, widths)))

@@ -1,1 +1,1 @@
-"""What a run of the elastic dam returns: numbers, histories, stresses."""
+"""Results of a run of the elastic dam: numbers, histories, stresses."""

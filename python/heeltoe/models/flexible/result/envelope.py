@@ -87,7 +87,8 @@ def envelope_of(dam: FlexibleDam, run: DamRun) -> tuple[PartEnvelope, ...]:
 
 
 def largest_tension(parts: Sequence[PartEnvelope]) -> Peak | None:
-    """Return the largest tension where it has a bound; None where no point is far enough from where it has none."""
+    """Return the largest tension among points where it is bounded; None where every point is too close to a singular
+    one."""
     return _largest([np.where(item.bounded, item.tension, -np.inf) for item in parts], parts, "tension")
 
 

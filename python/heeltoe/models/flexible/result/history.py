@@ -1,4 +1,4 @@
-"""What the crack and both elastic parts did, frame by frame: the raw material of figures, VTK files and animation."""
+"""Frames of the crack and both elastic parts: the raw material of figures, VTK files and animation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a run of the flexible model returns beside what every run returns."""
+"""Response of the flexible model: the fields that it adds to every response."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _LETS_GO_S = 0.02
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ElasticCrackResponse(CrackResponse):
-    """What one crack of an elastic dam did, attributes as in :class:`~heeltoe.result.response.CrackResponse`.
+    """Response of one crack of an elastic dam, attributes as in :class:`~heeltoe.result.response.CrackResponse`.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class FlexibleResponse(Response):
 
     @property
     def crack(self) -> CrackHistory:
-        """What the crack that leads and the parts did, frame by frame."""
+        """Frames of the governing crack and the parts."""
         return self.cracks[self.asked].frames
 
     def lets_go(self) -> bool:

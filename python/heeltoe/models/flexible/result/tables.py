@@ -1,4 +1,4 @@
-"""What the kernel found of an elastic dam, by the names of the contract."""
+"""Tables of an elastic dam: the kernel's results by the names of the contract."""
 
 from __future__ import annotations
 
@@ -236,8 +236,8 @@ def crest_of(shaken: ShakenDam, run: DamRun) -> CrestSeries:
 
 
 def _mean_around(moments: Floats, step: float, time: Floats, values: Floats) -> Floats:
-    """Return the mean of what is straight between knots over a step around each of some even moments: where a record
-    jumps, its value at a moment is that of either side by the last digit of a time."""
+    """Return the mean of a function that is straight between knots over a step around each of some even moments: where
+    a record jumps, its value at a moment is that of either side by the last digit of a time."""
     sums = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(time) * (values[1:] + values[:-1]))])
     ends = np.append(moments - 0.5 * step, moments[-1] + 0.5 * step).clip(time[0], time[-1])
     knot = np.searchsorted(time, ends, side="right").clip(1, time.size - 1) - 1

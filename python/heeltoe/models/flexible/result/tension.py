@@ -27,8 +27,8 @@ _PARTS = ("above", "below")
 
 
 def tension_of(answer: Answer, parts: Sequence[PartEnvelope]) -> Tension | None:
-    """Return what the contract says of the largest tension of a run, with what another mesh makes of it; None where no
-    point is far enough from where the stress has no bound."""
+    """Return the largest tension of a run for the result, and its value on other meshes; None where every point is too
+    close to a singular one."""
     dam = answer.shaken.dam
     tension, compression = largest_tension(parts), largest_compression(parts)
     if tension is None or compression is None:

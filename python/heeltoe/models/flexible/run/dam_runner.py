@@ -14,11 +14,11 @@ from heeltoe.errors.error import InputError
 from heeltoe.kernel.dam import CrackedDam, DamRun, Ending
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.flexible.body.cost import wave_bodies
-from heeltoe.models.flexible.body.inside import rising_water
 from heeltoe.models.flexible.body.modes import part_periods
 from heeltoe.models.flexible.body.reduced import FlexibleDam
 from heeltoe.models.flexible.body.step import longest_step
 from heeltoe.models.flexible.body.stress_places import StressRows
+from heeltoe.models.flexible.body.uplift_and_anchors import rising_water
 from heeltoe.models.runner import STEP
 from heeltoe.motion.moments import step_ends, step_means
 from heeltoe.result.contract import JOINT_METER_M
@@ -29,9 +29,9 @@ _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
 #: Where waves surround the dam the step goes with the dam, and is this part of that vibration, at most the longest step
 #: times the first of them over it: a small dam swings as fast as its waves, and similar dams have similar answers.
-#: Where waves leave through damped rock, several cracks take the second and one crack the last; bonds, laws, penalties,
-#: and all where a vibration feeds itself more, keep the first.
-_STEPS_AMONG_WAVES = (400.0, 200.0, 100.0)
+#: Where waves leave through damped rock, the second is enough; bonds, laws, penalties, and all where a vibration feeds
+#: itself more, keep the first.
+_STEPS_AMONG_WAVES = (400.0, 100.0)
 #: What acts in the crack may ask for a shorter one, down to this.
 _SHORTEST_OF_ALL = 1e-5
 #: So closely the program's own step follows it, as from a sixteenth on the contact problem is next to singular; and so
@@ -42,33 +42,37 @@ _TOO_FEW_STEPS = 16.0
 _STRESS_STEP = 2e-3
 # A silence is a multiple of its parts where so little of one is left.
 _FITS = 1e-9
+#: So many times the step a run may take beside one with evidence, of one plain crack at the base: that moves its slip
+#: by less than 1 % (docs/friction.md). A part above the base strikes, which asks for the usual step.
+_OF_BAND = 4.0
 
 
 def usual_step(case: Case, period: float) -> float:
     """Return a step [s] that follows a part above the crack of a case, of this longest period [s]."""
     if wave_bodies(case):
-        steps = _STEPS_AMONG_WAVES[_smoothness(case)]
+        steps = _STEPS_AMONG_WAVES[_is_smooth(case)]
         longest = _LONGEST_STEP * _STEPS_AMONG_WAVES[0] / steps
         return float(np.clip(period / steps, _SHORTEST_OF_ALL, longest))
     shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
     return float(np.clip(period / _STEPS_PER_PERIOD, shortest, _LONGEST_STEP))
 
 
-def _smoothness(case: Case) -> int:
-    """Return which of :data:`_STEPS_AMONG_WAVES` follows what happens in the cracks of a case."""
+def _is_smooth(case: Case) -> bool:
+    """Return whether waves leave through damped rock, and nothing in the cracks of a case asks for shorter steps."""
     rock = case.foundation
     if rock is None or not rock.radiation or rock.massless or not rock.damping:
-        return 0
+        return False
+    return _is_plain(case) and all(crack.law is None for crack in (case.crack, *case.further_cracks))
+
+
+def _is_plain(case: Case) -> bool:
+    """Whether nothing but friction acts in the cracks of a case."""
     plain = case.flexible.contact == "coulomb" and case.uplift.during_shaking == "constant"
-    if not plain or any(
-        crack.bond is not None or crack.law is not None for crack in (case.crack, *case.further_cracks)
-    ):
-        return 0
-    return 1 if case.further_cracks else 2
+    return plain and all(crack.bond is None for crack in (case.crack, *case.further_cracks))
 
 
 class Pauses(NamedTuple):
-    """Silence after a motion: so many `steps` until it is asked whether the dam is at rest, `times` over."""
+    """Silence after a motion: `steps` between two checks whether the dam is at rest, `times` over."""
 
     steps: int
     times: int
@@ -104,6 +108,15 @@ class ShakenDam:
             )
         return stated
 
+    def step_of_band(self) -> float:
+        """Return the step of a run with another friction beside one with evidence [s]: a longer one where a plain crack
+        at the base on a rigid plane allows it."""
+        case, step = self.case, self.first_step()
+        several = case.crack.elevation > 0.0 or bool(case.further_cracks)
+        if case.flexible.time_step is not None or several or wave_bodies(case) or not _is_plain(case):
+            return self.step_beside(step)
+        return _OF_BAND * step if self.may_step(_OF_BAND * step) else step
+
     def _period(self) -> float:
         """Return the longest period of the part above a crack that vibrates fastest [s]."""
         return min(float(part_periods(modes, 1)[0]) for modes in self.dam.modes[: self.dam.free])
@@ -113,6 +126,12 @@ class ShakenDam:
         period = self._period()
         followed, _ = longest_step(self.dam, self.case.flexible.theta, step)
         return step <= min(followed, period / _TOO_FEW_STEPS, self.shaking.end / 2.0)
+
+    def step_beside(self, step: float) -> float:
+        """Return the step [s] of a run that is compared with one at `step`, and has no uncertainty of its own: twice of
+        it where that moves slips little (docs/flexible.md)."""
+        smooth = self.case.flexible.time_step is None and _is_smooth(self.case)
+        return 2.0 * step if smooth and self.may_step(2.0 * step) else step
 
     def run(
         self,
@@ -124,9 +143,9 @@ class ShakenDam:
         stresses: bool = True,
         pauses: Pauses | None = None,
     ) -> DamRun:
-        """Run at about this step, made to fit the duration [s], with so many times the ground motion; with frames about
-        every `frame_step`, and with them the extremes of the `stresses`; with `pauses`, on through silence until the
-        dam is at rest."""
+        """Run at about this step, made to fit the duration [s], with the ground motion multiplied by `factor`; with
+        frames about every `frame_step`, and with them the extremes of the `stresses`; with `pauses`, on through silence
+        until the dam is at rest."""
         count, step, ground = self._ground(step)
         if pauses is not None:
             ground = np.vstack([ground, np.zeros((pauses.times * pauses.steps, 2))])
@@ -193,9 +212,9 @@ class ShakenDam:
         return dam.kernel.under(rising_water(self.case, 0, dam.faces(0), dam.rock, drainage))
 
     def _ground(self, step: float) -> tuple[int, float, Floats]:
-        """Return how many steps of about this length make the whole run, their length [s], and what the kernel needs to
-        know of the ground in them. Silence after a motion leaves the steps before it as they are: it lasts whole steps,
-        each of its parts of :data:`~heeltoe.models.runner.STEP` as many."""
+        """Return the number of steps of about this length in the whole run, their length [s], and the kernel's input
+        for the ground in them. Silence after a motion leaves the steps before it unchanged: it lasts whole steps, each
+        of its parts of :data:`~heeltoe.models.runner.STEP` as many."""
         shaking, before = self.shaking, self.shaking.before
         if self.case.flexible.contact == "idce":
             count, step = _steps(shaking, step)

@@ -1,4 +1,4 @@
-"""What runs of the flexible model take, estimated before they begin.
+"""Cost of runs of the flexible model, estimated before they begin.
 
 A step costs 2 k m for each part of k nodes on the crack and m modes; measured as the rest of
 :mod:`heeltoe.models.flexible.body.cost`."""
@@ -131,7 +131,7 @@ def _step_of(case: Case) -> float:
 
 
 def with_mesh(case: Case, mesh: int) -> Case:
-    """Return the case with so many times twice the elements along the crack; -1 for half of them, rounded up."""
+    """Return the case with its elements along the crack doubled `mesh` times; -1 for half of them, rounded up."""
 
     def changed(across: int) -> int:
         return math.ceil(across * 2.0**mesh)

@@ -1,4 +1,4 @@
-"""What a crack whose friction goes by a law has been through, contact by contact, by the names of the contract."""
+"""History of slip of a crack with a friction law, contact by contact, by the names of the contract."""
 
 from __future__ import annotations
 
@@ -70,7 +70,8 @@ class Worn:
         return borne
 
     def apparent(self, path: Floats, bonded: Floats) -> tuple[float, list[float]]:
-        """Return what the crack bears over what presses it, and the least and the most of a contact that is pressed."""
+        """Return the ratio of shear strength to normal force of the crack, and the least and largest of a pressed
+        contact."""
         borne, pressed = self.borne(path, bonded), self.pressed
         friction = borne[pressed] / self.stress[pressed]
         whole = float(self.length @ borne) / max(float(self.length @ self.stress), 1.0)
@@ -94,8 +95,8 @@ def worn_of(alone: Case, place: int, dam: FlexibleDam, run: DamRun) -> Worn | No
 
 
 def law_result(worn: Worn, run: DamRun, place: int) -> ElasticFrictionLaw:
-    """Return what a law has come to: how far the crack has slipped, and its friction under the static loads before and
-    after that, on the whole and of its contacts."""
+    """Return the state of a friction law at the end: slip distance of the crack, and its friction under the static
+    loads before and after it, as a whole and by contact."""
     path = worn.path - worn.path_before
     before, range_before = worn.apparent(worn.path_before, worn.bonded_before)
     after, range_after = worn.apparent(worn.path, worn.bonded)

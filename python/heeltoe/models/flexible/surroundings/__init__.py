@@ -1,1 +1,1 @@
-"""What lies around the elastic dam and answers its motion: water with sound, rock with waves."""
+"""Surroundings of the elastic dam that answer its motion: water with sound, rock with waves."""

@@ -1,5 +1,5 @@
 """Which way rigid rock and water without sound put a slip wrong: by a study of made dams, each run without and with
-both (docs/rigid-rock.md)."""
+both (docs/validation/rigid-rock.md)."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def left_out(case: Case, slip: float, peak: float) -> Iterator[Notice]:
 
 
 def _unlike(case: Case, height: float, depth: float, peak: float) -> Sentence | None:
-    """Return by what a dam differs from all that were studied; None of one like them."""
+    """Return the quantities by which a dam differs from all that were studied; None for one like them."""
     if case.further_cracks or case.crack.elevation > 0.0:
         return Sentence.of("they have one crack, at the base")
     if not _HEIGHT_M[0] <= height <= _HEIGHT_M[1]:

@@ -46,7 +46,7 @@ _STILL = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class SectionForces:
-    """Forces on what is above the crack of a dam that is bonded, frequency by frequency.
+    """Forces on the part above the crack of a bonded dam, frequency by frequency.
 
     Attributes
     ----------

@@ -51,8 +51,8 @@ class LinearBody:
         return self.moments(rate, forces, 0)[0]
 
     def moments(self, rate: complex, forces: Floats, count: int) -> list[Complexes]:
-        """Return the response at a rate and as many further `count` terms of its series in powers of what the rate is
-        away from that: they cost no further factors (Bai and Su, SIAM Journal on Matrix Analysis 2005)."""
+        """Return the response at a rate and `count` further terms of its series in powers of the distance from that
+        rate: they cost no further factors (Bai and Su, SIAM Journal on Matrix Analysis 2005)."""
         options = {"SymmetricMode": True}
         factors = splu(self.operator(rate), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options=options)
         terms = [factors.solve(forces.astype(complex))]
@@ -178,8 +178,8 @@ def spanning_shapes(norm: Sparse, first: Floats, columns: Floats) -> Floats:
 
 
 def main_directions(columns: Floats, first: int, most: int) -> Floats:
-    """Return an order of orthonormal shapes, (m, n): the first ones stay, then come at most so many main directions of
-    what columns (m, k) are in the others."""
+    """Return an order of orthonormal shapes, (m, n): the first ones stay, then come at most `most` main directions of
+    columns (m, k) in the others."""
     directions, _, _ = np.linalg.svd(columns[first:], full_matrices=False)
     order: Floats = block_diag(np.eye(first), directions[:, :most])
     return order
@@ -266,7 +266,7 @@ def enough_shapes(
 
 
 def sizes(answers: Complexes) -> Floats:
-    """Return what answers (k, k) are measured by: the root of what each input sees of its own."""
+    """Return the scales of answers (k, k): the root of the answer of each input to itself."""
     roots: Floats = np.sqrt(np.abs(np.diag(answers)))
     return roots
 

@@ -148,7 +148,7 @@ class IntactDam:
 
 @dataclass(frozen=True, eq=False)
 class WaterOfDam:
-    """The water on both faces in the m unknowns of a dam: what moves with it as a mass, and w modes of what has waves.
+    """Water on both faces in the m unknowns of a dam: the mass that moves with it, and w modes of the water with waves.
 
     Attributes
     ----------
@@ -210,7 +210,7 @@ class WaterOfDam:
         return forces
 
     def rates(self, omega: float, driven: Complexes) -> Complexes:
-        """Return the velocities of the waves (w, ...) for what drives them."""
+        """Return the velocities of the waves (w, ...) for the rates that drive them."""
         operator = np.diag(self.omega_squared - omega**2 + 0j) + 1j * omega * self.damping
         return 1j * omega * np.linalg.solve(operator, driven)
 

@@ -1,4 +1,4 @@
-"""The rock below the dam, with waves: a half-plane that nobody shakes, in few unknowns.
+"""The rock below the dam, with waves: a half-plane at rest (free-field formulation), in few unknowns.
 
 Displacements are relative to the free field, the motion that the level surface of the rock would have without dam and
 water. For waves from straight below that is the record, the same at all places, so the rock has mass, stiffness and
@@ -66,9 +66,10 @@ _SAMPLED, _BY_WAVES, _MOMENTS, _LOWEST, _GROWTH = 4, 0.65, 3, 0.03, 0.5
 # Far below all modes of a dam an earthquake still moves it, and rock that waves leave grows softer and softer: one
 # more frequency over the highest.
 _SLOW = 0.005
-# Frequencies for each of these at which shapes are chosen, with the growth where they are chosen and checked; shapes at
-# most beside the static ones.
-_CHOSEN, _LITTLE_GROWTH, _MOST = 6, 0.03, 200
+# Frequencies for each of these at which shapes are chosen, with the growth where they are chosen and checked; those
+# between the lowest ones over the highest, where a large box has modes of its own; shapes at most beside the static
+# ones.
+_CHOSEN, _LITTLE_GROWTH, _BETWEEN, _MOST = 6, 0.03, (0.009, 0.016), 200
 # Of nodes that are as far on the other side but for such a part of half a base the rock is the same on both sides.
 _SAME = 1e-7
 # Singular values below this part of the largest are what both sides differ by in rounding.
@@ -192,9 +193,9 @@ class ReducedRock:
         return self.shapes @ np.linalg.solve(operator, self.shapes.T @ forces + 0j)
 
     def stiffer(self, factor: float) -> ReducedRock:
-        """Return the same rock with so many times its modulus: its waves are faster by the root of that, what leaves
-        grows by it, what the material takes with the stiffness, and the shapes remain. So does the error, up to a
-        frequency that is higher by it.
+        """Return the same rock with its modulus multiplied by `factor`: its waves are faster by the root of that, the
+        energy that leaves grows by it, so does the loss of the material with the stiffness, and the shapes remain. The
+        error remains too, up to a frequency that is higher by that root.
         """
         root = math.sqrt(factor)
         own, leaving = factor * self.damping_material, root * self.damping_radiation
@@ -372,18 +373,18 @@ def _products(basis: Any, fields: tuple[Floats, Floats], weights: Floats) -> Spa
 
 
 def halvings(edges: int) -> int:
-    """Return how often so many edges along a base are halved until rock of the coarsest elements has one for each."""
+    """Return how often the edges along a base are halved until rock of the coarsest elements has one for each."""
     return max(0, math.ceil(math.log2(_ACROSS / edges)))
 
 
 def base_elements(edges: int, width: float, material: RockMaterial, highest: float) -> int:
-    """Return how many elements there are along a base of so many edges and such a width [m], before the outer ones are
-    halved: each edge is cut into as many as the shortest wave needs."""
+    """Return the number of elements along a base with given edges and width [m], before the outer ones are halved: each
+    edge is cut into as many as the shortest wave needs."""
     return edges * math.ceil(max(_ACROSS, _PER_WAVE * width * highest / material.shear_speed) / edges)
 
 
 def _refined(x: Floats, count: int) -> Floats:
-    """Return corners of so many elements along the base, of which the outer ones are halved."""
+    """Return corners of `count` elements along the base, of which the outer ones are halved."""
     corners = x[::2]
     pieces = count // (corners.size - 1)
     parts = [np.linspace(low, high, pieces + 1)[1:] for low, high in pairwise(corners)]
@@ -394,14 +395,14 @@ def _refined(x: Floats, count: int) -> Floats:
 
 
 def _halved(count: int) -> Floats:
-    """Return where the first of so many elements along the base is cut, as parts of it."""
+    """Return where the first of `count` elements along the base is cut, as parts of it."""
     parts: Floats = 0.5 ** np.arange(max(0, round(np.log2(_FINEST / count))), 0, -1)
     return parts
 
 
 def _rings(across: Floats, count: int, half: float, extent: float) -> tuple[Floats, Integers]:
-    """Return corners and elements of a block below the base and of rings around it, about the middle of the base,
-    which had so many elements before the outer ones were halved."""
+    """Return corners and elements of a block below the base and of rings around it, about the middle of the base, which
+    had `count` elements before the outer ones were halved."""
     columns, near = across.size, _halved(count)
     even = max(4, count // 2)
     depths = -half / even * np.concatenate([[0.0], near, np.arange(1, even + 1)])
@@ -507,13 +508,15 @@ def _rates(material: RockMaterial, half: float, highest: float) -> Rates:
         return Rates([], [], [], 0)
     limit = 2.0 * np.pi * highest
 
-    def rates(growth: float, highest: float, count: int) -> list[complex]:
-        return [complex(growth, 1.0) * limit * ratio for ratio in (_SLOW, *np.geomspace(_LOWEST, highest, count))]
+    def rates(growth: float, highest: float, count: int, between: tuple[float, ...] = ()) -> list[complex]:
+        ratios = (_SLOW, *between, *np.geomspace(_LOWEST, highest, count))
+        return [complex(growth, 1.0) * limit * ratio for ratio in ratios]
 
     count = max(_SAMPLED, 2 + math.ceil(_BY_WAVES * limit * half / material.shear_speed))
     # Between those that are sampled.
     checked = rates(_LITTLE_GROWTH, 1.0, 2 * count - 1)[2::4]
-    return Rates(rates(_GROWTH, 1.0, count), rates(_LITTLE_GROWTH, 1.05, _CHOSEN * count), checked, _MOMENTS)
+    chosen = rates(_LITTLE_GROWTH, 1.05, _CHOSEN * count, _BETWEEN)
+    return Rates(rates(_GROWTH, 1.0, count), chosen, checked, _MOMENTS)
 
 
 def _halves(full: FullRock, half: float) -> list[Sparse]:

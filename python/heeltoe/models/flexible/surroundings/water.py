@@ -103,7 +103,7 @@ class ReducedWater:
     error: float
 
     def amplitudes(self, omega: float, velocities: Complexes) -> Complexes:
-        """Return x' for what the water is driven with, ``L v + G v`` (m, ...), both like exp(i omega t)."""
+        """Return x' for the drive of the water, ``L v + G v`` (m, ...), both like exp(i omega t)."""
         operator = np.diag(self.omega_squared - omega**2 + 0j) + 1j * omega * self.damping
         return 1j * omega * np.linalg.solve(operator, velocities)
 

@@ -1,4 +1,4 @@
-"""What acts in a crack beside contact, for the kernel: water whose pressure changes, and anchors that stretch."""
+"""Forces in a crack besides contact, for the kernel: water whose pressure changes, and anchors that stretch."""
 
 from __future__ import annotations
 
