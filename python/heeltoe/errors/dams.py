@@ -4,26 +4,16 @@ from __future__ import annotations
 
 # As in heeltoe.errors.error: code -> (what is wrong, what to do).
 OF_DAMS: dict[str, tuple[str, str]] = {
-    "anchor-outside": ("{value} is beyond the toe: the crack is {width} wide", "give a distance from 0 m to {width}"),
-    "anchor-form": ("is required but missing", "give distance, or head_x, head_elevation, foot_x and foot_elevation"),
     "anchor-flat": (
         "the line from its head to its foot is {value} off the normal of the crack",
         "let it cross the crack more steeply, up to {most}",
     ),
-    "section-incomplete": ("is required but missing", "give {fields}; or slopes, a polygon or a file"),
-    "face-above-crest": ("{value} is not below the crest at {height}", "give breaks below it"),
     "section-file-unread": ("{value} has not been read", "read the case by heeltoe.read_case"),
-    "section-file-kind": ("is neither a drawing in DXF nor a table of numbers", "give one of them"),
-    "section-unit-missing": (
-        "is required, since the file does not state the unit of its numbers",
-        'add for example unit = "m" under [section]',
-    ),
     "section-row": (
         "line {number} is not a corner: {value}",
         "give x and z in each line, and no more than its head names",
     ),
     "section-head": ("the head {value} does not say which columns are x and z", 'call them "x [m]" and "z [m]"'),
-    "drawing-unreadable": ("cannot be read as DXF ({reason})", "save it anew as DXF, best of the release 2010"),
     "drawing-empty": (
         "has no closed outline{why}",
         "close it: a closed polyline, or lines and curves that join at their ends",
@@ -41,18 +31,14 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "move it to a layer of its own, whole, and name that",
     ),
     "drawing-layer": ("{value} has no closed outline{why}; layers that have: {layers}", "name one of them"),
-    "neck-above-crest": ("{value} is above the crest at {height}", "give a height up to {height}"),
     "drawing-height": (
         "by the unit of the drawing, {unit}, the dam is {value} high",
         'say the unit of its numbers, for example unit = "m" under [section]',
     ),
-    "section-size": ("{value} is not the size of a dam", "give a section of 1 mm to 10 km"),
-    "polygon-corners": ("has {value} different corners", "give at least 3"),
     "polygon-crossing": (
         "the outline {value} crosses or touches itself",
         "give the corners in order around the section",
     ),
-    "crack-outside": ("{value} is outside the section", "give an elevation from 0 m to below {height}"),
     "crack-pieces": (
         "the line at {value} meets the section in several pieces",
         "give an elevation with one piece of concrete",
@@ -74,7 +60,6 @@ OF_DAMS: dict[str, tuple[str, str]] = {
     "cracks-order": ("{value} is below the crack at {other}", "list the cracks from the crest down"),
     "combination": ("{value} cannot be combined with {other}: {reason}", "{remedy}"),
     "unsupported": ("{model} does not support {value}: {reason}", "{remedy}"),
-    "kinks-outside": ("{value} is beyond the toe: the crack is {width} wide", "give distances below {width}"),
     "kinks-steep": (
         "the crack runs at {value} to its mean line or to the horizontal behind {start}",
         "let it run at up to {most}; a step needs some length",
@@ -88,7 +73,6 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "give corners that are in its concrete",
     ),
     "kinks-mesh": ("elements cannot follow {value} kinks", "give more elements_across, fewer kinks or flatter ones"),
-    "friction-missing": ("is required but missing", "give friction, or both static_friction and kinetic_friction"),
     "law-falls": (
         "the strength falls with the normal stress before {value}",
         "give points between which the coefficient times the stress grows",
@@ -97,11 +81,6 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "{value} is less than friction times tensile_strength, {least}: the joint would slip before it bears that",
         "give a cohesion of at least {least}, or a lower bond.tensile_strength",
     ),
-    "joints-many": (
-        "lifts of {value} make {count} joints, more than {most}",
-        "give higher lifts, or joints.lowest and joints.highest around those that matter",
-    ),
-    "joints-none": ("{value} is above the highest joint, {highest}", "lower it, or raise joints.highest"),
     "rough-locks": (
         "friction and flanks come to {value} together: a crack that steep locks",
         "lower it, or the friction, or give a longer wave_length, so that they stay below 85 degrees",
@@ -112,31 +91,21 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "give the record as it was before any deconvolution",
     ),
     # the band of the friction
-    "band-order": ("{value} is more than the highest, {high}", "give the lower coefficient as low"),
+    "band-negative": ("5 % of this {value} distribution is below zero", "cut it by lower, or give less scatter"),
+    "fit-empty": (
+        "{value} has no friction of a crack",
+        "give the law-fit.toml of `heeltoe law fit TESTS.csv --out FOLDER`",
+    ),
     "band-judge": ("the band has no {value}", "give that end, or judge another one"),
     "band-many": (
         "{value} judges a single run; studies and suites run the best estimate",
         'write judge = "best", and run the other frictions by crack.friction',
     ),
-    "band-law": ("the crack has a friction law, which falls by itself", "give crack.friction, or leave the fall out"),
-    "band-falls": ("{value} is more than the friction of the crack, {peak}", "give a friction that falls"),
-    "band-low": ("{value} is more than the friction of the crack, {friction}", "give less"),
-    "band-high": ("{value} is less than the friction of the crack, {friction}", "give more"),
     # tables of shear tests
-    "tests-needed": ("needs a table of shear tests", "write: heeltoe law fit TESTS.csv"),
-    "tests-missing": ("there is no file {value}", "give the CSV file of the shear tests"),
-    "tests-unreadable": ("{value} cannot be read ({reason})", "give a CSV file in UTF-8"),
-    "tests-row": ("has {value} cells, the header {count}", "give each row as many cells as the header has"),
-    "tests-heading": ("{value} is not a column of shear tests", "columns are {names}{near}"),
-    "tests-twice": ("two columns have this name", "leave one out"),
-    "tests-unit": ("{value} has no unit", "write it into the heading, for example: normal stress [MPa]"),
     "tests-both": (
         "the table has strengths and points of curves",
         "give a table of strengths, or one of curves with specimen, normal stress, slip and shear",
     ),
-    "tests-column": ("this column is missing", "add it; `docs/friction.md` lists the columns"),
     "tests-cell": ("{value} is no number", "give a plain number in the unit of the heading"),
-    "tests-range": ("{value} is out of range", "give a number of {bound}"),
     "tests-points": ("the curve has {value} points", "give at least {least} points of each specimen and stage"),
-    "tests-few": ("{value} tests have a strength", "give at least {least}"),
 }

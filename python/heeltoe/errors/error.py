@@ -9,7 +9,8 @@ is about, the value that was found, and the remedy, and renders as one line:
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 from heeltoe.errors.dams import OF_DAMS
 from heeltoe.errors.records import OF_RECORDS
@@ -36,8 +37,24 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "option-missing": ("is required by {owner}", "give it, or make another choice"),
     "not-ascending": ("{what} {value} do not ascend", "give {remedy}"),
     "below-other": ("{value} is below {other}, {least}", "give at least {least}"),
+    "missing": ("is required but missing", "{remedy}"),
+    "above-other": ("{value} is above {other}, {most}", "give at most {most}"),
+    "stated-otherwise": ("{value} is not what {name} states, {stated}", "remove one of them"),
+    "too-many": ("{value} are too many", "give at most {most}"),
+    "too-few": ("has {value}", "give at least {least}"),
+    "row-length": ("has {value} cells, the header {count}", "give each row as many cells as the header has"),
+    "empty": ("{value} has no {what}", "give {expected}"),
+    "another-kind": ("is {value}, not {wanted}", "{remedy}"),
+    "nothing-to-show": ('has nothing to show (outcome "{value}")', "show a run that has started"),
+    "study-no-answer": ("a study by {value} does not compute this", "{remedy}"),
+    "study-component": ("{value} has no {component} component beside it", "add one of its name, or {remedy}"),
+    "record-states": (
+        "{found} {value}, and its header states {stated}",
+        "check {doubtful} and whether all of it is there, or correct its header",
+    ),
+    "not-a-directory": ("{value} is not a directory", "give {expected}"),
+    "several": ("has several {things} ({value})", "choose one {how}"),
     # case
-    "case-file-encoding": ("is not UTF-8 text", "save it as UTF-8"),
     "case-file-syntax": (
         "is not valid {kind}: {reason}",
         "correct it; `heeltoe new NAME` writes a case to compare with",
@@ -50,14 +67,8 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "elastic rock has a level surface, and the base rises by {value} from heel to toe",
         "give a level base, or remove the block rock",
     ),
-    "case-no-study": (
-        "is a case, not a study",
-        'run it with "heeltoe run", or name it in a study file: case = "{name}"',
-    ),
-    "study-no-case": ("is a study, not a case", 'run it with "heeltoe study"'),
     "usage": ("{value}", "`{command} --help` lists the options"),
     "option-repeated": ("is given {value} times", "give it once; a study runs several values"),
-    "override-form": ("{value} does not set a field", "write PATH=VALUE, for example crack.friction=1.0"),
     "unit-missing": ("{value} has no unit", "write for example {example}"),
     "unit-unknown": ("{value} has the unknown unit {unit}", "write for example {example}"),
     "density-weight": (
@@ -94,13 +105,11 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "give a wider uplift.opening, a softer anchor or a tougher bond, or a flexible.time_step of that size",
     ),
     "motion-source": ("has no source", "give file or points"),
-    "motion-file-option": ("belongs to a motion from a file", "remove it, or give file instead of points"),
     "vertical-of-another": (
         "{value} is another motion than the one that {component} was recorded with",
         "give {component}.file of the same earthquake too, or {component}={none} to leave it out",
     ),
     # motion
-    "motion-short": ("has {value} samples", "give a record with at least two moments"),
     "motion-not-finite": ("value {number} is {value}", "give a record of finite numbers"),
     "motion-no-numbers": (
         "its {value} is of {kind}",
@@ -118,7 +127,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "refine by a whole number; coarser steps would change the motion",
     ),
     "motion-brief": ("lasts {value}", "give it {least} or more, in its file and in motion.duration"),
-    "motion-samples": ("a step of {value} makes {count:.3g} samples", "give a step that makes up to {limit:.3g}"),
     "spectrum-period": (
         "are not finite numbers of seconds, or are shorter than a record resolves",
         "give 0 s or periods from {least} up",
@@ -138,20 +146,12 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "{value} needs more zeros before and after the record than fit",
         "give {least} or more",
     ),
-    "order-corners": ("{value} is not below high, {high}", "give them in order"),
-    "order-shares": ("{value} does not come before end, {end}", "give shares in order, from 0 to 1"),
     "order-window": ("{value} does not come before the end, {end}", "give moments in order, within the record"),
     "order-time": (
         "stretching time by {value} changes the frequency content of the motion",
         "filter or match it instead, or set allow = true if you mean it",
     ),
     "target-table": ("is not a table of a spectrum", "give at least two ascending periods with accelerations above 0"),
-    "target-period": ("{value} is outside the spectrum {name}", "stay within {bounds}"),
-    "synthetic-form": (
-        "{value} is not a valid synthetic motion ({reason})",
-        'write for example "synthetic:M6.5,20km,seed=3,vs30=760,fault=reverse"',
-    ),
-    "synthetic-option": ("has no effect on a synthetic motion", "remove it"),
     "synthetic-shape": (
         "duration / t_mid is {value}, which no modulation reaches",
         "give duration / t_mid from 0.2 to 4.9",
@@ -174,9 +174,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "leaves nothing of the part {side} the crack at its {end}",
         "move the crack or incline it less; of a dam on a sloping foundation, draw the section with that slope as base",
     ),
-    "mesh-tip": ("{value} element across cannot fill a pointed crest", "give at least 2"),
-    "mesh-none-below": ("{value} has no place: the crack is at the base", "remove it"),
-    "mesh-include": ("includes another file, which is not read", "put all of the mesh into one file"),
     "mesh-not-finite": ("node {value} has no finite coordinates", "correct it"),
     "mesh-plane": ("is not plane", "give a mesh in the plane x, y or x, z"),
     "mesh-kind": (
@@ -208,10 +205,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "mesh-base": ("has no level base to stand on", "let its lowest points form a horizontal line"),
     "mesh-area": ("has an area of {value} where the section has {area}", "follow the outline of the section"),
-    "modulus-missing": (
-        "is required by the flexible model but missing",
-        'add for example modulus = "20 GPa" under [concrete]',
-    ),
     "too-costly": ("takes about {value}, more than is allowed", "ask for less, or allow it by {allow}"),
     # decoupled chain, tables
     "crack-at-base": (
@@ -227,11 +220,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "lists records for a suite, and there is no [motion] for a single run",
         "run the suite with `heeltoe run` or heeltoe.run_suite, or add [motion]",
     ),
-    "unknown-figure": ("{value} is not a figure of this result", "choose {names}{near}"),
-    "figure-nothing": ('has nothing to draw (outcome "{value}")', "draw a run that has started"),
-    "output-step": ("{value} is not a step within the run", "give one above 0 s and up to {duration}"),
-    "output-many": ("a step of {value} makes {count:.3g} moments", "give a step that makes up to {most:.3g}"),
-    "unknown-model": ("{value} is not a model", "use {models}{near}"),
     "explain-unknown": (
         "{value} is not a field of a case or a study, a key of the JSON or a column{near}",
         "`heeltoe explain --all` lists all",
@@ -241,13 +229,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "add --public, which lets those in that have its token, or leave --host out",
     ),
     "app-address": ("the app cannot listen at {value} ({reason})", "give another, or leave it out"),
-    "block-number": ("{value} is out of range for a block", "give {bounds}"),
     "blocks-shape": ("{value} is not a table of blocks", "give blocks, cases, or numbers of shape (n, {columns})"),
     "blocks-many": ("{value} for {count} blocks", "give one for each of them"),
     "column-unknown": ("cannot be a column", "give single cases; columns are {columns}"),
-    "blocks-scale": ("{value} is not a factor", "give finite numbers"),
     "blocks-motion": ("{value} is not one of the motions", "give {bounds}"),
-    "spread-runs": ("{value} is not a valid number of runs", "give {fewest} to {most}, or none for {usual}"),
     "no-first-mode": (
         "needs a first mode, and the crest of the dam has no clear peak: concrete, water and rock damp it too much",
         "look at heeltoe periods --response, or run the earthquake",
@@ -256,17 +241,12 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "needs the package {value}, which does not work here ({reason})",
         "give the program more memory, or install the package anew",
     ),
-    "vtk-without-out": ("needs a directory", "add --out DIR"),
-    "vtk-rigid": ("shows elastic parts, which a rigid block does not have", "use --model flexible or both"),
     "pulse-unstable": (
         "the dam does not even stand without a pulse",
         "give it less water, less uplift or more friction",
     ),
     "animation-window": ("nothing happens from {value}", "give a time from {begin} to {finish}"),
-    "animation-frames": ("{value} frames are too many", "show less, or faster; {most} are possible"),
-    "animation-nothing": ('has no histories (outcome "{value}")', "show a run that has started"),
     "file-not-sent": ("{value} has not been sent", "send it with the case file, or name a record of the catalogue"),
-    "record-missing": ("is required but missing", "give a file or a name, or --list"),
     "file-exists": ("already exists", "give another name, or remove it first"),
     "no-directory": ("is not there", "make it first, or give another path"),
     "no-file": ("{value} does not name a file", "give the path of a file"),
@@ -279,7 +259,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "{value} is a result that was not written here, or by another user, and is not completed",
         "remove it, or move its files yourself",
     ),
-    "not-a-directory": ("{value} is a file", "give a directory"),
     "no-room": (
         "nothing can be put into the directory for temporary files ({reason})",
         "set TMPDIR to a place with room",
@@ -374,6 +353,15 @@ class InputError(HeeltoeError):
     def __reduce__(self) -> tuple[object, ...]:
         """Come back from another process as the same error: Python would make it anew of its text alone."""
         return InputError.__new__, (type(self), *self.args), self.__dict__
+
+
+@contextmanager
+def package(field: str, name: str, install: str = "") -> Iterator[None]:
+    """Refuse what cannot be imported within: a package that is optional and not installed."""
+    try:
+        yield
+    except ImportError:
+        raise InputError("package-missing", field, name, install=install or f"pip install {name}") from None
 
 
 class UnfinishedError(InputError):

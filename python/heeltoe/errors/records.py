@@ -12,7 +12,6 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
     ),
     "record-format-later": ("is in {value} format, which is not read", "give the corrected record"),
     "record-header": ("its header states no {value} that can be used", "download it again"),
-    "record-damaged": ("is damaged: {reason}", "download it again"),
     "record-count-far": (
         "states {stated} values and has {value}: a part of it is missing, or belongs to another record",
         "get the whole file, or correct the number in its header",
@@ -26,7 +25,6 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
         'say in {factor_field} "multiply" where they are still to be multiplied by it, "divide" where it is a '
         'sensitivity, or "contain" where they contain it',
     ),
-    "record-factor-none": ("{value} is given, and the header of {name} has no factor", "remove it"),
     "record-factor-other": (
         "{value} is neither 1 nor what the header of {name} states, {stated}",
         "give the factor, 1 over it where it is a sensitivity, or 1 where the values contain it",
@@ -62,14 +60,6 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
     "record-times-repeat": (
         "has {value} times that repeat the one before: they have too few digits, or rows are missing",
         "give times with more digits, or the accelerations alone with their step",
-    ),
-    "record-duration": (
-        "lasts {value}, and its header states {stated}",
-        "check its time step and whether all of it is there, or correct its header",
-    ),
-    "record-peak-far": (
-        "peaks at {value} in its own unit, and its header states {stated}",
-        "check its unit, its columns and whether all of it is there, or correct its header",
     ),
     "record-time-unit": (
         "its times are in {value}, which is not a unit of time that heeltoe reads",
@@ -110,8 +100,12 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
         "write period [s], period [ms] or frequency [Hz] above it",
     ),
     "target-unit": ("does not state the unit of its accelerations", "say it above them, as in # period [s], Sa [g]"),
+    "disaggregation": (
+        "{value} is no disaggregation by magnitude and distance",
+        "give a CSV that OpenQuake has exported, Mag_Dist-0.csv",
+    ),
+    "disaggregation-several": ("{value} names none or several of {known}", "write one as FILE#PGA,0.02"),
     "target-spread": ("is a table of standard deviations, and no spectrum", "give the mean spectrum"),
-    "target-several": ("holds several spectra ({value})", "choose one, as in {example}"),
     "target-level": (
         "its value at the period that it is conditional on, {value}, is not the level that its header states, {stated}",
         "export it anew, with OpenQuake 3.17 or later",
@@ -120,8 +114,6 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
         "is a workbook of a spreadsheet program, which is not read",
         "save the sheet with the record as CSV, or as text with tabs, and give that",
     ),
-    "record-archive": ("is an archive that cannot be read ({reason})", "unpack it and give the record"),
-    "record-archive-empty": ("holds no record that can be read", "give an archive of records"),
     "record-response": (
         "is in counts, and the sensitivity of its instrument is not known ({reason})",
         "put its StationXML beside it as {value}, or both into one zip",
@@ -131,7 +123,6 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
         "line {line}: the commas of {value} can be read in two ways",
         "write decimal points, and separate columns by commas or blanks",
     ),
-    "record-channel-missing": ("has several channels ({value})", "choose one in {channel_field}"),
     "record-channel": ("{value} means {count} of the channels of {name} ({channels})", "choose one by its number"),
     "record-channels-lost": (
         "opens {opened} channels, but has the accelerations of one alone ({value})",
@@ -145,9 +136,7 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
     "record-ragged": ("line {line} has {value} where others have {width}", "correct the file"),
     "record-not-acceleration": ("is a {value} record", "give the acceleration record"),
     "record-unit-missing": ("does not state its unit; it peaks at {value}", "say so in {unit_field}: {guess}"),
-    "record-unit-conflict": ("{value} is not what {name} states, {stated}", "remove one of them"),
     "record-step-missing": ("does not state its time step", 'say so in {step_field}, for example "0.01 s"'),
-    "record-step-conflict": ("{value} is not what the file states, {stated} s", "remove one of them"),
     "record-step": ("a time step of {value} is not that of a record", "correct the file"),
     "record-ambiguous": ("{value} means several files: {names}", "give the path"),
     "record-not-found": (

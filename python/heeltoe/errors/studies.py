@@ -5,19 +5,8 @@ from __future__ import annotations
 # As in heeltoe.errors.error: code -> (what is wrong, what to do).
 OF_STUDIES: dict[str, tuple[str, str]] = {
     # the option --vary
-    "vary-form": ("{value} does not vary a field", "write PATH=VALUE,VALUE, for example crack.friction=0.8,1.0,1.2"),
-    "vary-many": (
-        "{value} runs are too many for a table",
-        "vary less: up to {most} runs, or write a study file for `heeltoe study`",
-    ),
-    "vary-option": ("goes with one run, not with a table of runs", "leave it out, or --vary"),
     # study files and their directories
-    "levels-option": ("goes with one suite, not with one for each level", "write it into the file of the levels"),
-    "distribution-order": ("{value} is not above {lowest}", "give the lower number first"),
-    "distribution-mode": ("{value} is not between the lowest and the highest value", "give one that is"),
-    "distribution-spread": ("{value} is not a spread", "give more than 0"),
     "study-not-a-number": ("holds no number, so that {value} cannot be drawn", "give a list of its values"),
-    "study-said-by-records": ("{value} is not needed: each record says this itself", "remove it"),
     "study-count": (
         "{value} is a distribution, of which this method takes equally likely values",
         "say how many: count = 5",
@@ -27,17 +16,12 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
         "name two that are, under [vary]",
     ),
     "study-correlations": ("the {value} correlations contradict each other", "weaken some, or leave some out"),
-    "study-power": ("{value} is not a power of two, which Sobol's points need", "give {below} or {above}"),
     "study-motion-varies": ("motions do not vary here", "give them under [motions], their strengths as motions.scale"),
     "study-motions": ("no record is named", "choose records, give a folder, files or events, or leave [motions] out"),
-    "study-folder": ("{value} is not a directory", "give the directory of the records, relative to the study file"),
-    "study-folder-empty": ("{value} has no records", "give a directory with records"),
-    "study-pair": ("{value} has {count} horizontal components, not 2", "add the other one, or leave pairs out"),
-    "study-vertical": (
-        "{value} has no vertical component beside it: none of its name, and none that the case names for it",
-        "add it, or leave vertical out",
+    "study-pair": (
+        "{value} has {count} horizontal components, not 2",
+        "add the other one, or leave out what asks for pairs",
     ),
-    "study-horizontal": ("{value} has no horizontal component beside it", "add one, or take the file out"),
     "study-components": (
         "{value} has more components than an event has: {names}",
         "name the components of each event under [[motions.events]]",
@@ -51,8 +35,6 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
     "study-begun": ("{value} holds this study already", "go on with it by --resume, or give another directory"),
     "study-version": ("was written by another version of heeltoe ({value})", "read it with that one"),
     "study-not-there": ("is not the directory of a study", "give what `heeltoe study FILE --out DIR` has written"),
-    "study-unreadable": ("does not say what study it is ({reason})", "give another directory, or restore the file"),
-    "study-damaged": ("is damaged: its checksum is another one", "give another directory, or restore the file"),
     "study-part": (
         "holds other runs than were written there: it is damaged, or belongs elsewhere",
         "compute them anew: `heeltoe study FILE --out DIR --resume`",
@@ -66,9 +48,6 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
         "{value} runs of {count} are there, too few for an answer that needs the place of each",
         "run the rest: `heeltoe study FILE --out DIR --resume`",
     ),
-    "study-no-grid": ("a study by {value} has no axes of a grid", "take to_pandas"),
-    "study-no-answer": ("a study by {value} does not compute this", 'run one with method = "{method}"'),
-    "study-no-fragility": ("the study asks for no curves", "say the limits under [fragility]"),
     "study-no-crest": (
         "the {value} model does not say how the crest moves",
         "leave out the model, or limits on the crest in the case and under [fragility]",
@@ -100,20 +79,13 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
         "{value} is not the measure of the fragility curves, {measure}",
         "give the hazard curve of that measure, or set fragility.measure and fragility.period",
     ),
-    "hazard-sites": ("holds {value} curves", "keep the one of the site"),
-    "hazard-row": ("{value} is not a strength with an annual rate", "give two numbers"),
     # tables of dams
-    "study-no-dams": ("the study has no table of dams", 'give one in its file: cases = "dams.csv"'),
-    "dams-empty": ("{value} has no dams", "write a header with fields, and a row for each dam"),
-    "dams-row": ("has {value} cells, the header {count}", "give each dam as many cells as the header has"),
     "dams-name": ("{value} is the name of {count} dams", "give each dam a name of its own"),
     "dams-letter": ("the name {value} holds a letter that cannot be shown", "write it without"),
     "dams-unit": ("holds words, which have no unit ({value})", "leave the unit out of the header"),
     # fields that are solved for
-    "solve-until": ("{value} is not a limit of the case", "write NAME = VALUE with one of {names}"),
     "solve-field": ("holds no number that could be solved for", "name a field that does, as crack.friction"),
     "solve-no-range": ("has no value to search about", "give the range: --between LOW,HIGH"),
-    "solve-order": ("{value} is not a range", "give the lower end first: LOW,HIGH"),
     "solve-range": ("the case refuses the range {value}", "give another one: --between LOW,HIGH"),
     # suites of records
     "suite-one-dam": (
@@ -122,8 +94,4 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
     ),
     "suite-one-strength": ("{value} strengths make a study, not a suite", "give one value"),
     "suite-no-period": ("{value} needs concrete.modulus, without which the dam has no period", "give a period"),
-    "suite-option": ("goes with one motion, not with a suite of records", "leave it out, or --motions"),
-    "suite-resume": ("needs the directory of the suite", "add --out DIR"),
-    "suite-needs": ("goes with a suite of records", "add --motions FOLDER"),
-    "study-many": ("{value} are too many", "give at most {most}"),
 }

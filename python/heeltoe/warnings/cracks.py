@@ -33,23 +33,6 @@ OF_CRACKS: dict[str, tuple[Severity, str, str]] = {
         "the slip that {name} leaves keeps {share:.2g %} of the drainage, and the motions after it are computed with "
         "all of it: a run with uplift.drain_efficiency = {efficiency:.3g} bounds what they do",
     ),
-    "rough-steep": (
-        "caution",
-        "crack.roughness",
-        "{field}: flanks of {angle_deg:.3g} degrees shear off rather than being climbed; no model here represents that",
-    ),
-    "rough-tall": (
-        "caution",
-        "crack.roughness.asperity_height",
-        "{field}: asperities of {height_m:.3g m} are {share:.2g %} of the crack's width, {width_m:.4g m}; the geometry "
-        "of the block leaves them out",
-    ),
-    "rough-long": (
-        "caution",
-        "crack.roughness.wave_length",
-        "{field}: {wave_m:.3g m} is more than the crack is wide, {width_m:.4g m}: heel and toe would not stand on like "
-        "flanks",
-    ),
     "bond-of-block": (
         "caution",
         "crack.bond",

@@ -15,17 +15,13 @@ with care. ``"grave"``: some number is not what it seems, or the dam does not ho
 OF_INPUT: dict[str, tuple[Severity, str, str]] = {
     # case
     "value-unusual": ("caution", "", "{field}: {value}"),
+    "value-unused": ("note", "", "{field} = {value} has no effect in the flexible model: {why}"),
     "below-crack": ("note", "", "{field}: it {ends} below the crack, {effect}"),
     "section-drawn": (
         "note",
         "section",
         "{field} from a drawing: {height_m:.4g m} high, {base_m:.4g m} wide at its base, {area_m2:.4g m²}, on the "
         "layer {layer}; read to {within_m:.2g mm}",
-    ),
-    "friction-high": (
-        "caution",
-        "crack",
-        "{field}: a coefficient of friction of {friction:g} is higher than tests of concrete show",
     ),
     "law-range": (
         "caution",
@@ -42,49 +38,16 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "crack.law",
         "{field}: a block feels the law {law} by the mean normal stress of its whole crack, even on a corner",
     ),
-    "uplift-intensity": (
-        "caution",
-        "uplift.intensity",
-        "{field}: {intensity:g} means more pressure than the pattern gives",
-    ),
-    "drains-raise": (
-        "caution",
-        "uplift.drain_efficiency",
-        "{field}: with {efficiency:g} the head at the drains is higher than without drains: drains without effect are "
-        'uplift.pattern = "triangular"',
-    ),
     "water-over-crest": (
         "caution",
         "reservoir.depth",
         "{field}: the water stands {over_m:.3g m} above the crest; it presses on the faces as still water does and on "
         'the crest by reservoir.nappe = "{nappe}", without what its flow changes',
     ),
-    "silt-above-water": (
-        "caution",
-        "silt.depth",
-        "{field}: the silt is higher than the water, though its densities are of silt under water",
-    ),
-    "silt-with-water": (
-        "caution",
-        "silt",
-        "{field}: {densities_kg_m3:g kg/m^3} seem to include the water, which is counted separately",
-    ),
     "tailwater-deeper": ("note", "tailwater.depth", "{field}: the water is deeper downstream than upstream"),
     # fields that change nothing
     "fields-unused": ("note", "", "no effect in {readers}: {fields}"),
     "fields-idle": ("note", "", "{fields}: no effect, because {why}"),
-    "rotation-unused": (
-        "note",
-        "analysis.rotation",
-        "{field} = {value} has no effect in the flexible model: it is for the rigid block, and elastic parts "
-        "rotate by small angles",
-    ),
-    "restitution-unused": (
-        "note",
-        "crack.restitution",
-        "{field} = {value} has no effect in the flexible model: it is for impacts of a rigid block; elastic faces "
-        "rebound by the waves in the concrete",
-    ),
     "hydrodynamic-unused": (
         "caution",
         "reservoir.hydrodynamic",
@@ -93,16 +56,6 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
     ),
     # ground motion
     "motion-still": ("note", "motion", "{name} is zero throughout: in this direction the ground does not move"),
-    "motion-strong": (
-        "caution",
-        "motion",
-        "{name} peaks at {peak_g:.3g g}, more than any recorded ground motion: check its unit",
-    ),
-    "motion-weak": (
-        "caution",
-        "motion",
-        "{name} peaks at {peak_g:.2g g} only: check its unit",
-    ),
     "motion-drifts": (
         "caution",
         "motion",
@@ -130,16 +83,6 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "motion",
         "{name} has values every {step_s:.3g s}, and the dam swings in about {period_s:.2g s}: straight lines between "
         "them leave out some {share:.2g %} of such motion; take the record in steps of {most_s:.2g s} or less",
-    ),
-    "component-vertical": (
-        "grave",
-        "motion",
-        "{name} is a vertical component ({component}), and shakes the dam horizontally here",
-    ),
-    "component-horizontal": (
-        "grave",
-        "motion.vertical",
-        "{name} is a horizontal component ({component}), and shakes the dam vertically here",
     ),
     "components-differ": (
         "grave",
@@ -191,46 +134,26 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "motion.vertical",
         "{field}: a motion given beside the case comes without it, as it was recorded with another one",
     ),
-    "cross-valley-not-given": (
-        "caution",
-        "motion.cross_valley",
-        "{field}: a motion given beside the case comes without it: the run has no shaking across the valley",
-    ),
-    "aftershocks-left-out": (
-        "caution",
-        "aftershocks",
-        "{field}: a motion given beside the case takes the place of all of its motions, and comes alone",
-    ),
     "motion-generated": ("note", "motion.file", "{name} is generated, not recorded"),
     "motion-beyond-relations": (
         "caution",
         "motion.file",
         "{name} is outside the records behind its relations: M 6 to 7.6, 10 to 100 km, Vs30 600 m/s up",
     ),
+    "motion-peak-unusual": ("caution", "motion", "{name} peaks at {peak}: check its unit"),
+    "component-other": ("grave", "motion", "{name} is a {kind} component ({component}), and shakes the dam {way} here"),
+    "motions-left-out": ("caution", "motion", "{field}: a motion given beside the case comes alone and {effect}"),
     # records; their numbers are in the units of the file
-    "record-count": ("caution", "", "{name} states {stated:g} values and has {found:d}: all of them are used"),
-    "record-peak": ("caution", "", "{name} states a peak of {stated:g} and has {found:.6g}: what it has is used"),
-    "record-step-doubtful": (
-        "caution",
-        "",
-        "{name} states a step of {step_s:g s}, {values:g} values and {duration_s:g s}: check it",
-    ),
     "record-channels": ("caution", "", "{name} opens {opened:d} channels and has accelerations of {found:d}"),
-    "record-doubtful": ("caution", "", "{name} {doubt}"),
-    "record-reader-warns": ("caution", "", "{name}: its reader warns: {text}"),
     "record-uncorrected": (
         "caution",
         "motion.processing",
         "{name} is uncorrected: {why}; an analysis asks for motion.processing with a band-pass or a baseline",
     ),
-    "record-unit-assumed": (
+    "record-doubtful": ("caution", "", "{name} {doubt}"),
+    "record-assumed": (
         "caution",
-        "motion.unit",
-        "{name} states no unit: {unit} is assumed; an analysis asks for {field}",
-    ),
-    "record-step-assumed": (
-        "caution",
-        "motion.time_step",
-        "{name} states no time step: {step_s:g s} is assumed; an analysis asks for {field}",
+        "motion",
+        "{name} states no {what}: {assumed} is assumed; an analysis asks for {field}",
     ),
 }

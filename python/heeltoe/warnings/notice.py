@@ -149,12 +149,6 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "the decoupled chain leaves out the vibration of the part above the crack, and what its sliding and rocking "
         f"spare the part below: {AS_ELASTIC}, and the dam is elastic",
     ),
-    "block-still-moves": (
-        "caution",
-        "analysis.silence",
-        "the block still moves {when} ({mode}, slip velocity {slip_velocity_m_s:.3g m/s}): the residual slip is that "
-        "of this moment; a longer analysis.silence may let it come to rest",
-    ),
     "restitution-lowered": (
         "note",
         "crack.restitution",
@@ -207,6 +201,12 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "it rotates by {rotation_rad:.3g rad} about its {corner}, {share:.2g %} of the {slenderness_rad:.3g rad} at "
         'which it would overturn: set analysis.rotation = "finite", because the small-rotation model cannot '
         "represent overturning",
+    ),
+    "still-moves": (
+        "caution",
+        "analysis.silence",
+        "the {body} still moves {when}{how}; the residual slip is that of this moment, and a longer analysis.silence "
+        "may let it come to rest",
     ),
     # flexible model
     "evidence-none": (
@@ -327,12 +327,6 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "caution",
         "flexible.modes",
         "the modes kept leave an error of {error:.2g %} in the flexibility of the crack; raise {field}",
-    ),
-    "dam-still-moves": (
-        "caution",
-        "analysis.silence",
-        "the dam still moves {when}: in the last {span} its {what} changes by {change_m:.3g mm}; the residual slip is "
-        "that of this moment; a longer analysis.silence may let it come to rest",
     ),
     "tension-exceeds": (
         "grave",

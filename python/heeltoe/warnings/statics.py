@@ -27,16 +27,8 @@ OF_STATICS: dict[str, tuple[Severity, str, str]] = {
         "caution",
         "crack.kinks",
         "{field}: sliding and critical accelerations count the friction on the straight line from heel to toe alone, "
-        "a factor of {along:.3f} under the usual loads; on its pieces, which rise at up to {angle_deg:.3g} degrees, "
-        "the crack would bear a factor of {factor:.3f} if nothing shears off. Stresses and openings are those on the "
-        "straight line",
-    ),
-    "kinks-lock": (
-        "caution",
-        "crack.kinks",
-        "{field}: sliding and critical accelerations count the friction on the straight line from heel to toe alone, "
-        "a factor of {along:.3f} under the usual loads; its pieces, which rise at up to {angle_deg:.3g} degrees, "
-        "would bear any push until something shears off. Stresses and openings are those on the straight line",
+        "a factor of {along:.3f} under the usual loads; its pieces, which rise at up to {angle_deg:.3g} degrees, would "
+        "bear {bear}. Stresses and openings are those on the straight line",
     ),
     "kinks-take": (
         "caution",
@@ -44,16 +36,6 @@ OF_STATICS: dict[str, tuple[Severity, str, str]] = {
         "{field}: {name}: the resultant acts where the crack falls, and its pieces bear a sliding factor of "
         "{factor:.3f}, less than the {along:.3f} of friction on the straight line from heel to toe: the smaller one "
         "counts. Stresses and openings are those on the straight line",
-    ),
-    "flood-low": (
-        "caution",
-        "statics.flood_depth",
-        "{field}: the flood is lower than the {usual_depth_m:g m} of the usual loads",
-    ),
-    "residual-friction-high": (
-        "caution",
-        "statics.residual_friction",
-        "{field}: more than the friction of the crack before it has slid",
     ),
     "anchors-after-slip": (
         "grave",
