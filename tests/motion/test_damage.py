@@ -8,7 +8,7 @@ import pytest
 import heeltoe
 from heeltoe import InputError, read_case, rigid
 from heeltoe.motion.check import check_record
-from heeltoe.motion.records import read_channels
+from heeltoe.motion.records.read import read_channels
 from shared.command import command
 from shared.dams import BLOCK
 from shared.record_samples import GAL, G, channels, cosmos, csmip, read
@@ -65,7 +65,7 @@ def test_a_doubtful_value_is_pointed_at_and_a_sound_record_is_not(tmp_path):
     assert message.time_s == pytest.approx(1.5)
     assert dict(message.quantities)["peak_g"] == pytest.approx(0.75)
     sound = run(record(tmp_path / "b.txt"), "motion.pga=0.3 g")
-    assert not {"motion-spike", "motion-coarse", "component-vertical"} & {warning.code for warning in sound.warnings}
+    assert not {"motion-spike", "motion-coarse", "component-other"} & {warning.code for warning in sound.warnings}
 
 
 def test_nines_that_were_measured_are_no_marker(tmp_path):
@@ -136,7 +136,7 @@ def test_a_step_is_judged_by_the_period_of_an_elastic_dam(tmp_path, height, step
 def test_a_vertical_component_that_shakes_horizontally_is_told(component, tmp_path):
     file = tmp_path / "a.V2"
     file.write_text(csmip({component: GAL}))
-    for other, code in (("", "component-vertical"), ("vertical.", None)):
+    for other, code in (("", "component-other"), ("vertical.", None)):
         changes = [f"motion.{other}file={file}"] + ([f"motion.file={record(tmp_path / 'b.txt')}"] if other else [])
         codes = {warning.code for warning in rigid(read_case(BLOCK, changes)).warnings}
         assert {item for item in codes if item.startswith("component-")} == ({code} if code else set())
@@ -147,13 +147,14 @@ def test_a_horizontal_component_that_shakes_vertically_is_told(component, tmp_pa
     file = tmp_path / "a.V2"
     file.write_text(csmip({component: GAL}))
     case = read_case(BLOCK, [f"motion.file={file}", f"motion.vertical.file={file}"])
-    codes = {warning.code for warning in rigid(case).warnings}
-    assert {item for item in codes if item.startswith("component-")} == {"component-horizontal"}
+    (warning,) = [item for item in rigid(case).warnings if item.code.startswith("component-")]
+    assert (warning.code, warning.field) == ("component-other", "motion.vertical")
+    assert "is a horizontal component" in str(warning)
 
 
 def test_a_name_tells_where_a_file_does_not(tmp_path):
     warnings = run(record(tmp_path / "quake_up.txt")).warnings
-    assert "component-vertical" in {item.code for item in warnings}
+    assert "component-other" in {item.code for item in warnings}
 
 
 def test_components_of_two_earthquakes_are_told(tmp_path):

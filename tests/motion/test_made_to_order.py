@@ -217,7 +217,7 @@ def test_in_a_case_and_on_the_command_line(tmp_path, monkeypatch):
     assert result.name == "synthetic-M6.5-20km-seed3"
     wrong = read_case(DAM | {"motion": motion | {"unit": "g"}}).motion
     assert wrong is not None
-    with pytest.raises(InputError, match=r"motion.unit: has no effect on a synthetic motion; remove it"):
+    with pytest.raises(InputError, match=r"motion.unit: does not belong to a synthetic motion; remove it"):
         resolve(wrong, case.gravity, tmp_path)
     run = command("motion", "synthetic:M6.5,20km,seed=3")
     assert run.returncode == 0

@@ -10,8 +10,8 @@ import pytest
 from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.matching import match
-from heeltoe.motion.records import read_record
 from heeltoe.motion.records.catalog import find
+from heeltoe.motion.records.read import read_record
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.motion.targets import en_1998, table
 

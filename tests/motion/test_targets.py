@@ -73,15 +73,15 @@ def test_table_is_straight_on_logarithmic_axes():
         (lambda: en_1998(1.0, "F"), "not-a-choice"),
         (lambda: en_1998(1.0, "A", 3), "not-a-choice"),
         (lambda: en_1998(1.0, damping=5.0), "out-of-range"),
-        (lambda: en_1998(1.0)(4.5), "target-period"),
-        (lambda: en_1998(1.0)(-0.1), "target-period"),
-        (lambda: en_1998(1.0)(float("nan")), "target-period"),
+        (lambda: en_1998(1.0)(4.5), "out-of-range"),
+        (lambda: en_1998(1.0)(-0.1), "out-of-range"),
+        (lambda: en_1998(1.0)(float("nan")), "out-of-range"),
         (lambda: asce_7(1.0, float("nan"), 8.0), "out-of-range"),
         (lambda: asce_7(1.0, 0.6, 0.5), "out-of-range"),
         (lambda: table([1.0, 0.1], [1.0, 1.0]), "target-table"),
         (lambda: table([0.1, 1.0], [1.0, 0.0]), "target-table"),
         (lambda: table([0.1, 1.0], [1.0]), "target-table"),
-        (lambda: table([0.1, 1.0], [1.0, 0.5])(2.0), "target-period"),
+        (lambda: table([0.1, 1.0], [1.0, 0.5])(2.0), "out-of-range"),
     ],
 )
 def test_refused(make, code):
@@ -186,7 +186,7 @@ def test_spectra_of_openquake_are_targets(tmp_path, kind, wanted):
     assert (target.shortest, target.longest) == (0.0, 1.0)
     if kind == "uniform":
         assert target.name == "spectrum, uniform hazard spectrum of 0.002105 in 1 year"
-    with pytest.raises(InputError, match="holds several spectra"):
+    with pytest.raises(InputError, match="has several spectra"):
         target_of(str(file), "--match")
 
 
@@ -204,12 +204,12 @@ def test_a_level_that_nothing_reaches_ends_a_spectrum(tmp_path):
 @pytest.mark.parametrize(
     ("content", "code"),
     [
-        (exported(sites=3), "hazard-sites"),
+        (exported(sites=3), "several"),
         (exported().replace("kind='mean'", "kind='std'"), "target-spread"),
         (exported("early").replace("imls=[0.6", "imls=[0.5"), "target-level"),
         (GENERATED.format("") + "lon,lat,vs30\n1,2,3\n", "target-table"),
         (GENERATED.format("") + "lon,lat,0.1~PGA\n1,2,often\n", "target-table"),
-        (exported("conditional").replace(",mean,", ",rlz-000,", 1).replace(",mean,", ",rlz-001,"), "target-several"),
+        (exported("conditional").replace(",mean,", ",rlz-000,", 1).replace(",mean,", ",rlz-001,"), "several"),
     ],
 )
 def test_what_is_no_spectrum_of_openquake_is_refused(tmp_path, content, code):

@@ -1,1 +1,1 @@
-"""A ground motion and all that is done to one: measures, spectra, processing, matching, making to order."""
+"""Ground motions and their tools: measures, spectra, processing, matching, making to order."""

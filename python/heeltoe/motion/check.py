@@ -1,4 +1,4 @@
-"""What is suspicious about a ground motion before anyone shakes a dam with it."""
+"""Checks of a ground motion for suspicious features before a dam is shaken with it."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import UNCORRECTED, GroundMotion
 from heeltoe.motion.measures import level_of
+from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
 
 # More than any ground has been seen to do [g].
@@ -47,7 +48,7 @@ Way = Literal["up", "level", ""]
 
 
 def way_of(component: str) -> Way:
-    """Return which way a component goes by what its record calls it."""
+    """Return the direction of a component from the name in its record."""
     if _UP.search(component):
         return "up"
     return "level" if _LEVEL.search(component) else ""
@@ -86,9 +87,9 @@ def check_record(
     component = motion.component or motion.name.replace("_", " ")
     way = way_of(component)
     if way == "up" and upward is False:
-        say("component-vertical", component=component)
+        say("component-other", component=component, kind="vertical", way="horizontally")
     if upward and way == "level":
-        say("component-horizontal", component=component)
+        say("component-other", component=component, kind="horizontal", way="vertically")
     steps = np.diff(motion.time)
     if motion.time.size <= _DRAWN:
         return tuple(notices)
@@ -126,7 +127,7 @@ def _has_gravity(level: float, gravity: float) -> bool:
 
 
 def _reach(motion: GroundMotion, width: int) -> float:
-    """Return the peak over the largest value more than so many samples away from it."""
+    """Return the peak over the largest value more than `width` samples away from it."""
     size = np.abs(motion.acceleration)
     place = int(size.argmax())
     others = np.concatenate([size[: max(0, place - width)], size[place + width + 1 :]])
@@ -242,13 +243,15 @@ def check(
         raise InputError("motion-peak", field, f"{peak:.4g} g", name=motion.name)
     notices = []
 
-    def say(code: str, **quantities: float) -> None:
-        notices.append(Notice(code, field=field, name=motion.name, **quantities))
+    def say(code: str, **quantities: float | Sentence) -> None:
+        notices.append(Notice(code, field=field, name=motion.name, **quantities))  # type: ignore[arg-type]
 
     if peak > 3.0:
-        say("motion-strong", peak_g=peak)
+        say(
+            "motion-peak-unusual", peak=Sentence.of("{peak_g:.3g g}, more than any recorded ground motion", peak_g=peak)
+        )
     if peak < 1e-3:
-        say("motion-weak", peak_g=peak)
+        say("motion-peak-unusual", peak=Sentence.of("{peak_g:.2g g} only", peak_g=peak))
     if motion.format != "points" and motion.pgv > 0.0 and abs(motion.end_velocity) > 0.2 * motion.pgv:
         say("motion-drifts", share=abs(motion.end_velocity) / motion.pgv)
     return tuple(notices)

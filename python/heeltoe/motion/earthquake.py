@@ -1,4 +1,4 @@
-"""What shakes a dam in one run: its ground motions, up to when, and how long the ground stands still after them."""
+"""Shaking of a dam in one run: its ground motions, up to when, and how long the ground stands still after them."""
 
 from __future__ import annotations
 
@@ -45,11 +45,11 @@ class Earthquake:
 
     @property
     def run_end(self) -> float:
-        """Of the run [s]."""
+        """End of the run [s]."""
         return self.end + self.silence
 
     def silent(self, seconds: float) -> Earthquake:
-        """Return the same with so much silence after it [s]."""
+        """Return the same shaking followed by a silence [s]."""
         return self if seconds == self.silence else replace(self, silence=seconds)
 
     def reversed(self) -> Earthquake:

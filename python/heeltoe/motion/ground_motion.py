@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -110,7 +111,7 @@ class GroundMotion(Shown, ReadOnlyArrays):
             object.__setattr__(self, name, values)
         t, a = self.time, self.acceleration
         if t.ndim != 1 or t.shape != a.shape or t.size < 2:
-            raise InputError("motion-short", self.name, min(t.size, a.size))
+            raise InputError("too-few", self.name, f"{min(t.size, a.size)} samples", least="two")
         if not (np.isfinite(t).all() and np.isfinite(a).all()):
             bad = int(np.flatnonzero(~(np.isfinite(t) & np.isfinite(a)))[0])
             value = t[bad] if np.isfinite(a[bad]) else a[bad]
@@ -119,7 +120,7 @@ class GroundMotion(Shown, ReadOnlyArrays):
             bad = int(np.flatnonzero(np.diff(t) < 0.0)[0])
             raise InputError("motion-order", self.name, f"{t[bad + 1]:g} s", before=f"{t[bad]:g} s")
         if t[-1] == t[0]:
-            raise InputError("motion-short", self.name, 1)
+            raise InputError("too-few", self.name, "1 sample", least="two")
         if t[0] != 0.0:
             shifted = t - t[0]
             shifted.flags.writeable = False
@@ -135,10 +136,11 @@ class GroundMotion(Shown, ReadOnlyArrays):
             Where they are none, some are masked, or one is beyond all motions of the ground.
         """
         given = getattr(self, name)
-        if np.ma.is_masked(given):
+        # Where nothing has loaded masked arrays, which takes a while, there is none.
+        if "numpy.ma" in sys.modules and np.ma.is_masked(given):
             bad = int(np.flatnonzero(np.ma.getmaskarray(given))[0])
             raise InputError("motion-not-finite", self.name, f"{name}, masked", number=bad + 1)
-        values = np.ma.getdata(np.ma.asanyarray(given))
+        values = np.asarray(given)
         if values.dtype.kind == "O":
             values = np.asarray(values.tolist())
         if values.dtype.kind not in "iuf":
@@ -166,7 +168,7 @@ class GroundMotion(Shown, ReadOnlyArrays):
         """Make a motion of moments [s] and accelerations [m/s2], straight in between."""
         return cls(name, time, acceleration)  # type: ignore[arg-type]
 
-    @property
+    @cached_property
     def duration(self) -> float:
         """Length [s]."""
         return float(self.time[-1])
@@ -184,7 +186,7 @@ class GroundMotion(Shown, ReadOnlyArrays):
         steps = np.diff(self.time)
         return bool(np.allclose(steps, self.duration / steps.size, rtol=1e-6, atol=0.0))
 
-    @property
+    @cached_property
     def pga(self) -> float:
         """Peak ground acceleration, without sign [m/s2]."""
         return float(np.abs(self.acceleration).max())
@@ -255,7 +257,7 @@ class GroundMotion(Shown, ReadOnlyArrays):
 
     @property
     def all_processing(self) -> str:
-        """What was done to the motion in words; of a sequence to each of its motions, one after the other."""
+        """Processing of the motion in words; for a sequence, of each of its motions, one after the other."""
         done = "; ".join(self.processing)
         of_parts = ["; ".join(part.processing) for part in self.parts]
         if any(of_parts):
@@ -281,7 +283,7 @@ class GroundMotion(Shown, ReadOnlyArrays):
         return replace(self, acceleration=-self.acceleration, processing=(*self.processing, "sign reversed"))
 
     def cut(self, duration: float) -> GroundMotion:
-        """Return the first `duration` [s], with a last sample right there; a shorter motion is returned as it is."""
+        """Return the first `duration` [s], with a last sample right there; a shorter motion is returned unchanged."""
         if duration >= self.duration:
             return self
         keep = self.time < duration
@@ -341,7 +343,12 @@ class GroundMotion(Shown, ReadOnlyArrays):
         if (whole < 1.0).any() or (np.abs(ratio - whole) > 1e-6 * whole).any():
             raise InputError("motion-resample", self.name, f"{step:g} s", step=f"{self.dt:g} s")
         if whole.sum() > _MOST_SAMPLES:
-            raise InputError("motion-samples", self.name, f"{step:g} s", count=whole.sum(), limit=_MOST_SAMPLES)
+            raise InputError(
+                "too-many",
+                self.name,
+                f"{whole.sum():.3g} samples, by a step of {step:g} s,",
+                most=f"{_MOST_SAMPLES:.3g}",
+            )
         count = whole.astype(int)
         share = np.concatenate([np.arange(n) / n for n in count])
         start = np.repeat(np.arange(count.size), count)

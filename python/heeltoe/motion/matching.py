@@ -71,7 +71,7 @@ class Misfit:
 
     @property
     def rms_before(self) -> float:
-        """The same of the scaled record."""
+        """Root mean square of ln of response over target for the scaled record, before matching."""
         return float(np.sqrt(np.mean(self.log_ratio_before**2)))
 
     def __str__(self) -> str:
@@ -193,7 +193,7 @@ class _Oscillators:
         self.transform = np.fft.rfft(self.impulse, self.padded)
 
     def correction(self, acceleration: Floats, change: Floats) -> Floats:
-        """Return the sum of wavelets that, to first order, brings the largest peaks to what is wanted."""
+        """Return the sum of wavelets that, to first order, brings the largest peaks to the target."""
         from scipy.signal import argrelmax
 
         spectrum = np.fft.rfft(acceleration, self.padded) * self.dt

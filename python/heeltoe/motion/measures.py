@@ -1,4 +1,4 @@
-"""Measures of a ground motion: intensity, duration, frequency content; exact for straight pieces where said."""
+"""Measures of a ground motion: intensity, duration, frequency content; exact for straight pieces where stated."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def cumulative_absolute_velocity(motion: GroundMotion) -> float:
 
 
 def uniform(motion: GroundMotion) -> GroundMotion:
-    """Return the motion in equal steps, refined where it has none; refining is exact.
+    """Return the motion in equal steps, refined where its steps differ; refining is exact.
 
     Raises
     ------

@@ -82,7 +82,7 @@ def spectrum_of_openquake(text: str, name: str, wanted: str) -> tuple[Spectrum, 
 def _uniform(head: Sequence[str], body: Sequence[Sequence[str]], name: str) -> dict[str, Spectrum]:
     """Return the spectra of a site by their probabilities."""
     if len(body) > 1:
-        raise InputError("hazard-sites", name, f"{len(body)}")
+        raise InputError("several", name, f"{len(body)}", things="curves", how="of the site")
     spectra: dict[str, Spectrum] = {}
     for cell, value in zip(head, body[0], strict=True):
         if match := _UNIFORM.fullmatch(cell):
@@ -95,7 +95,9 @@ def _conditional(head: Sequence[str], body: Sequence[Sequence[str]], name: str) 
     places = {cell: place for place, cell in enumerate(head)}
     kinds = {row[places["stat"]] for row in body} if "stat" in places else set()
     if len(kinds) > 1 and "mean" not in kinds:
-        raise InputError("target-several", name, ", ".join(sorted(kinds)), example="the rows of one of them")
+        raise InputError(
+            "several", name, ", ".join(sorted(kinds)), things="spectra", how="as in the rows of one of them"
+        )
     spectra: dict[str, Spectrum] = {}
     for row in body:
         if len(kinds) < 2 or row[places["stat"]] == "mean":
@@ -125,7 +127,9 @@ def _chosen(spectra: Mapping[str, Spectrum], wanted: str, name: str) -> str:
     found = [key for key in spectra if key == wanted or _are_one(key, wanted)]
     if len(found) != 1:
         names = ", ".join(spectra)
-        raise InputError("target-several", name, names, example=shown(f"{name}#{next(iter(spectra), '')}"))
+        raise InputError(
+            "several", name, names, things="spectra", how=f"""as in {shown(f"{name}#{next(iter(spectra), '')}")}"""
+        )
     return found[0]
 
 

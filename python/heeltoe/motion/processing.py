@@ -1,4 +1,4 @@
-"""Processing of a ground motion: each step is asked for by name, and says in `processing` what it did.
+"""Processing of a ground motion: each step is called by name, and records in `processing` how it changed the motion.
 
 Errors name the parameter that cannot be; :func:`process` puts before it where the step stands.
 """
@@ -156,7 +156,7 @@ def band_pass(
         if corner is not None and not 0.0 < corner < nyquist:
             raise InputError("order-corner", name, f"{corner:g} Hz", nyquist=f"{nyquist:g} Hz")
     if low is not None and high is not None and low >= high:
-        raise InputError("order-corners", "low", f"{low:g} Hz", high=f"{high:g} Hz")
+        raise InputError("out-of-range", "low", f"{low:g} Hz", bound=f"below high, {high:g} Hz")
     if not 1 <= order <= 10:
         raise InputError("out-of-range", "order", order, bound="from 1 to 10")
     corners = [corner for corner in (low, high) if corner is not None]
@@ -212,7 +212,7 @@ def _at_rest(motion: GroundMotion) -> tuple[Floats, str]:
 
 
 def taper(motion: GroundMotion, share: float = 0.05, ends: Ends = "both") -> GroundMotion:
-    """Fade the motion in and out with half a cosine (Tukey) over `share` of its duration at each end asked for."""
+    """Fade the motion in and out with half a cosine (Tukey) over `share` of its duration at each of the given ends."""
     if not 0.0 < share <= 0.5:
         raise InputError("out-of-range", "share", f"{share:g}", bound="above 0 and up to 0.5")
     place = motion.time / motion.duration
@@ -232,7 +232,7 @@ def taper(motion: GroundMotion, share: float = 0.05, ends: Ends = "both") -> Gro
 def cut_significant(motion: GroundMotion, start: float = 0.05, end: float = 0.95) -> GroundMotion:
     """Keep what lies between two shares of the Arias intensity, with samples right at the cuts."""
     if not 0.0 <= start < end <= 1.0:
-        raise InputError("order-shares", "start", f"{start:g}", end=f"{end:g}")
+        raise InputError("out-of-range", "start", f"{start:g}", bound=f"from 0 to below end, {end:g}")
     first, last = husid_time(motion, start), husid_time(motion, end)
     inside = (motion.time > first) & (motion.time < last)
     edges = np.interp([first, last], motion.time, motion.acceleration)

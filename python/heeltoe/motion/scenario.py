@@ -200,11 +200,17 @@ def order_of(name: str, *, field: str = "motion.file") -> dict[str, float]:
     try:
         return _read(name)
     except _Form as reason:
-        raise InputError("synthetic-form", field, name, reason=reason) from None
+        raise InputError(
+            "wrong-quantity",
+            field,
+            name,
+            kind=f"a valid synthetic motion ({reason})",
+            example='"synthetic:M6.5,20km,seed=3,vs30=760,fault=reverse"',
+        ) from None
 
 
 class _Form(ValueError):
-    """What is wrong with a name."""
+    """Error in a name."""
 
 
 def _read(name: str) -> dict[str, float]:

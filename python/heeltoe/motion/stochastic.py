@@ -44,7 +44,7 @@ class Source:
 
 @dataclass(frozen=True)
 class Parameters:
-    """What a generated motion is like, in expectation over all seeds.
+    """Properties of a generated motion, in expectation over all seeds.
 
     Attributes
     ----------

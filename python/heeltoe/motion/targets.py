@@ -62,7 +62,12 @@ class Target:
         outside = ~((period >= self.shortest) & (period <= self.longest))
         if outside.any():
             bounds = f"{self.shortest:g} s to {self.longest:g} s"
-            raise InputError("target-period", "periods", f"{period[outside][0]:g} s", name=self.name, bounds=bounds)
+            raise InputError(
+                "out-of-range",
+                "periods",
+                f"{period[outside][0]:g} s",
+                bound=f"within {bounds}, the periods of {self.name}",
+            )
         return self.ordinate(period)
 
 

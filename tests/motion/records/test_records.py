@@ -12,8 +12,8 @@ import pytest
 
 from heeltoe import GroundMotion, InputError, read_record
 from heeltoe.motion.measures import fourier_amplitudes, measures
-from heeltoe.motion.records import read_text
 from heeltoe.motion.records.catalog import available, find
+from heeltoe.motion.records.read import read_text
 from heeltoe.motion.records.to_motion import Options
 
 G = 9.80665

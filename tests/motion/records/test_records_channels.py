@@ -111,7 +111,7 @@ def test_a_case_names_its_channels(tmp_path):
 
 
 def test_a_channel_belongs_to_a_file_and_is_a_text_or_a_whole_number():
-    with pytest.raises(ValidationError, match="belongs to a motion from a file"):
+    with pytest.raises(ValidationError, match="does not belong to a motion given by points"):
         Motion(points=[["0 s", "0 g"], ["1 s", "0.1 g"]], channel=1)
     for value in (True, 1.5, ""):
         with pytest.raises(ValidationError):

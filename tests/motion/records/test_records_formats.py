@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, read_record
-from heeltoe.motion.records import read_channels, read_text
+from heeltoe.motion.records.read import read_channels, read_text
 from shared.record_samples import GAL, WAVE, G, channels, cosmos, csmip, knet, read, smc
 
 TOUCHING = 100.123456 + np.linspace(0.0, 50.0, 16)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from heeltoe import GroundMotion, InputError
-from heeltoe.motion.records import read_text, read_text_channels
+from heeltoe.motion.records.read import read_text, read_text_channels
 from shared.record_samples import GAL, cosmos, csmip, knet, smc
 from shared.record_samples import WAVE as _WAVE
 from shared.records_of_the_world import SAMPLES as OF_THE_WORLD

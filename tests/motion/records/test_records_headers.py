@@ -10,8 +10,8 @@ import pytest
 
 from heeltoe import InputError, read_case, read_record
 from heeltoe.case.shaking import resolve
-from heeltoe.motion.records import read_text, read_text_channels
 from heeltoe.motion.records.quantities import names_of, table_in, unit_of
+from heeltoe.motion.records.read import read_text, read_text_channels
 from heeltoe.motion.records.stated import number, read_stated
 from heeltoe.motion.records.to_motion import Options
 from shared.dams import PLAIN as DAM
@@ -150,11 +150,11 @@ UNIT = "acceleration [m/s2]\ndt: 0.005 s\n"
 @pytest.mark.parametrize(
     ("header", "code"),
     [
-        ("Duration: 2.4 s", "record-duration"),
-        ("Dauer: 0,6 s", "record-duration"),
-        ("PGA: 0.168 m/s2", "record-peak-far"),
-        ("最大加速度: 0.5 m/s2", "record-peak-far"),
-        ("PGA: 1.681 g", "record-peak-far"),
+        ("Duration: 2.4 s", "record-states"),
+        ("Dauer: 0,6 s", "record-states"),
+        ("PGA: 0.168 m/s2", "record-states"),
+        ("最大加速度: 0.5 m/s2", "record-states"),
+        ("PGA: 1.681 g", "record-states"),
         ("Abtastrate: 100 Hz", "record-steps-stated"),
         ("number of samples: 100", "record-count-far"),
         ("Duration: 1.2 s, PGA: 1.681, 240 points, fs = 200 Hz", None),
@@ -179,12 +179,14 @@ def test_points_in_a_sentence_are_counted_with_care():
     assert read(f"{UNIT}smoothed over 5 points\n{body}").warnings == ()
     assert read(f"{UNIT}240 points in all\n{body}").warnings == ()
     (notice,) = read(f"{UNIT}100 points in all\n{body}").warnings
-    assert notice.code == "record-count"
+    assert notice.code == "record-doubtful"
+    assert "states 100 values and has" in str(notice)
 
 
 def test_a_peak_that_is_nearly_the_stated_one_is_said():
     (notice,) = read(f"{UNIT}PGA: 1.72 m/s2\n{along(1, form='.5f')}").warnings
-    assert notice.code == "record-peak"
+    assert notice.code == "record-doubtful"
+    assert "states a peak of 1.72 and has" in str(notice)
 
 
 def test_a_stated_peak_says_that_a_unit_that_was_given_is_not_that_of_the_file():
@@ -425,7 +427,7 @@ def test_a_factor_of_a_header_is_applied_only_as_the_user_says(tmp_path):
     with pytest.raises(InputError, match=r"neither 1 nor what the header of a.txt states, 0.5"):
         read_record(tmp_path / "a.txt", factor=3.0)
     (tmp_path / "b.txt").write_text(f"{UNIT}{along(1, form='.5f')}")
-    with pytest.raises(InputError, match=r"the header of b.txt has no factor"):
+    with pytest.raises(InputError, match=r"b.txt, whose header has no factor"):
         read_record(tmp_path / "b.txt", factor=3.0)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError
-from heeltoe.motion.records import read_text_channels
+from heeltoe.motion.records.read import read_text_channels
 from heeltoe.motion.records.to_motion import Options
 
 G = 9.80665

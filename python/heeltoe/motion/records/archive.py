@@ -9,6 +9,7 @@ import io
 import tarfile
 import zipfile
 from collections.abc import Iterator
+from functools import partial
 from pathlib import PurePosixPath
 from typing import IO
 
@@ -69,11 +70,11 @@ def unpacked(data: bytes, name: str) -> list[tuple[str, bytes]]:
         raise
     except Exception as error:  # a damaged archive ends in whatever its readers stumble over
         reason = " ".join(str(error).split())[:80] or type(error).__name__
-        raise InputError("record-archive", name, reason=reason) from None
+        raise _unreadable(name, reason=reason) from None
 
 
 def _inflated(data: bytes, name: str) -> bytes:
-    """What stands behind gzip or bzip2, all stretches of it."""
+    """Decompress gzip or bzip2 data, all stretches of it."""
     with gzip.GzipFile(fileobj=io.BytesIO(data)) if data.startswith(_GZIP) else bz2.BZ2File(io.BytesIO(data)) as stream:
         content = stream.read(LARGEST_BYTES + 1)
     if len(content) > LARGEST_BYTES:
@@ -81,6 +82,7 @@ def _inflated(data: bytes, name: str) -> bytes:
     return content
 
 
+_unreadable = partial(InputError, "source-unreadable", expected="the record, unpacked")
 # Of each file of an archive: what it is called, and where its content is read.
 _Members = Iterator[tuple[str, IO[bytes]]]
 
@@ -91,7 +93,7 @@ def _taken(members: _Members, name: str) -> list[tuple[str, bytes]]:
     left = LARGEST_BYTES
     for own, member in members:
         if len(contents) == _MOST_MEMBERS:
-            raise InputError("record-archive", name, reason=f"it holds more than {_MOST_MEMBERS} files")
+            raise _unreadable(name, reason=f"it holds more than {_MOST_MEMBERS} files")
         with member:
             content = member.read(left + 1)
         left -= len(content)
@@ -105,7 +107,7 @@ def _zip_members(data: bytes, name: str) -> _Members:
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         for entry in archive.infolist():
             if entry.flag_bits & 1:
-                raise InputError("record-archive", name, reason="it is encrypted")
+                raise _unreadable(name, reason="it is encrypted")
             if not entry.is_dir():
                 yield entry.filename, archive.open(entry)
 

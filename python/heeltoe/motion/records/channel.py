@@ -46,7 +46,7 @@ def choose(records: list[RawRecord], choice: str | int | None, name: str, field:
         if len(records) == 1:
             _check_whole(records[0], name, field)
             return records[0]
-        raise InputError("record-channel-missing", name, listed(records), channel_field=field)
+        raise InputError("several", name, listed(records), things="channels", how=f"in {field}")
     text = str(choice).strip()
     chosen = [record for record in records if (record.channel or "1") == text]
     if not chosen:

@@ -5,16 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
+from heeltoe.base.pattern import pattern
+
 # Columns that touch, or an exponent of Fortran's.
-_GLUED = re.compile(r"[\d.][-+dD]")
-_WORD, _NO_NUMBER = re.compile(r"[^\W\d_]{2}"), re.compile(r"[-+]?(?:nan|inf(?:inity)?)", re.IGNORECASE)
+_GLUED = pattern(r"[\d.][-+dD]")
+_WORD, _NO_NUMBER = pattern(r"[^\W\d_]{2}"), pattern(r"[-+]?(?:nan|inf(?:inity)?)", re.IGNORECASE)
 # Length of a line; longer ones are data or damage.
 _MOST = 40
 _SEPARATORS = str.maketrans({",": " ", ";": " ", "\t": " ", '"': None})
 
 
 def labelled(lines: list[str], lines_looked_at: int) -> dict[str, str]:
-    """Return what stands behind the first colon of the first lines, by what stands before it in small letters."""
+    """Return the texts behind the first colon of the first lines, by the text before it in small letters."""
     pairs = (line[:400].partition(":") for line in lines[:lines_looked_at])
     header: dict[str, str] = {}
     for label, colon, value in pairs:

@@ -1,9 +1,10 @@
-"""What the header of a table says of its columns: their names, their units, and which are no accelerations."""
+"""Columns of a table by its header: their names, their units, and which are no accelerations."""
 
 from __future__ import annotations
 
 import re
 
+from heeltoe.base.pattern import pattern
 from heeltoe.motion.records.words import (
     ACCELERATION,
     DISPLACEMENT,
@@ -38,33 +39,33 @@ _UNITS = (
     ("mg", rf"[\[(]\s*(?:mg|milli-?g)\s*[\])]|{_IN_G}(?:mg|milli-?g){_AFTER}"),
     ("g", rf"[\[(]\s*g(?:'?s)?\s*[\])]|{_IN_G}[\[(]?\s*'?g'?{_AFTER}"),
 )
-_PATTERNS = tuple((unit, re.compile(pattern)) for unit, pattern in _UNITS)
-_ONE_G = re.compile(r"1\s*g\s*=[^)\]]*")
+_PATTERNS = tuple((unit, pattern(text)) for unit, text in _UNITS)
+_ONE_G = pattern(r"1\s*g\s*=[^)\]]*")
 _LENGTH = r"(?:k?m|cm|mm|ft|in)"
-_VELOCITY = re.compile(rf"{VELOCITY}|[\[(:=]\s*{_LENGTH}\s*/\s*s(?:ec|eg|n)?\s*(?:[\])]|$)")
-_DISPLACEMENT = re.compile(rf"{DISPLACEMENT}|[\[(:=]\s*{_LENGTH}\s*(?:[\])]|$)")
-_CUMULATIVE = re.compile(r"\barias|\bhusid|\bcumulati|\bkumulier|\bcumul[eéa]")
+_VELOCITY = pattern(rf"{VELOCITY}|[\[(:=]\s*{_LENGTH}\s*/\s*s(?:ec|eg|n)?\s*(?:[\])]|$)")
+_DISPLACEMENT = pattern(rf"{DISPLACEMENT}|[\[(:=]\s*{_LENGTH}\s*(?:[\])]|$)")
+_CUMULATIVE = pattern(r"\barias|\bhusid|\bcumulati|\bkumulier|\bcumul[eéa]")
 _QUANTITIES = (("velocity", _VELOCITY), ("displacement", _DISPLACEMENT), ("cumulative", _CUMULATIVE))
-_SERIES = re.compile(
+_SERIES = pattern(
     r"\b(velocity|displacement)s?\b\s*(?:$|[\[(:=,;]|time (?:series|history)|series|history|record|data|in\b)"
 )
-_IN_BRACKETS = re.compile(r"\s*[\[(][^\])]*[\])]")
-_BRACKETED = re.compile(r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?")
-_TIME_IN_WORDS = re.compile(TIME_IN_WORDS)
-_TIME, _ACCELERATION, _PEAK, _UNIT = (re.compile(word) for word in (TIME, ACCELERATION, PEAK, UNIT))
-_INDEX, _OTHER_AXIS, _SPECTRAL = re.compile(INDEX), re.compile(OTHER_AXES), re.compile(SPECTRAL)
+_IN_BRACKETS = pattern(r"\s*[\[(][^\])]*[\])]")
+_BRACKETED = pattern(r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?")
+_TIME_IN_WORDS = pattern(TIME_IN_WORDS)
+_TIME, _ACCELERATION, _PEAK, _UNIT = (pattern(word) for word in (TIME, ACCELERATION, PEAK, UNIT))
+_INDEX, _OTHER_AXIS, _SPECTRAL = pattern(INDEX), pattern(OTHER_AXES), pattern(SPECTRAL)
 # Names of spectra; in small letters alone they may be directions (SE, SD).
-_SHORT_SPECTRAL = re.compile(r"\s*(?:P?SA|S[aedv]|PSa|PSV|RSA|Se)(?=$|[\s\[(_,])(?!\w)")
-_RATES = re.compile(r"[^\W_]*\s*[\[(]\s*(?:hz|1/s|rad/s|1/yr|1/a|km)\s*[\])]")
-_RUNS_OVER = re.compile(rf"(?:{OTHER_AXES})\s*[\[(]\s*(?:s|secs?|seconds?|ms|hz|km|g|sn|с|сек|秒)\s*[\])]")
+_SHORT_SPECTRAL = pattern(r"\s*(?:P?SA|S[aedv]|PSa|PSV|RSA|Se)(?=$|[\s\[(_,])(?!\w)")
+_RATES = pattern(r"[^\W_]*\s*[\[(]\s*(?:hz|1/s|rad/s|1/yr|1/a|km)\s*[\])]")
+_RUNS_OVER = pattern(rf"(?:{OTHER_AXES})\s*[\[(]\s*(?:s|secs?|seconds?|ms|hz|km|g|sn|с|сек|秒)\s*[\])]")
 # No names of columns.
-_SENTENCE = re.compile(r"(?:or|and|in|of|at|und|oder|et|ou|y|o|e|ve|veya|и|или|και|the|a\b(?=\s))")
-_PARTING = (re.compile(r"\s*[;\t|]\s*"), re.compile(r"\s*,\s*"), re.compile(r"\s*[,;\t|]\s*|\s{2,}"))
+_SENTENCE = pattern(r"(?:or|and|in|of|at|und|oder|et|ou|y|o|e|ve|veya|и|или|και|the|a\b(?=\s))")
+_PARTING = (pattern(r"\s*[;\t|]\s*"), pattern(r"\s*,\s*"), pattern(r"\s*[,;\t|]\s*|\s{2,}"))
 # A number by itself makes a sentence of a name; 5 % of damping does not.
-_NUMBERED = re.compile(r"(?<![\w.])\d+(?:[.,]\d+)?(?![\w%])(?!\s*%)")
+_NUMBERED = pattern(r"(?<![\w.])\d+(?:[.,]\d+)?(?![\w%])(?!\s*%)")
 # A value with its unit, not the unit of the data.
-_VALUED = re.compile(r"[\[(][^\])]*[\])]\s*[:=]?\s*[-+]?\d")
-_LABEL = re.compile(r"\s*(?:columns?|fields|spalten|colonnes|columnas|colonne|colunas|sutunlar)\s*[:=]\s*")
+_VALUED = pattern(r"[\[(][^\])]*[\])]\s*[:=]?\s*[-+]?\d")
+_LABEL = pattern(r"\s*(?:columns?|fields|spalten|colonnes|columnas|colonne|colunas|sutunlar)\s*[:=]\s*")
 # Signs that are no word of a name.
 _LONGEST_NAME, _LAST_LINES = 4, 6
 
@@ -72,7 +73,7 @@ _LONGEST_NAME, _LAST_LINES = 4, 6
 def units_in(text: str) -> set[str]:
     """Return the units of acceleration that a text names; what one g is worth is none."""
     bare = _ONE_G.sub("", folded(text))
-    return {unit for unit, pattern in _PATTERNS if pattern.search(bare)}
+    return {unit for unit, named in _PATTERNS if named.search(bare)}
 
 
 def units_of(header: list[str]) -> set[str]:

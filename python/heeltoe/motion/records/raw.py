@@ -1,4 +1,4 @@
-"""What a reader returns: numbers as they stand in the file, with what the file says about them."""
+"""Raw record of a reader: numbers as they stand in the file, with the statements of the file about them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,12 @@ from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import unglued
 from heeltoe.motion.records.stated import Written
 from heeltoe.units.parse import acceleration_unit
+from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
+
+# Doubts about a record whose numbers differ from those that its header states.
+COUNT = "states {stated:g} values and has {found:d}: all of them are used"
+PEAK = "states a peak of {stated:g} and has {found:.6g}: what it has is used"
 
 # A last line is cut off, or a first value counts as a header; more values than these, or this share, are neither.
 _FEW, _FAR_COUNT = 8, 0.05
@@ -142,7 +147,12 @@ def stated(text: str) -> float | None:
 
 def breaks_off(name: str) -> Notice:
     """Return the warning of a file that ends too early."""
-    return Notice("record-doubtful", name=name, doubt="breaks off before its end: all behind this channel is missing")
+    return doubtful(name, "breaks off before its end: all behind this channel is missing")
+
+
+def doubtful(name: str, doubt: str, **quantities: object) -> Notice:
+    """Return the warning that a record is doubtful, by a template of the quantities."""
+    return Notice("record-doubtful", name=name, doubt=Sentence.of(doubt, **quantities))
 
 
 def check_series(
@@ -166,7 +176,7 @@ def counted(values: Floats, stated: float, name: str) -> tuple[Notice, ...]:
         return ()
     if not abs(values.size - stated) <= max(_FEW, _FAR_COUNT * max(values.size, stated)):
         raise InputError("record-count-far", name, values.size, stated=f"{stated:g}")
-    return (Notice("record-count", name=name, stated=stated, found=values.size),)
+    return (doubtful(name, COUNT, stated=stated, found=values.size),)
 
 
 def peaked(values: Floats, stated: str, name: str, share: float = 1e-3) -> tuple[Notice, ...]:
@@ -189,7 +199,7 @@ def peaked(values: Floats, stated: str, name: str, share: float = 1e-3) -> tuple
     # A value that is not a number is refused later, by its place.
     if not abs(peak_here - peak) > last_digit + share * peak:
         return ()
-    return (Notice("record-peak", name=name, stated=peak, found=peak_here),)
+    return (doubtful(name, PEAK, stated=peak, found=peak_here),)
 
 
 def word_of_unit(word: str) -> str | None:

@@ -14,9 +14,10 @@ from typing import Any
 
 import numpy as np
 
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
-from heeltoe.motion.records.raw import RawRecord, peaked
+from heeltoe.motion.records.raw import RawRecord, doubtful, peaked
 from heeltoe.warnings.notice import Notice
 
 _MINISEED = re.compile(rb"\d{6}[DRQM][ \0]")
@@ -29,7 +30,7 @@ _LARGEST_XML, _MOST_XML = 20_000_000, 500
 _STATION = slice(8, 13)
 # A sensor within so much of upright, or of level, is that [deg].
 _UPRIGHT, _LEVEL = 80.0, 10.0
-_ACCELERATION = re.compile(r"(?P<unit>n|u|m|c)?m/(?:s\*\*2|s\^2|s/s|s2|sec\*\*2)", re.IGNORECASE)
+_ACCELERATION = pattern(r"(?P<unit>n|u|m|c)?m/(?:s\*\*2|s\^2|s/s|s2|sec\*\*2)", re.IGNORECASE)
 _PARTS = {"": 1.0, "c": 1e-2, "m": 1e-3, "u": 1e-6, "n": 1e-9}
 
 
@@ -99,7 +100,12 @@ def read(data: bytes, name: str, stations: list[bytes]) -> list[RawRecord]:
             raise InputError("record-header", name, "channel") from None
         # The sums of a packed block do not come out, or bytes belong to no block: its numbers are not those recorded.
         if damage := next((doubt for doubt in doubts if "mseed" in type(doubt.message).__module__), None):
-            raise InputError("record-damaged", name, reason=_first_sentence(str(damage.message)))
+            raise InputError(
+                "source-unreadable",
+                name,
+                reason=_first_sentence(str(damage.message)),
+                expected="the record, downloaded again",
+            )
         ids = [trace.id for trace in stream]
         twice = next((channel for channel in ids if ids.count(channel) > 1), None)
         if twice is not None:
@@ -110,13 +116,13 @@ def read(data: bytes, name: str, stations: list[bytes]) -> list[RawRecord]:
 
 
 def _said(doubts: list[warnings.WarningMessage], name: str) -> tuple[Notice, ...]:
-    """Return what the reader has warned of, but for what it says of itself and of the step, which is the header's."""
+    """Return the warnings of the reader, except those about itself and about the step, which the header states."""
     texts = [
         _first_sentence(str(doubt.message))
         for doubt in doubts
         if issubclass(doubt.category, UserWarning) and "microsecond precision" not in str(doubt.message)
     ]
-    return tuple(Notice("record-reader-warns", name=name, text=text) for text in dict.fromkeys(texts))
+    return tuple(doubtful(name, "has a warning by its reader: {text}", text=text) for text in dict.fromkeys(texts))
 
 
 def _first_sentence(text: str) -> str:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.quantities import units_in
 from heeltoe.motion.records.words import COUNT, DISPLACEMENT, DURATION, PEAK, RATE, STEP, VELOCITY, folded
@@ -17,35 +18,35 @@ _UNIT = r"\s*([\[(]?\s*[%a-z\u0370-\u04ff\u3000-\u9fff][\w/^*²%-]*(?:\s*(?:/|pe
 
 
 def _statement(word: str) -> re.Pattern[str]:
-    """A pattern of what a word states: the unit in brackets behind it, its number, the unit behind that."""
-    return re.compile(rf"({word}){_BRACKET}{_LINK}({_NUMBER}){_UNIT}")
+    """A pattern of a statement of a word: the unit in brackets behind it, its number, the unit behind that."""
+    return pattern(rf"({word}){_BRACKET}{_LINK}({_NUMBER}){_UNIT}")
 
 
 _STEPS, _RATES, _COUNTS, _DURATIONS, _PEAKS = map(_statement, (STEP, RATE, COUNT, DURATION, PEAK))
 # A bare word of a sentence that these are too, unless a colon or an equals sign parts it from its number.
-_LOOSE = re.compile(
+_LOOSE = pattern(
     r"step|interval\w*|pas|paso|passo|βημα|шаг|anzahl|werte|punkte|count|sampling|points|samples|data"
     r"|delta|every|alle|takt|chaque|(?:a )?cada|ogni|her|ανα|через|毎|每"
 )
 # "3000 points at 0.01 sec", "equally spaced at .02 sec", "200 samples/s".
-_NUMBER_OF = re.compile(
+_NUMBER_OF = pattern(
     rf"({_NUMBER})\s*(?:data\s*)?(?:points|pts|samples|values|werte|punkte|valeurs|datos|puntos|valori|punti|pontos|veri"
     r"|σημεια|τιμες|точек|значений|点|個)(?!\s*/)(?![\w])"
 )
-_SPACED = re.compile(
+_SPACED = pattern(
     rf"(?:spaced|interval\w*|step\w*|points|samples|values|data)\s+(?:at|of)(?:\s+intervals?\s+of)?\s+({_NUMBER})\s*"
     r"(s|secs?|seconds?|ms|msecs?)(?![\w/])"
 )
-_SAMPLES_A_SECOND = re.compile(
+_SAMPLES_A_SECOND = pattern(
     rf"({_NUMBER})\s*(?:samples?|points|muestras|campioni|amostras|werte|ornek)\s*(?:/|per\s+|por\s+|pro\s+)\s*s"
 )
 # Words beside a length or a peak of a part of the motion, or of another one.
-_OTHER_TIMES = re.compile(r"signif|5\s*-\s*95|5-75|d5|bracket|strong|pre-?event|husid|rise|rupture|fault|source")
-_RAW = re.compile(r"\braw\b|uncor|before|original|unscaled|vertical|brut|roh|crudo|target|hedef|ziel|cible|objetivo")
+_OTHER_TIMES = pattern(r"signif|5\s*-\s*95|5-75|d5|bracket|strong|pre-?event|husid|rise|rupture|fault|source")
+_RAW = pattern(r"\braw\b|uncor|before|original|unscaled|vertical|brut|roh|crudo|target|hedef|ziel|cible|objetivo")
 # Two statements of one step: 0.008 s and 128 Hz.
 _NEAR = 0.05
 # Words right before another that make it one of another thing.
-_OF_ANOTHER = re.compile(r"(?:-|\b(?:original|raw|old|former|uncorrected|before)\s*)$")
+_OF_ANOTHER = pattern(r"(?:-|\b(?:original|raw|old|former|uncorrected|before)\s*)$")
 _SECONDS = {
     r"s|secs?|seconds?|sn|saniye|seg|segundos?|sek(?:unden?)?|secondi|secondes?|с|сек|δευτ?|δ|秒|сек": 1.0,
     r"ms|msecs?|milliseconds?|millisekunden?|мс|ミリ秒|毫秒|msn": 1e-3,
@@ -62,14 +63,14 @@ IN_A_SENTENCE = "in a sentence"
 
 @dataclass(frozen=True)
 class Written:
-    """A number as it is written: its value, how far it may be from what was meant, and the unit beside it."""
+    """A number as written: its value, its rounding, and the unit beside it."""
 
     value: float
     rounding: float
     unit: str = ""
 
     def agrees(self, other: float, share: float = 0.0, more: float = 0.0) -> bool:
-        """Whether another number is this one, but for its rounding, a share of it, and so much more."""
+        """Whether another number equals this one within its rounding, a share of it, and `more`."""
         return abs(self.value - other) <= self.rounding + share * abs(self.value) + more
 
 

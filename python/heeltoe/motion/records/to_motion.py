@@ -6,16 +6,18 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.motion.records.raw import RawRecord
+from heeltoe.motion.records import HeaderFactor
+from heeltoe.motion.records.raw import PEAK, RawRecord, doubtful
 from heeltoe.motion.records.stated import Written
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
+from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
 
 # Beyond these the numbers are no record in any unit, and displacements would overflow.
@@ -23,8 +25,8 @@ _LARGEST_VALUE, _LARGEST_GAP = 1e12, 1e4
 # No instrument for strong motion is slower [s].
 _LONGEST_STEP = 1.0
 # What stands for a missing value: nines alone, and far from all that was measured.
-_NINES, _FAR = re.compile(r"9{3,}(?:\.9*0*)?"), 1.5
-_ENDING = re.compile(r"\.(?:ns|ew|ud)[12]?", re.IGNORECASE)
+_NINES, _FAR = pattern(r"9{3,}(?:\.9*0*)?"), 1.5
+_ENDING = pattern(r"\.(?:ns|ew|ud)[12]?", re.IGNORECASE)
 # A record of more rows than these, nearly all of them a step apart within so much of it, lacks some where two are
 # farther apart than this many steps.
 _FEW, _EVEN, _MOSTLY, _LACKING = 20, 0.02, 0.9, 2.5
@@ -45,15 +47,10 @@ _IN_ONE_G_TOO = {"%g": 100.0}
 _SAME, _FAR_PEAK, _FAR_DURATION = 1e-3, 0.05, 0.01
 
 
-#: Use of the factors in headers of several files: multiply by them, divide by them, or leave values as they
-#: are that contain them.
-HeaderFactor = Literal["multiply", "divide", "contain"]
-
-
 @dataclass(frozen=True)
 class Options:
-    """What the caller says of a record; see :func:`heeltoe.motion.records.read_record`. What is meant for `several`
-    files holds for those that do not state it themselves."""
+    """Options of the caller for a record; see :func:`heeltoe.motion.records.read.read_record`. Options for `several`
+    files hold for those that do not state the value themselves."""
 
     unit: str | None = None
     time_step: float | None = None
@@ -85,7 +82,7 @@ def to_motion(raw: RawRecord, name: str, channels: int, options: Options) -> Gro
         Where file and caller contradict each other, or neither states what is needed.
     """
     if raw.values.size < 2:
-        raise InputError("motion-short", name, raw.values.size)
+        raise InputError("too-few", name, f"{raw.values.size} samples", least="two")
     if not np.isfinite(raw.values).all():
         bad = int(np.flatnonzero(~np.isfinite(raw.values))[0])
         raise InputError("motion-not-finite", name, str(raw.values[bad]), number=bad + 1)
@@ -127,7 +124,7 @@ def _check_markers(raw: RawRecord, name: str) -> None:
 
 
 def _check_rows(time: Floats, step: float, name: str) -> None:
-    """Refuse a record in equal steps that lacks some: a straight line would stand for what was measured."""
+    """Refuse a record in equal steps with missing rows: a straight line would replace measured values."""
     steps = np.diff(time)
     even = np.abs(steps - step) <= _EVEN * step
     if time.size <= _FEW or even.mean() < _MOSTLY:
@@ -141,7 +138,7 @@ def _check_rows(time: Floats, step: float, name: str) -> None:
 
 
 def _factor(raw: RawRecord, name: str, options: Options) -> tuple[float, tuple[str, ...]]:
-    """The factor of the values, which the user says where the file has one, and what is to be said of it."""
+    """The factor of the values, which the user chooses where the file has one, and the notes on it."""
     field = f"{options.field}.factor"
     if options.factor is None:
         if raw.factor is not None:
@@ -154,7 +151,9 @@ def _factor(raw: RawRecord, name: str, options: Options) -> tuple[float, tuple[s
         chosen = {"multiply": raw.factor, "divide": 1.0 / raw.factor, "contain": 1.0}[options.factor]
         return chosen, (f"values times {chosen:g}, by the factor {raw.factor:g} of its header",)
     if raw.factor is None:
-        raise InputError("record-factor-none", field, f"{options.factor:g}", name=name)
+        raise InputError(
+            "option-foreign", field, f"{options.factor:g}", owner=f"{name}, whose header has no factor", remedy=""
+        )
     # A sensitivity is what to divide by.
     allowed = (1.0, raw.factor, 1.0 / raw.factor)
     if not any(abs(options.factor - one) <= 1e-6 * abs(one) for one in allowed):
@@ -167,7 +166,14 @@ def _check_duration(durations: tuple[Written, ...], time: Floats, name: str) -> 
     length = float(time[-1] - time[0])
     step = length / (time.size - 1)
     if durations and not any(stated.agrees(length, _FAR_DURATION, 2.0 * step) for stated in durations):
-        raise InputError("record-duration", name, f"{length:.6g} s", stated=f"{durations[0].value:g} s")
+        raise InputError(
+            "record-states",
+            name,
+            f"{length:.6g} s",
+            found="lasts",
+            stated=f"{durations[0].value:g} s",
+            doubtful="its time step",
+        )
 
 
 def _held_peak(
@@ -194,8 +200,15 @@ def _held_peak(
         return ()
     # A look takes a unit that the user gives or it assumes, and says what does not fit.
     if shares[stated] > _FAR_PEAK and not (assumed and options.assume):
-        raise InputError("record-peak-far", name, f"{peak:.4g}", stated=f"{stated.value:g} {stated.unit}".strip())
-    return (Notice("record-peak", name=name, stated=stated.value, found=peak),)
+        raise InputError(
+            "record-states",
+            name,
+            f"{peak:.4g} in its own unit",
+            found="peaks at",
+            stated=f"{stated.value:g} {stated.unit}".strip(),
+            doubtful="its unit, its columns",
+        )
+    return (doubtful(name, PEAK, stated=stated.value, found=peak),)
 
 
 def _unit(raw: RawRecord, name: str, peak: float, options: Options) -> tuple[str, str, tuple[Notice, ...]]:
@@ -208,7 +221,7 @@ def _unit(raw: RawRecord, name: str, peak: float, options: Options) -> tuple[str
         and not options.several
         and _si(options.unit, field, options) not in [_si(unit, name, options) for unit in stated]
     ):
-        raise InputError("record-unit-conflict", field, options.unit, stated=" and ".join(stated), name=name)
+        raise InputError("stated-otherwise", field, options.unit, name=name, stated=" and ".join(stated))
     if raw.unit:
         return raw.unit, raw.unit, ()
     if options.unit:
@@ -218,7 +231,7 @@ def _unit(raw: RawRecord, name: str, peak: float, options: Options) -> tuple[str
         return (
             likely,
             f"{likely} (assumed)",
-            (Notice("record-unit-assumed", field=field, name=name, unit=likely),),
+            (Notice("record-assumed", field=field, name=name, what="unit", assumed=likely),),
         )
     possible = (
         stated
@@ -249,14 +262,24 @@ def _time(raw: RawRecord, name: str, options: Options) -> tuple[Floats, tuple[st
     warnings: tuple[Notice, ...] = ()
     if step is None and options.assume:
         step = _step_of_duration(raw) or _LIKELY_STEP
-        warnings = (Notice("record-step-assumed", field=field, name=name, step_s=step),)
+        warnings = (
+            Notice(
+                "record-assumed",
+                field=field,
+                name=name,
+                what="time step",
+                assumed=Sentence.of("{step_s:g s}", step_s=step),
+            ),
+        )
     if step is None:
         raise InputError(
             "record-counts-samples" if raw.counts_samples else "record-step-missing", name, step_field=field
         )
     given = None if options.several else options.time_step
     if raw.time_step and given and abs(raw.time_step - given) > 1e-9 * given:
-        raise InputError("record-step-conflict", field, f"{options.time_step:g} s", stated=raw.time_step)
+        raise InputError(
+            "stated-otherwise", field, f"{options.time_step:g} s", name="the file", stated=f"{raw.time_step} s"
+        )
     if not 1e-6 <= step <= _LONGEST_STEP:
         raise InputError("record-step", name, f"{step:g} s")
     return np.arange(raw.values.size, dtype=np.float64) * step, (), warnings
@@ -287,7 +310,7 @@ def _moments(time: Floats, stated: float | None, name: str, options: Options) ->
     field = f"{options.field}.time_step"
     given = None if options.several else options.time_step
     if given and not any(abs(found - given) <= 0.01 * found for found in (middle, mean)):
-        raise InputError("record-step-conflict", field, f"{given:g} s", stated=f"{mean:.6g}")
+        raise InputError("stated-otherwise", field, f"{given:g} s", name="the file", stated=f"{mean:.6g} s")
     if done:
         return even, done
     _check_rows(time, middle, name)
@@ -297,7 +320,7 @@ def _moments(time: Floats, stated: float | None, name: str, options: Options) ->
 
 
 def _evened(time: Floats, stated: float | None) -> tuple[Floats, tuple[str, ...]]:
-    """Return moments in equal steps, and a word on it, where these are such moments rounded; else as they are.
+    """Return moments in equal steps, with a note, where these are such moments rounded; else unchanged.
 
     Rounding moves each moment by half of its last digit at most; of a record in unequal steps, or one that lacks rows,
     the moments walk away from any line by more.

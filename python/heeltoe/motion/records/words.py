@@ -6,6 +6,8 @@ from __future__ import annotations
 import re
 import unicodedata
 
+from heeltoe.base.pattern import pattern
+
 _LETTERS = str.maketrans({"ı": "i", "ς": "σ", "−": "-", "–": "-", "·": " ", "μ": "u", "µ": "u", "，": ",", "：": ":"})
 
 
@@ -139,7 +141,7 @@ SPECTRAL = _one_of(
 INDEX = _one_of(
     "no|no.|nr|nr.|n|n°|index|i|k|sample|point|pt|#|row|id|Nummer|numéro|número|numero|sıra|α/α|№|номер|番号|序号|num"
 )
-WAY = re.compile(
+WAY = pattern(
     folded(
         r"(?:[nsewo]|[ns][ewo]|[ns]-?[ns]|[ew]-?[ew]|eo|n-s|e-w|u-?d|[ns]\s*\d{1,3}\s*[ew]?|ns|ew|ud|z|up|down|dwn|dn"
         r"|ver|vert|vertical\w*|vertikal\w*|verticale|hor\w*|h[12]|long\w*|tran\w*|radial|[xyzlthvr][123]?"

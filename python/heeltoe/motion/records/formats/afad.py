@@ -11,14 +11,15 @@ from __future__ import annotations
 
 import re
 
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import labelled
 from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, stated, table
 
 FORMAT = "AFAD"
 
-_FIRST = re.compile(r"\s*strong ground motion records of turk", re.IGNORECASE)
-_PEAK = re.compile(rf"\(([NSEWUD]-[NSEWUD])\)\s*({NUMBER})", re.IGNORECASE)
+_FIRST = pattern(r"\s*strong ground motion records of turk", re.IGNORECASE)
+_PEAK = pattern(rf"\(([NSEWUD]-[NSEWUD])\)\s*({NUMBER})", re.IGNORECASE)
 _HEADER_LINES = 40
 
 

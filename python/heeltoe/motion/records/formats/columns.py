@@ -21,6 +21,7 @@ from itertools import pairwise
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import is_data, is_row, parted
 from heeltoe.motion.records.quantities import (
@@ -38,19 +39,19 @@ from heeltoe.motion.records.quantities import (
     units_of,
     without_index,
 )
-from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, real
+from heeltoe.motion.records.raw import COUNT, NUMBER, RawRecord, counted, doubtful, numbers, real
 from heeltoe.motion.records.stated import IN_A_SENTENCE, Stated, read_stated, seconds_in
 from heeltoe.motion.records.words import TIME, folded
 from heeltoe.warnings.notice import Notice
 
 FORMAT = "columns"
 
-_TIME_IN = re.compile(
+_TIME_IN = pattern(
     rf"(?<![/\w])(?:{TIME})\s+(?:in|en|em)\s+([^\W\d]+)|(?<![/\w])(?:{TIME})\s*[\[(]\s*([^\])]{{1,30}}?)\s*[\])]"
     r"(?!\s*[:=]?\s*[-+]?\d)(?!\s*[:=])"
 )
 # A factor beside a table, or one within its unit, as in "x 10 gal" or "g * 1e-3".
-_FACTOR = re.compile(
+_FACTOR = pattern(
     r"\b(?:scale|scaling|multiplication|multiplier|conversion|calibration|amplification)(?:[ _-]?factor)?\s*[:=]\s*"
     rf"({NUMBER})|\bfactor\s*[:=]\s*({NUMBER})|[x×*]\s*(10\s*(?:\^|\*\*|e)?\s*[-+]?\d*)\b",
     re.IGNORECASE,
@@ -64,19 +65,19 @@ _MOSTLY, _EVEN = 0.9, 0.02
 _SAME_STEP = 0.01
 # A line of data is shorter; of a longer one, a part tells what it is.
 _DATA_WIDTH, _MOST_COLUMNS = 4000, 20
-_DECIMAL_COMMA = re.compile(r"\d,\d")
-_BLANK_CELLS = re.compile(r"\s*[-+]?\d+,\d+(?:[eE][-+]?\d+)?(?:\s+[-+]?\d+,\d+(?:[eE][-+]?\d+)?)+\s*")
-_CELL = re.compile(r"\s*[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?\s*")
-_LONE = re.compile(r"([-+]?\d+),(\d+)(?:[eE][-+]?\d+)?")
+_DECIMAL_COMMA = pattern(r"\d,\d")
+_BLANK_CELLS = pattern(r"\s*[-+]?\d+,\d+(?:[eE][-+]?\d+)?(?:\s+[-+]?\d+,\d+(?:[eE][-+]?\d+)?)+\s*")
+_CELL = pattern(r"\s*[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?\s*")
+_LONE = pattern(r"([-+]?\d+),(\d+)(?:[eE][-+]?\d+)?")
 # 1,250 is 1250 to some, and 1.25 to others; 0,250 is clear, since no thousands begin with a zero.
-_THOUSANDS = re.compile(r"\s*[-+]?[1-9]\d{0,2},\d{3}\s*")
-_ABOUT = re.compile(
+_THOUSANDS = pattern(r"\s*[-+]?[1-9]\d{0,2},\d{3}\s*")
+_ABOUT = pattern(
     r"^(event|earthquake|station|site code|component|date|initial time|processing)\s*[:=]\s*(.+)$", re.IGNORECASE
 )
 # A line that a table may begin with, the next one, and numbers that no count has.
-_COUNT_AND_STEP = re.compile(r"(\d{2,9})(?:[\s,;]+(0?\.\d+))?")
-_STEP = re.compile(r"0?\.0*[1-9]\d*")
-_DECIMALS = re.compile(r"[.,]\d|\d[eEdD]")
+_COUNT_AND_STEP = pattern(r"(\d{2,9})(?:[\s,;]+(0?\.\d+))?")
+_STEP = pattern(r"0?\.0*[1-9]\d*")
+_DECIMALS = pattern(r"[.,]\d|\d[eEdD]")
 _CALLED = {"earthquake": "event", "site code": "station", "initial time": "date"}
 
 
@@ -207,7 +208,7 @@ class _Table:
 
 @dataclass(frozen=True)
 class _Clock:
-    """When the values of a file are: their moments [s] or their step [s], and what is to be said of them."""
+    """Times of the values of a file: their moments [s] or their step [s], and the notes on them."""
 
     time: Floats | None
     step: float | None
@@ -223,7 +224,7 @@ def _run_along_rows(
     asked: _Asked,
     header: list[str],
 ) -> bool:
-    """Whether the values run along the rows: said by the user, or by a count and a step of the header."""
+    """Whether the values run along the rows, by the user's word, or by a count and a step of the header."""
     width, rows = widths[0], sum(count > 0 for count in widths)
     name, field = asked.name, asked.field
     if asked.layout is not None:
@@ -333,9 +334,7 @@ def _warnings(stated: Stated, column: Floats, name: str) -> tuple[Notice, ...]:
     # The wrong ones of several are named; small numbers of points in sentences are of something else.
     in_sentences = {count.value for count in stated.counts} if not stated.is_count(column.size) else set()
     others = sorted(labelled | {count for count in in_sentences if count > _FEW})
-    return tuple(
-        Notice("record-count", name=name, stated=other, found=column.size) for other in others if other != column.size
-    )
+    return tuple(doubtful(name, COUNT, stated=other, found=column.size) for other in others if other != column.size)
 
 
 def _about(header: list[str]) -> tuple[dict[str, str], tuple[str, ...]]:
@@ -427,7 +426,7 @@ def _agreed(own: set[str], header: list[str]) -> str | None:
 
 
 def _check_sides(series: list[tuple[Floats, str, str | None]], explained: bool, name: str) -> None:
-    """Refuse numbers of one sign without a word of what they are: the ground shakes to and fro."""
+    """Refuse numbers of one sign whose quantity is not stated: the ground shakes to and fro."""
     for values, _, _ in series:
         if not explained and values.size > _FEW and (values.min() >= 0.0 or values.max() <= 0.0) and values.any():
             raise InputError("record-one-sided", name)

@@ -19,26 +19,37 @@ import re
 from dataclasses import replace
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_line, plain, split_at
-from heeltoe.motion.records.raw import NUMBER, RawRecord, breaks_off, counted, numbers, peaked, real, word_of_unit
+from heeltoe.motion.records.raw import (
+    NUMBER,
+    RawRecord,
+    breaks_off,
+    counted,
+    doubtful,
+    numbers,
+    peaked,
+    real,
+    word_of_unit,
+)
 from heeltoe.warnings.notice import Notice
 
 FORMAT = "COSMOS V2"
 
-_SECTION = re.compile(r"\s*(?:corrected|velocity|displacement)\b.*\(format v *[\d.]+", re.IGNORECASE)
-_SERIES = re.compile(r"\s*(\d+)\s+(acc|vel|dis)\w*\b.*\b(?:pts|points|data)\b", re.IGNORECASE)
-_UNIT = re.compile(r"units?\s*[=:]\s*([a-z][\w/^]*)", re.IGNORECASE)
-_WIDTH = re.compile(r"format\s*[=:]\s*\(\s*\d*\s*[a-z]\s*(\d{1,2})", re.IGNORECASE)
-_SECONDS = re.compile(rf"approx\.?\s+({NUMBER})\s*sec", re.IGNORECASE)
-_REALS = re.compile(r"\s*\d+\s+real-header values follow on\s+(\d{1,3})\s+lines", re.IGNORECASE)
-_END = re.compile(r"\s*(?:/&|end[- ]of[- ]data)", re.IGNORECASE)
-_CHANNEL = re.compile(r"\s*sta chan\s*(\S+?)\s*:\s*([^(]*)", re.IGNORECASE)
-_CODE = re.compile(r"\|\s*<scnl>\s*\w+\.(\w+)\.", re.IGNORECASE)
-_STATION = re.compile(r"\s*statn no:.*\bcode:\s*\S+\s+(.*)", re.IGNORECASE)
-_EVENT = re.compile(r"\s*re?co?rd of\s+(?:(.*?)\bearthquake\s+of\s+)?(.+)", re.IGNORECASE)
-_PROCESSED = re.compile(rf"\s*(processed:.*?)(?:,\s*max\s*=\s*({NUMBER})\s*([a-z][\w/^]*).*)?$", re.IGNORECASE)
-_FILTERED = re.compile(r"\s*record\b.*\bfiltered", re.IGNORECASE)
+_SECTION = pattern(r"\s*(?:corrected|velocity|displacement)\b.*\(format v *[\d.]+", re.IGNORECASE)
+_SERIES = pattern(r"\s*(\d+)\s+(acc|vel|dis)\w*\b.*\b(?:pts|points|data)\b", re.IGNORECASE)
+_UNIT = pattern(r"units?\s*[=:]\s*([a-z][\w/^]*)", re.IGNORECASE)
+_WIDTH = pattern(r"format\s*[=:]\s*\(\s*\d*\s*[a-z]\s*(\d{1,2})", re.IGNORECASE)
+_SECONDS = pattern(rf"approx\.?\s+({NUMBER})\s*sec", re.IGNORECASE)
+_REALS = pattern(r"\s*\d+\s+real-header values follow on\s+(\d{1,3})\s+lines", re.IGNORECASE)
+_END = pattern(r"\s*(?:/&|end[- ]of[- ]data)", re.IGNORECASE)
+_CHANNEL = pattern(r"\s*sta chan\s*(\S+?)\s*:\s*([^(]*)", re.IGNORECASE)
+_CODE = pattern(r"\|\s*<scnl>\s*\w+\.(\w+)\.", re.IGNORECASE)
+_STATION = pattern(r"\s*statn no:.*\bcode:\s*\S+\s+(.*)", re.IGNORECASE)
+_EVENT = pattern(r"\s*re?co?rd of\s+(?:(.*?)\bearthquake\s+of\s+)?(.+)", re.IGNORECASE)
+_PROCESSED = pattern(rf"\s*(processed:.*?)(?:,\s*max\s*=\s*({NUMBER})\s*([a-z][\w/^]*).*)?$", re.IGNORECASE)
+_FILTERED = pattern(r"\s*record\b.*\bfiltered", re.IGNORECASE)
 _LINE = 200
 
 
@@ -127,5 +138,6 @@ def _step(reals: Floats, count: float, announced: str, name: str) -> tuple[float
     for step in stated:
         if abs(count * step - duration) <= 1.0 + 0.01 * duration:
             return step, ()
-    doubt = Notice("record-step-doubtful", name=name, step_s=stated[0], values=count, duration_s=duration)
+    text = "states a step of {step_s:g s}, {values:g} values and {duration_s:g s}: check it"
+    doubt = doubtful(name, text, step_s=stated[0], values=count, duration_s=duration)
     return stated[0], (doubt,)

@@ -13,25 +13,26 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
+from heeltoe.base.pattern import pattern
 from heeltoe.motion.records.lines import find_line, find_match, plain
 from heeltoe.motion.records.raw import NUMBER, RawRecord, breaks_off, check_series, numbers, real, word_of_unit
 from heeltoe.warnings.notice import Notice
 
 FORMAT = "CSMIP V2"
 
-_ACCELERATION = re.compile(
+_ACCELERATION = pattern(
     rf"\s*(\d+) points of acc\w* data equally.spaced at\s+({NUMBER})\s*sec[.,]*\s*(?:\(units:|in)\s*([a-z][\w/^]*)",
     re.IGNORECASE,
 )
-_END = re.compile(r"\s*/&|.*(?:end of data| points of |corrected accelerogram)", re.IGNORECASE)
-_CLOSED = re.compile(r"\s*/&|.*end of data", re.IGNORECASE)
-_FORMAT = re.compile(r"\(\s*\d+\s*[a-z](\d{1,2})\.", re.IGNORECASE)
-_CHANNEL = re.compile(r"\bchan\s*(\d+):\s*(\S+(?: \S+)*)", re.IGNORECASE)
-_FIRST = re.compile(r"\s*corrected accelerogram", re.IGNORECASE)
-_RAW = re.compile(r"\s*uncorrected accelerogram", re.IGNORECASE)
-_PEAK = re.compile(rf"peak\s+acceleration\s*=\s*({NUMBER})\s*([a-z][\w/^]*)", re.IGNORECASE)
-_FILTERED, _PROCESSED = re.compile(r"\s*accelerogram .*filtered", re.IGNORECASE), re.compile(r"processed:\s*\S", re.I)
-_UNNAMED = re.compile(r"re?co?rd of\s+(.+)", re.IGNORECASE)
+_END = pattern(r"\s*/&|.*(?:end of data| points of |corrected accelerogram)", re.IGNORECASE)
+_CLOSED = pattern(r"\s*/&|.*end of data", re.IGNORECASE)
+_FORMAT = pattern(r"\(\s*\d+\s*[a-z](\d{1,2})\.", re.IGNORECASE)
+_CHANNEL = pattern(r"\bchan\s*(\d+):\s*(\S+(?: \S+)*)", re.IGNORECASE)
+_FIRST = pattern(r"\s*corrected accelerogram", re.IGNORECASE)
+_RAW = pattern(r"\s*uncorrected accelerogram", re.IGNORECASE)
+_PEAK = pattern(rf"peak\s+acceleration\s*=\s*({NUMBER})\s*([a-z][\w/^]*)", re.IGNORECASE)
+_FILTERED, _PROCESSED = pattern(r"\s*accelerogram .*filtered", re.IGNORECASE), pattern(r"processed:\s*\S", re.I)
+_UNNAMED = pattern(r"re?co?rd of\s+(.+)", re.IGNORECASE)
 # A header has 45 lines; the format is recognised by the line behind the first one.
 _HEADER_LINES, _WIDTH = 60, 200
 

@@ -10,22 +10,21 @@ from __future__ import annotations
 
 import re
 
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_data, find_text, plain
 from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real, word_of_unit
 
 FORMAT = "CSMNC"
 
-_QUANTITY = re.compile(
+_QUANTITY = pattern(
     r"\s*(un)?(?:corrected|processed)?\s*(acceleration|velocity|displacement)\b.*\bunit:\s*(\S+)", re.IGNORECASE
 )
-_COUNT = re.compile(
-    rf"\s*no\. of points:\s*(\d{{1,9}})\s+equally spaced intervals of:\s*({NUMBER})\s*sec", re.IGNORECASE
-)
-_PEAK = re.compile(rf"\s*peak value:\s*({NUMBER})", re.IGNORECASE)
+_COUNT = pattern(rf"\s*no\. of points:\s*(\d{{1,9}})\s+equally spaced intervals of:\s*({NUMBER})\s*sec", re.IGNORECASE)
+_PEAK = pattern(rf"\s*peak value:\s*({NUMBER})", re.IGNORECASE)
 _COMPONENT, _STATION = (
-    re.compile(r"\s*comp\.\s*(\S+)", re.IGNORECASE),
-    re.compile(r"\s*station:\s*(\S+)", re.IGNORECASE),
+    pattern(r"\s*comp\.\s*(\S+)", re.IGNORECASE),
+    pattern(r"\s*station:\s*(\S+)", re.IGNORECASE),
 )
 _HEADER_LINES = 30
 

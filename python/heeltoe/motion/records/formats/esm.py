@@ -8,8 +8,7 @@ DATA_TYPE: ACCELERATION
 
 from __future__ import annotations
 
-import re
-
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_data, labelled
 from heeltoe.motion.records.raw import RawRecord, check_series, leading, numbers, stated, word_of_unit
@@ -17,7 +16,7 @@ from heeltoe.motion.records.raw import RawRecord, check_series, leading, numbers
 FORMAT = "ESM ASC"
 
 _HEADER_LINES = 80
-_LABEL = re.compile(r"\s*[A-Z][A-Z0-9_/^]*:")
+_LABEL = pattern(r"\s*[A-Z][A-Z0-9_/^]*:")
 
 
 def matches(lines: list[str]) -> bool:
@@ -57,7 +56,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
 
 
 def _processing(header: dict[str, str]) -> list[str]:
-    """What the header says was done, without what it leaves open."""
+    """Processing steps that the header states, without those that it leaves open."""
     low, high = header.get("low_cut_frequency_hz", ""), header.get("high_cut_frequency_hz", "")
     band = f"{header.get('filter_type', '')} {low} to {high} Hz".lower().strip() if low or high else ""
     return [

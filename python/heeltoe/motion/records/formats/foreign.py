@@ -1,9 +1,10 @@
-"""Formats that are told apart but not read, so that they are not misread as plain columns."""
+"""Formats that are recognised but not read, so that they are not misread as plain columns."""
 
 from __future__ import annotations
 
 import re
 
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.raw import RawRecord
 
@@ -13,11 +14,11 @@ FORMAT = ""
 _SIGNS = (
     (
         "COSMOS V0 or V1 (uncorrected)",
-        re.compile(r"\(format v\s?\d\d\.\d\d with \d+ text lines\)", re.IGNORECASE),
+        pattern(r"\(format v\s?\d\d\.\d\d with \d+ text lines\)", re.IGNORECASE),
     ),
-    ("CSMIP V3 (response spectra)", re.compile(r"\A.*response and fourier amplitude spectra", re.IGNORECASE)),
-    ("CSMIP V3 (response spectra)", re.compile(r"\A.*response spectra\b.*\n.*corrected accelerogram", re.IGNORECASE)),
-    ("CSMIP V1 (uncorrected) or V2, incomplete,", re.compile(r"uncorrected accelerogram data", re.IGNORECASE)),
+    ("CSMIP V3 (response spectra)", pattern(r"\A.*response and fourier amplitude spectra", re.IGNORECASE)),
+    ("CSMIP V3 (response spectra)", pattern(r"\A.*response spectra\b.*\n.*corrected accelerogram", re.IGNORECASE)),
+    ("CSMIP V1 (uncorrected) or V2, incomplete,", pattern(r"uncorrected accelerogram data", re.IGNORECASE)),
 )
 
 

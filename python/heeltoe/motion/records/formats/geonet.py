@@ -14,18 +14,19 @@ from __future__ import annotations
 import math
 import re
 
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_match, find_text, plain, split_at
 from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real
 
 FORMAT = "GeoNet V1A, V2A"
 
-_FIRST = re.compile(r"\s*(un)?corrected accelerogram\s+\d{8}_\d{6}_", re.IGNORECASE)
-_COUNT = re.compile(r"\s*number of points\s+(\d{1,9})\b", re.IGNORECASE)
-_STEP = re.compile(rf"(?:at|intervals of)\s+({NUMBER})\s*s(?:ec)?\b", re.IGNORECASE)
-_SCALE = re.compile(rf"raw readings in units of\s+({NUMBER})\s*mm/s/s", re.IGNORECASE)
-_PEAK = re.compile(rf"\s*acceleration:\s*peak\s+({NUMBER})\s*mm/s/s", re.IGNORECASE)
-_COMPONENT = re.compile(r"\s*component\s+(\S+)", re.IGNORECASE)
+_FIRST = pattern(r"\s*(un)?corrected accelerogram\s+\d{8}_\d{6}_", re.IGNORECASE)
+_COUNT = pattern(r"\s*number of points\s+(\d{1,9})\b", re.IGNORECASE)
+_STEP = pattern(rf"(?:at|intervals of)\s+({NUMBER})\s*s(?:ec)?\b", re.IGNORECASE)
+_SCALE = pattern(rf"raw readings in units of\s+({NUMBER})\s*mm/s/s", re.IGNORECASE)
+_PEAK = pattern(rf"\s*acceleration:\s*peak\s+({NUMBER})\s*mm/s/s", re.IGNORECASE)
+_COMPONENT = pattern(r"\s*component\s+(\S+)", re.IGNORECASE)
 _TEXT, _BLOCK, _ROW, _WIDTH = 16, 10, 10, 8
 
 

@@ -16,10 +16,10 @@ import re
 
 import numpy as np
 
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_data
-from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real
-from heeltoe.warnings.notice import Notice
+from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, doubtful, numbers, real
 
 FORMAT = "K-NET"
 
@@ -29,7 +29,7 @@ _BOREHOLE = (
     "analysis uses it as the motion at the surface of the rock"
 )
 _SIGNS = ("origin time", "scale factor")
-_SCALE = re.compile(rf"({NUMBER})\s*\(gal\)\s*/\s*({NUMBER})", re.IGNORECASE)
+_SCALE = pattern(rf"({NUMBER})\s*\(gal\)\s*/\s*({NUMBER})", re.IGNORECASE)
 # A sensor of KiK-net in the borehole, and one at the surface above it.
 _KIKNET = {
     "1": "N-S borehole",
@@ -56,7 +56,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         raise InputError("record-header", name, "scale factor")
     counts = numbers(lines[first:], name, first + 1)
     if counts.size == 0:
-        raise InputError("motion-short", name, 0)
+        raise InputError("too-few", name, "0 samples", least="two")
     with np.errstate(over="ignore", invalid="ignore"):
         values = counts * (real(scale[1]) / real(scale[2]))
         offset = float(values.mean())
@@ -70,7 +70,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     # Rounding of the mean, and of the counts.
     warnings = check_series(values, name, count, peak[0] if peak else "", share=0.01)
     if "borehole" in _KIKNET.get(header.get("dir.", ""), ""):
-        warnings += (Notice("record-doubtful", name=name, doubt=_BOREHOLE),)
+        warnings += (doubtful(name, _BOREHOLE),)
     record = RawRecord(
         values,
         time_step=1.0 / rate if rate > 0.0 else None,

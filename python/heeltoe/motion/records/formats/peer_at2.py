@@ -13,16 +13,16 @@ from __future__ import annotations
 
 import re
 
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import unglued
-from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, real, word_of_unit
-from heeltoe.warnings.notice import Notice
+from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, doubtful, numbers, real, word_of_unit
 
 FORMAT = "PEER AT2"
 
 _COUNTS = (
-    re.compile(rf"NPTS\s*=\s*({NUMBER})\s*,?\s*DT\s*=\s*({NUMBER})", re.IGNORECASE),
-    re.compile(rf"^\s*({NUMBER})\s*,?\s+({NUMBER})\s*,?\s*NPTS\s*,\s*DT", re.IGNORECASE),
+    pattern(rf"NPTS\s*=\s*({NUMBER})\s*,?\s*DT\s*=\s*({NUMBER})", re.IGNORECASE),
+    pattern(rf"^\s*({NUMBER})\s*,?\s+({NUMBER})\s*,?\s*NPTS\s*,\s*DT", re.IGNORECASE),
 )
 # The line with the counts is the fourth; some distributors add or drop a line.
 _HEADER_LINES, _HEADER_WIDTH = 12, 400
@@ -30,8 +30,8 @@ _HEADER_LINES, _HEADER_WIDTH = 12, 400
 
 def _counts(lines: list[str]) -> tuple[int, str, str] | None:
     for k, line in enumerate(lines[:_HEADER_LINES]):
-        for pattern in _COUNTS:
-            if match := pattern.search(line[:_HEADER_WIDTH]):
+        for count in _COUNTS:
+            if match := count.search(line[:_HEADER_WIDTH]):
                 return k, match[1], match[2]
     return None
 
@@ -54,9 +54,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     values = numbers(lines[k + 1 :], name, k + 2)
     warnings = [*counted(values, real(count_text), name)]
     if _torn(lines[k + 1 :]):
-        warnings.append(
-            Notice("record-doubtful", name=name, doubt="ends in the middle of a number: its last value may be wrong")
-        )
+        warnings.append(doubtful(name, "ends in the middle of a number: its last value may be wrong"))
     record = RawRecord(
         values,
         time_step=real(step_text),

@@ -16,6 +16,7 @@ import re
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_data, labelled
 from heeltoe.motion.records.raw import NUMBER, RawRecord, leading, peaked, real, stated, table, word_of_unit
@@ -24,8 +25,8 @@ from heeltoe.warnings.notice import Notice
 
 FORMAT = "CWA, CWB (Taiwan)"
 
-_COLUMN = re.compile(r"\b([UNEVZ])\s*\(([+-])\)", re.IGNORECASE)
-_PEAKS = re.compile(rf"#amplitudemax\.?\s*([UNEVZ])\s*:\s*({NUMBER})\s*~\s*({NUMBER})", re.IGNORECASE)
+_COLUMN = pattern(r"\b([UNEVZ])\s*\(([+-])\)", re.IGNORECASE)
+_PEAKS = pattern(rf"#amplitudemax\.?\s*([UNEVZ])\s*:\s*({NUMBER})\s*~\s*({NUMBER})", re.IGNORECASE)
 _HEADER_LINES = 60
 _WAYS = {"U": "up", "V": "up", "Z": "up", "N": "north", "E": "east"}
 
@@ -49,7 +50,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     first = find_data(lines, last + 1)
     values = table(lines[first:], name, first + 1, len(columns) + timed)
     if values.shape[1] == 0:
-        raise InputError("motion-short", name, 0)
+        raise InputError("too-few", name, "0 samples", least="two")
     if timed and values.shape[1] > 1:
         _check_step(values[0], 1.0 / rate, name)
     length = number(leading(header.get("#recordlength(sec)", "")))

@@ -12,13 +12,14 @@ from __future__ import annotations
 
 import re
 
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_data, labelled, parted
 from heeltoe.motion.records.raw import RawRecord, check_series, leading, stated, table
 
 FORMAT = "UNAM ASA"
 
-_CHANNELS = re.compile(r"\s*canal-?\s*1\b", re.IGNORECASE)
+_CHANNELS = pattern(r"\s*canal-?\s*1\b", re.IGNORECASE)
 _HEADER_LINES = 160
 
 
@@ -73,6 +74,6 @@ def _ways(below: str, header: dict[str, str], width: int) -> list[str]:
 
 
 def _parts(header: dict[str, str], label: str) -> list[str]:
-    """What the header says of each channel, the first six and the rest one behind the other."""
+    """Header lines of each channel, the first six and the rest one behind the other."""
     texts = [value for key, value in header.items() if key.startswith(label) and re.search(r"c\d+ ?- ?c\d+", key)]
     return [part.strip() for text in texts for part in text.split("/")[1:] if part.strip()]

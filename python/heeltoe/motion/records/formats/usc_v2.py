@@ -10,20 +10,21 @@ from __future__ import annotations
 
 import re
 
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_text, plain, split_at
 from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real, word_of_unit
 
 FORMAT = "USC V2"
 
-_FIRST = re.compile(r"\s*corrected accelerogram\b", re.IGNORECASE)
-_SERIES = re.compile(
+_FIRST = pattern(r"\s*corrected accelerogram\b", re.IGNORECASE)
+_SERIES = pattern(
     rf"\s*(\d+) points of (acc|vel|dis)\w* data equally spaced at\s+({NUMBER})\s*sec\W+in units\s+(\S+)", re.IGNORECASE
 )
-_PEAK = re.compile(rf"\s*peak acceleration\s*=\s*({NUMBER})\s*cms?/sec/sec", re.IGNORECASE)
-_COMPONENT = re.compile(r"\s*comp\s+(\S+)\s*\d*\s*$", re.IGNORECASE)
-_STATION = re.compile(r"\s*station\s+(usc#\s*\d+)", re.IGNORECASE)
-_FILTERED = re.compile(r"\s*accelerogram is .*filtered.*", re.IGNORECASE)
+_PEAK = pattern(rf"\s*peak acceleration\s*=\s*({NUMBER})\s*cms?/sec/sec", re.IGNORECASE)
+_COMPONENT = pattern(r"\s*comp\s+(\S+)\s*\d*\s*$", re.IGNORECASE)
+_STATION = pattern(r"\s*station\s+(usc#\s*\d+)", re.IGNORECASE)
+_FILTERED = pattern(r"\s*accelerogram is .*filtered.*", re.IGNORECASE)
 _HEADER_LINES, _LINE = 80, 200
 
 

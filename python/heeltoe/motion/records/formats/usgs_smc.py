@@ -12,17 +12,17 @@ import re
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_text, plain
-from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers
-from heeltoe.warnings.notice import Notice
+from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, doubtful, numbers
 
 FORMAT = "USGS SMC"
 
-_FIRST = re.compile(r"\s*\d?\s*((?:un)?corrected accelerogram|velocity|displacement)\s*$", re.IGNORECASE)
-_EVENT = re.compile(r"\s*(\d{4})\s+(\d\d?)\s+(\d\d?)(?:\s+(\d{4}))?\s+(.*)")
-_STATION = re.compile(r"\s*station\s*=\s*(.*?)\s*component\s*=\s*(.*)", re.IGNORECASE)
-_PEAK = re.compile(rf".*\bpk(?:\s+acc)?\s*=\s*({NUMBER})", re.IGNORECASE)
+_FIRST = pattern(r"\s*\d?\s*((?:un)?corrected accelerogram|velocity|displacement)\s*$", re.IGNORECASE)
+_EVENT = pattern(r"\s*(\d{4})\s+(\d\d?)\s+(\d\d?)(?:\s+(\d{4}))?\s+(.*)")
+_STATION = pattern(r"\s*station\s*=\s*(.*?)\s*component\s*=\s*(.*)", re.IGNORECASE)
+_PEAK = pattern(rf".*\bpk(?:\s+acc)?\s*=\s*({NUMBER})", re.IGNORECASE)
 _TEXT, _INTEGERS, _REALS = slice(0, 11), slice(11, 17), slice(17, 27)
 _UNKNOWN = -32768
 # Fewer times than this may grow by chance, and a smaller share of them.
@@ -60,11 +60,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     left = int(values.size - count) if timed and count is not None and 0 < values.size - count <= _ROW else 0
     values = values[: values.size - left]
     pairs = values[: values.size // 2 * 2].reshape(-1, 2)
-    flagged = (
-        (Notice("record-doubtful", name=name, doubt="flags a problem with its data: see its comments"),)
-        if integers[17] == 1
-        else ()
-    )
+    flagged = (doubtful(name, "flags a problem with its data: see its comments"),) if integers[17] == 1 else ()
     # Both numbers of a pair count.
     counts = check_series(values, name, count)
     accelerations = np.ascontiguousarray(pairs[:, 1]) if timed else values

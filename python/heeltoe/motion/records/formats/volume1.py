@@ -20,33 +20,32 @@ import re
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_line, find_match, plain, split_at
 from heeltoe.motion.records.raw import NUMBER, RawRecord, breaks_off, check_series, numbers, real, word_of_unit
 
 FORMAT = "volume 1 (CSMIP, USC, BHRC, RENADIC)"
 
-_BHRC = re.compile(r"\*?\s*vol1ds file", re.IGNORECASE)
-_CSMIP = re.compile(r"\s*uncorrected accelerogram data", re.IGNORECASE)
-_RECORDED = re.compile(r"re?co?rd of\s+(.+)", re.IGNORECASE)
-_USC = re.compile(r".*\bof uncorrected accelerogram data of vol", re.IGNORECASE)
-_EQUAL = re.compile(
+_BHRC = pattern(r"\*?\s*vol1ds file", re.IGNORECASE)
+_CSMIP = pattern(r"\s*uncorrected accelerogram data", re.IGNORECASE)
+_RECORDED = pattern(r"re?co?rd of\s+(.+)", re.IGNORECASE)
+_USC = pattern(r".*\bof uncorrected accelerogram data of vol", re.IGNORECASE)
+_EQUAL = pattern(
     rf"\s*\d{{1,9}}\s+(?:accelerogram points at\s+(?P<rate>{NUMBER})\s*pts/sec\s+in units of"
     rf"|points of accel\w* data equally.spaced at\s+(?P<step>{NUMBER})\s*sec[.,]*\s*\(?units:?)"
     r"\s+(?P<unit>[a-z][\w/^]*)",
     re.IGNORECASE,
 )
-_FORMAT = re.compile(r"\(\s*\d+\s*[a-z](\d{1,2})\.", re.IGNORECASE)
-_COUNT = re.compile(
-    rf"\s*no\. of points\s*=\s*(\d{{1,9}})\s+(?:duration|record length)\s*=\s*({NUMBER})", re.IGNORECASE
-)
-_UNITS = re.compile(r"\s*units\b.*?\b(?:sec\w*\s+and|is)\s+g\b(?:\s*(/10)\b|(?!\s*/))", re.IGNORECASE)
-_PEAK = re.compile(rf"max\s*=\s*({NUMBER})\s*g\b", re.IGNORECASE)
-_WAY = re.compile(
+_FORMAT = pattern(r"\(\s*\d+\s*[a-z](\d{1,2})\.", re.IGNORECASE)
+_COUNT = pattern(rf"\s*no\. of points\s*=\s*(\d{{1,9}})\s+(?:duration|record length)\s*=\s*({NUMBER})", re.IGNORECASE)
+_UNITS = pattern(r"\s*units\b.*?\b(?:sec\w*\s+and|is)\s+g\b(?:\s*(/10)\b|(?!\s*/))", re.IGNORECASE)
+_PEAK = pattern(rf"max\s*=\s*({NUMBER})\s*g\b", re.IGNORECASE)
+_WAY = pattern(
     r"\s*(?:comp\s+([LVT])\s*\d*\s*$|chan\s*(\d+):\s*(\S+(?: deg\b)?)|comp\s+([A-Z]\w*)(?:\s+\d+)?\s*$)", re.IGNORECASE
 )
-_AZIMUTH = re.compile(r"azimuth\s+l\s+(\d{1,3})\s+t\s+(\d{1,3})", re.IGNORECASE)
-_END = re.compile(r"\s*/&")
+_AZIMUTH = pattern(r"azimuth\s+l\s+(\d{1,3})\s+t\s+(\d{1,3})", re.IGNORECASE)
+_END = pattern(r"\s*/&")
 _TEXT, _NUMBERS, _PAIR = 30, 14, 7
 
 
