@@ -31,7 +31,7 @@ QUAKE = "# units: time [s], acceleration [g]\n" + "".join(
 # What is replaced in the good case (or the record), by what, and words the one line must have.
 EDITS = {
     "negative depth": ('depth = "95 m"', 'depth = "-5 m"', ["reservoir.depth", "-5 m"]),
-    "water far above the crest": ('depth = "95 m"', 'depth = "220 m"', ["reservoir.depth", "220 m", "100 m"]),
+    "water far above the crest": ('depth = "95 m"', 'depth = "220 m"', ["reservoir.depth", "220 m", "200 m"]),
     "unit of the wrong kind": ('depth = "95 m"', 'depth = "95 s"', ["reservoir.depth", "length"]),
     "no unit": ('depth = "95 m"', "depth = 95", ["reservoir.depth", "has no unit"]),
     "unit nobody knows": ('depth = "95 m"', 'depth = "95 furlongz"', ["reservoir.depth", "furlongz"]),

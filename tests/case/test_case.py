@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from heeltoe.case.fields_file import read_fields
 from heeltoe.case.paths import quantity_of
 from heeltoe.case.plausible import PLAUSIBLE
-from heeltoe.case.read import case_schema, read_case, read_fields
+from heeltoe.case.read import case_schema, read_case
 from heeltoe.case.warnings import case_warnings
 from heeltoe.errors.error import InputError
 from heeltoe.units.parse import STANDARD_GRAVITY, Acceleration, parse

@@ -41,7 +41,7 @@ REFUSED = [
     ),
     (
         dam(anchors=[{"distance": "85 m", "prestress": "1 MN/m"}]),
-        "anchors[0].distance: 85 m is beyond the toe: the crack is 80 m wide; give a distance from 0 m to 80 m",
+        "anchors[0].distance: 85 m is out of range; give a value from 0 m to 80 m, the width of the crack",
     ),
     (
         dam(statics={"cohesion": "1 MPa"}),
@@ -69,8 +69,16 @@ REFUSED = [
         'statics.drain_diameter: has no meaning without uplift.pattern = "drained"; give that, or remove this',
     ),
     (
+        dam(motion={"points": [["0 s", "0 g"], ["1 s", "1 g"]], "sign": "recorded", "reverse": True}),
+        'motion.sign: "recorded" contradicts reverse = true; keep one of them',
+    ),
+    (
+        dam(statics={"closed_drains": "linear"}),
+        "statics.closed_drains: has no meaning without drain_diameter; give that, or remove this",
+    ),
+    (
         dam(statics={"flood_depth": "201 m"}),
-        "statics.flood_depth: 201 m is more than twice the height of the dam, 100 m; give a depth up to 200 m",
+        "statics.flood_depth: 201 m is above twice the height of the dam, 200 m; give at most 200 m",
     ),
     (
         dam(uplift={"opening": "1 mm"}),
@@ -90,11 +98,11 @@ REFUSED = [
     ),
     (
         dam(ice={"force": "150 kN/m", "depth": "95 m"}),
-        "ice.depth: 95 m is not within the 95 m of water; give a depth below the surface, up to there",
+        "ice.depth: 95 m is out of range; give a value from 0 m to 95 m, within the water",
     ),
     (
         dam(silt={"depth": "101 m"}),
-        "silt.depth: 101 m is above the crest at 100 m; give a depth between 0 m and 100 m",
+        "silt.depth: 101 m is above the crest, 100 m; give at most 100 m",
     ),
     (
         dam(reservoir={"depth": "95 m", "follows_vertical_motion": True}),
@@ -175,7 +183,7 @@ REFUSED = [
     ),
     (
         dam(section=SECTION | {"neck_height": "101 m"}),
-        "section.neck_height: 101 m is above the crest at 100 m; give a height up to 100 m",
+        "section.neck_height: 101 m is above the crest, 100 m; give at most 100 m",
     ),
     (
         dam(section=polygon([(0, 0), (1, 0), (0, 0)]), reservoir=None),
@@ -188,11 +196,11 @@ REFUSED = [
     ),
     (
         dam(section=polygon([(0, 0), (1, 0), (0, "1e300")])),
-        "section.polygon: 1e+300 m is not the size of a dam; give a section of 1 mm to 10 km",
+        "section.polygon: 1e+300 m is out of range; give a value from 1 mm to 10 km, the size of a dam",
     ),
     (
         dam(crack=CRACK | {"elevation": "100 m"}),
-        "crack.elevation: 100 m is outside the section; give an elevation from 0 m to below 100 m",
+        "crack.elevation: 100 m is out of range; give a value from 0 m to below the crest at 100 m",
     ),
     (
         dam(
@@ -230,11 +238,11 @@ REFUSED = [
     ),
     (
         dam(reservoir={"depth": "220 m"}),
-        "reservoir.depth: 220 m is more than twice the height of the dam, 100 m; give a depth up to 200 m",
+        "reservoir.depth: 220 m is above twice the height of the dam, 200 m; give at most 200 m",
     ),
     (
         dam(tailwater={"depth": "201 m"}),
-        "tailwater.depth: 201 m is more than twice the height of the dam, 100 m; give a depth up to 200 m",
+        "tailwater.depth: 201 m is above twice the height of the dam, 200 m; give at most 200 m",
     ),
     (
         dam(uplift={"extent": 0.5}),
@@ -256,7 +264,7 @@ REFUSED = [
     ),
     (
         dam(motion=PULSE | {"unit": "g"}),
-        "motion.unit: belongs to a motion from a file; remove it, or give file instead of points",
+        "motion.unit: does not belong to a motion given by points; remove it, or give file instead of points",
     ),
     (
         dam(motion=FILE | {"unit": "m"}),
@@ -316,8 +324,8 @@ FILES = [
     (b'title = "..."\nx = {' + b'"a" . ' * 50 + b"a = 1}", "case-file-syntax", "more than 50 parts (at line 2)"),
     (b'{"title": }', "case-file-syntax", "is not valid JSON: "),
     (b'{"a":' * 100_000, "case-file-syntax", "is not valid JSON: "),
-    ('title = "x"'.encode("utf-16"), "case-file-encoding", "is not UTF-8 text; save it as UTF-8"),
-    ('title = "Zürich"'.encode("latin-1"), "case-file-encoding", "is not UTF-8 text; save it as UTF-8"),
+    ('title = "x"'.encode("utf-16"), "source-unreadable", "(it is not UTF-8 text); give a file in UTF-8"),
+    ('title = "Zürich"'.encode("latin-1"), "source-unreadable", "(it is not UTF-8 text); give a file in UTF-8"),
     (b"", "missing-field", "section: is required but missing; "),
     (b"0.1 0.2 0.3\n", "case-file-syntax", "is not valid TOML: "),
 ]
@@ -343,7 +351,7 @@ def test_refused_paths(tmp_path):
 @pytest.mark.parametrize("override", ["crack.friction", "=1", "crack..friction=1", ".=", ""])
 def test_refused_overrides(override):
     with pytest.raises(
-        InputError, match=r"^--set: .* does not set a field; write PATH=VALUE, for example crack\.friction=1\.0$"
+        InputError, match=r"^--set: .* is not a change of a field, PATH=VALUE; write for example crack\.friction=1\.0$"
     ):
         read_case(DAM, [override])
 

@@ -54,11 +54,11 @@ def test_a_change_is_checked_as_a_file_is():
         ({"reservoir": {"depht": "3 m"}}, "unknown-field", 'did you mean "depth"?'),
         ({"reservoir.depth": 95}, "unit-missing", '"95 m"'),
         ({"gravity": 9.81}, "unit-missing", '"9.81 m/s^2"'),
-        ({"reservoir.depth": "220 m"}, "water-above-crest", "twice the height of the dam"),
-        ("crack.friction", "override-form", "PATH=VALUE"),
-        ({"": 1}, "override-form", "PATH=VALUE"),
-        ({3: 1}, "override-form", "PATH=VALUE"),
-        (5, "override-form", "PATH=VALUE"),
+        ({"reservoir.depth": "220 m"}, "above-other", "twice the height of the dam"),
+        ("crack.friction", "wrong-quantity", "PATH=VALUE"),
+        ({"": 1}, "wrong-quantity", "PATH=VALUE"),
+        ({3: 1}, "wrong-quantity", "PATH=VALUE"),
+        (5, "wrong-quantity", "PATH=VALUE"),
     ):
         for changed in (lambda: case.with_(change), lambda: read_case(DAM, change)):  # noqa: B023
             with pytest.raises(InputError) as refused:

@@ -8,8 +8,9 @@ import tomllib
 import pytest
 
 from heeltoe import InputError, read_case, run
+from heeltoe.case.fields_file import read_fields
 from heeltoe.case.paths import value_of
-from heeltoe.case.read import case_schema, read_fields
+from heeltoe.case.read import case_schema
 from heeltoe.case.toml_writer import case_text
 from heeltoe.mechanics.block import build_block, static_state
 from shared.dams import ALL_EXAMPLES, example

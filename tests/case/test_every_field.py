@@ -19,7 +19,7 @@ from shared.record_samples import GAL, csmip
 
 Skip = Callable[[str, list[str]], bool]
 
-SILENT = {"fields-unused", "fields-idle", "restitution-unused", "rotation-unused"}
+SILENT = {"fields-unused", "fields-idle", "value-unused"}
 
 
 def _in_threes(words: list[str]) -> list[str]:

@@ -66,11 +66,11 @@ def test_changes_by_path_reach_the_joints():
 @pytest.mark.parametrize(
     ("changes", "code", "field"),
     [
-        ({"every": "0.2 m"}, "joints-many", "joints.every"),
-        ({"lowest": "29 m"}, "joints-none", "joints.lowest"),
+        ({"every": "0.2 m"}, "too-many", "joints.every"),
+        ({"lowest": "29 m"}, "above-other", "joints.lowest"),
         ({"every": "10 parsnips"}, "unit-unknown", "joints.every"),
         ({"bond": BOND | {"cohesion": "0.1 MPa"}}, "bond-apex", "joints.bond.cohesion"),
-        ({"friction": None}, "friction-missing", "joints.friction"),
+        ({"friction": None}, "missing", "joints.friction"),
         ({"elevation": "3 m"}, "unknown-field", "joints.elevation"),
     ],
 )

@@ -70,7 +70,7 @@ def test_new_case_shows_every_field():
 def test_what_the_new_case_comments_out_is_sound(tmp_path):
     # Every commented field put in force, one at a time: none may be unknown, or have a wrong unit or value.
     # Alone, some have nothing to belong to.
-    fine = {None, "needs-other", "missing-field", "fields-conflict", "option-foreign", "friction-missing"}
+    fine = {None, "needs-other", "missing-field", "fields-conflict", "option-foreign", "missing"}
     # Drawings that are not there.
     fine.add("file-missing")
     # Each law knows some of the fields.

@@ -391,8 +391,8 @@ def test_every_command_says_which_outline_is_the_dam(tmp_path, arguments):
 TRIANGLE = CORNERS[:3]
 TWICE = drawing(CORNERS, CORNERS, layer="")
 REFUSED = [
-    ("section-unit-missing", table(CORNERS, ""), {}),
-    ("section-unit-missing", drawing(CORNERS, unit=0), {}),
+    ("missing", table(CORNERS, ""), {}),
+    ("missing", drawing(CORNERS, unit=0), {}),
     # A dam of 45 m in a template of millimetres is 45 mm high by it; one in millimetres under metres 45 km.
     ("drawing-height", drawing(CORNERS, unit=4), {}),
     ("drawing-height", drawing([(1e3 * x, 1e3 * z) for x, z in CORNERS], unit=6), {}),
@@ -402,11 +402,11 @@ REFUSED = [
     ("section-row", table(CORNERS) + b"1,2,3\n", {}),
     ("section-head", table(CORNERS, "x [m],z [ft]\n"), {}),
     ("section-head", b"name,east,north\na,1,2\n", {}),
-    ("section-file-kind", b"", {}),
-    ("section-file-kind", b"\xff\xfe\x00\x01", {}),
+    ("source-unreadable", b"", {}),
+    ("source-unreadable", b"\xff\xfe\x00\x01", {}),
     ("too-large", table([(float(n), 0.0) for n in range(10_002)]), {}),
     ("too-large", b"1,2\n" * 3_000_000, {}),
-    ("polygon-corners", table(TRIANGLE[:2]), {}),
+    ("too-few", table(TRIANGLE[:2]), {}),
     ("unit-unknown", table(CORNERS, "x [wide],z [wide]\n"), {}),
     ("wrong-quantity", table(CORNERS), {"unit": "kg"}),
     ("wrong-type", table(CORNERS), {"unit": 5}),
@@ -415,9 +415,9 @@ REFUSED = [
     ("drawing-empty", drawing(CORNERS, closed=False), {}),
     ("drawing-layer", drawing(CORNERS), {"layer": "DIKE"}),
     ("drawing-several", TWICE.replace(b"DAM1", b"DAM"), {}),
-    ("drawing-unreadable", drawing(CORNERS)[:2000], {}),
-    ("drawing-unreadable", b"0\nSECTION\n2\nENTITIES\nx\ny\n", {}),
-    ("drawing-unreadable", b"AutoCAD Binary DXF\r\n\x1a\x00" + bytes(500), {}),
+    ("source-unreadable", drawing(CORNERS)[:2000], {}),
+    ("source-unreadable", b"0\nSECTION\n2\nENTITIES\nx\ny\n", {}),
+    ("source-unreadable", b"AutoCAD Binary DXF\r\n\x1a\x00" + bytes(500), {}),
 ]
 
 
@@ -465,7 +465,10 @@ def test_without_the_package(tmp_path, monkeypatch):
         ({"downstream": [["1 m", 0.8]]}, "section.downstream: the elevations"),
         ({"downstream": [["0 m", 0.8], ["0 m", 0.7]]}, "do not ascend"),
         ({"downstream": []}, "section.downstream: the elevations"),
-        ({"upstream": [["0 m", 0.1], ["40 m", 0.0]]}, "section.upstream: 40 m is not below the crest at 40 m"),
+        (
+            {"upstream": [["0 m", 0.1], ["40 m", 0.0]]},
+            "section.upstream: 40 m is out of range; give a value below the crest at 40 m",
+        ),
         ({"upstream": [["0 m", 0.1]], "base_width": "30 m"}, "section.base_width: cannot stand beside"),
         ({"upstream": [["0 m", -1.5]]}, "crosses or touches itself"),
         ({"layer": "DAM", "base_width": "30 m"}, "section.layer: has no meaning without a file"),

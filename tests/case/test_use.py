@@ -183,8 +183,8 @@ def test_every_result_tells_it():
     case = example("koyna", "motion.duration=1s", "flexible.elements_across=2", "flexible.evidence=none")
     assert "fields-unused" in {warning.code for warning in rigid(case).warnings}
     both = run(case, "decoupled,flexible")
-    assert {warning.code for warning in both.warnings} & {"fields-unused", "restitution-unused"} == set()
-    assert {warning.code for warning in both.beside.warnings} & {"fields-unused", "restitution-unused"} == set()
+    assert {warning.code for warning in both.warnings} & {"fields-unused", "value-unused"} == set()
+    assert {warning.code for warning in both.beside.warnings} & {"fields-unused", "value-unused"} == set()
 
 
 def test_pressures_that_an_elastic_dam_does_not_have_are_told():

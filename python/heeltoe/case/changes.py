@@ -6,6 +6,7 @@ import copy
 import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +27,7 @@ Changes = Change | Sequence[Change]
 _SIZES, _DIMENSIONS = ("height", "crest_width"), ("neck_height", "neck_width", "base_width")
 _FACES, _FILE = ("upstream", "downstream"), ("file", "layer", "unit")
 
+_no_change = partial(InputError, "wrong-quantity", kind="a change of a field, PATH=VALUE", example="crack.friction=1.0")
 _OF_A_FILE = tuple(f"motion.{name}" for name in FILE_OPTIONS)
 _COEFFICIENTS = ("crack.friction", "crack.static_friction", "crack.kinetic_friction")
 
@@ -55,6 +57,7 @@ _REPLACES = {
     "crack.friction": ("crack.static_friction", "crack.kinetic_friction", "crack.law"),
     "crack.static_friction": ("crack.friction", "crack.law"),
     "crack.kinetic_friction": ("crack.friction", "crack.law"),
+    "crack.fit": (*_COEFFICIENTS, "crack.law", "crack.band"),
     "crack.law": _COEFFICIENTS,
     "crack.law.name": _COEFFICIENTS,
 }
@@ -177,7 +180,11 @@ def _of_others(path: Sequence[str], value: Any) -> tuple[str, ...]:
     if list(path) != ["uplift", "pattern"]:
         return ()
     gone = [f"uplift.{option}" for option, pattern in UPLIFT_OPTIONS.items() if pattern != value]
-    return (*gone, "uplift.drain_x", "statics.drain_diameter") if value != "drained" else tuple(gone)
+    return (
+        (*gone, "uplift.drain_x", "statics.drain_diameter", "statics.closed_drains")
+        if value != "drained"
+        else tuple(gone)
+    )
 
 
 def _split_all(changes: Changes) -> Iterator[tuple[list[str], Any]]:
@@ -187,7 +194,7 @@ def _split_all(changes: Changes) -> Iterator[tuple[list[str], Any]]:
     elif isinstance(changes, Mapping):
         for name, value in changes.items():
             if not isinstance(name, str) or not all(part.strip() for part in name.split(".")):
-                raise InputError("override-form", "changes", shown(name))
+                raise _no_change("changes", shown(name))
             path = [part.strip() for part in name.split(".")]
             if isinstance(value, Mapping):
                 yield from (([*path, *inner], part) for inner, part in _split_all(value))
@@ -197,14 +204,14 @@ def _split_all(changes: Changes) -> Iterator[tuple[list[str], Any]]:
         for change in changes:
             yield from _split_all(change)
     else:
-        raise InputError("override-form", "changes", shown(changes))
+        raise _no_change("changes", shown(changes))
 
 
 def _split(override: str) -> tuple[list[str], Any]:
     name, equals, text = override.partition("=")
     path = [part.strip() for part in name.split(".")]
     if not equals or not all(path):
-        raise InputError("override-form", "--set", shown(override))
+        raise _no_change("--set", shown(override))
     return path, _value(text.strip())
 
 

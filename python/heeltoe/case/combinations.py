@@ -471,7 +471,7 @@ def check(case: Featured, user: str) -> None:
 
 def supports(case: Featured, user: str) -> bool:
     """Whether a model or table supports all features of a case."""
-    return not any(True for rule in _rules_for(user) for _ in _broken(case, rule))
+    return not any(_broken(case, rule) for rule in _rules_for(user))
 
 
 def misfit(case: Featured, feature: str) -> str:
@@ -487,7 +487,7 @@ def misfit(case: Featured, feature: str) -> str:
 def warned(case: Featured, feature: str, user: str) -> bool:
     """Whether a feature of a case has less effect in a model than its field says, which a warning tells."""
     rules = [rule for rule in RULES if rule.verdict == "warned" and rule.feature == feature and user in rule.users]
-    return any(True for rule in rules for _ in _broken(case, rule))
+    return any(_broken(case, rule) for rule in rules)
 
 
 def unsupported_features(user: str) -> tuple[str, ...]:
@@ -517,14 +517,15 @@ def _unsupported(case: Featured, user: str) -> Iterator[InputError]:
         yield from _errors(case, rule, user if rule.users else "")
 
 
-def _broken(case: Featured, rule: Rule) -> FeatureFields:
-    """Walk the fields with the feature of a rule, where the case has the other one, too."""
+def _broken(case: Featured, rule: Rule) -> list[tuple[str, object]]:
+    """Return the fields with the feature of a rule, where the case has the other one, too."""
     found = list(FEATURES[rule.feature].find(case))
-    if not found:
-        return
-    others = {path.rpartition(".")[0] for path, _ in FEATURES[rule.other].find(case)} if rule.other else set()
-    if not rule.other or others:
-        yield from ((path, value) for path, value in found if not rule.one_crack or path.rpartition(".")[0] in others)
+    if not found or not rule.other:
+        return found
+    others = {path.rpartition(".")[0] for path, _ in FEATURES[rule.other].find(case)}
+    return [
+        (path, value) for path, value in found if others and (not rule.one_crack or path.rpartition(".")[0] in others)
+    ]
 
 
 def _at_another_crack(case: Featured, rule: Rule, path: str) -> float | None:

@@ -153,11 +153,19 @@ class Anchor(Fields):
     def _sound(self) -> Iterator[InputError]:
         ends = [name for name in ANCHOR_ENDS if getattr(self, name) is not None]
         if ends:
-            yield from (InputError("anchor-form", name) for name in ANCHOR_ENDS if name not in ends)
+            yield from (
+                InputError(
+                    "missing", name, remedy="give distance, or head_x, head_elevation, foot_x and foot_elevation"
+                )
+                for name in ANCHOR_ENDS
+                if name not in ends
+            )
             crack = [name for name in ("distance", "inclination") if name in self.model_fields_set]
             yield from (InputError("fields-conflict", name, other=ends[0]) for name in crack)
         elif self.distance is None:
-            yield InputError("anchor-form", "distance")
+            yield InputError(
+                "missing", "distance", remedy="give distance, or head_x, head_elevation, foot_x and foot_elevation"
+            )
         if not (self.prestress or self.yields):
             field = "distance" if not ends else ends[0]
             yield InputError("needs-other", field, other="prestress, axial_stiffness or shear_stiffness")

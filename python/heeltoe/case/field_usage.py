@@ -115,10 +115,10 @@ READ_BY: dict[str, frozenset[str]] = {
 _AS_BLOCKS = {"rock": ("rigid",), "reservoir.compressible": (False,), "tailwater.compressible": (False,)}
 # What a reader would expect to matter to the flexible model has a sentence of its own.
 _EXPECTED = {
-    "analysis.rotation": "rotation-unused",
-    "crack.restitution": "restitution-unused",
-    "reservoir.hydrodynamic": "hydrodynamic-unused",
-    "tailwater.hydrodynamic": "hydrodynamic-unused",
+    "analysis.rotation": "it is for the rigid block, and elastic parts rotate by small angles",
+    "crack.restitution": "it is for impacts of a rigid block; elastic faces rebound by the waves in the concrete",
+    "reservoir.hydrodynamic": "",
+    "tailwater.hydrodynamic": "",
 }
 
 
@@ -155,7 +155,10 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
         foreign = [path for path in foreign if path not in expected]
         # The water of an elastic dam is Westergaard's in any case.
         expectations = [path for path in expected if values[path][1] != "westergaard"]
-        notices = [Notice(_EXPECTED[path], field=path, value=shown(values[path][1])) for path in expectations]
+        for path in expectations:
+            stated, why = shown(values[path][1]), _EXPECTED[path]
+            unread = Notice("value-unused", field=path, value=stated, why=why) if why else None
+            notices.append(unread or Notice("hydrodynamic-unused", field=path, value=stated))
     if foreign:
         names = [name for model, name in READERS.items() if model in models]
         notices.append(Notice("fields-unused", readers=" and ".join(names), fields=", ".join(foreign)))

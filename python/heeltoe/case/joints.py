@@ -93,9 +93,16 @@ def _levels(joints: Joints, section: Any) -> list[float]:
     highest = _highest(joints, section)
     count = math.floor((highest - joints.lowest) / joints.every + _ROUNDING) + 1
     if count > MOST_JOINTS:
-        raise InputError("joints-many", f"{JOINTS}.every", f"{joints.every:g} m", count=count, most=MOST_JOINTS)
+        raise InputError(
+            "too-many",
+            f"{JOINTS}.every",
+            f"{count} joints",
+            most=f"{MOST_JOINTS}: give higher lifts, or joints.lowest and joints.highest around those that matter",
+        )
     if count < 1:
-        raise InputError("joints-none", f"{JOINTS}.lowest", f"{joints.lowest:g} m", highest=f"{highest:g} m")
+        raise InputError(
+            "above-other", f"{JOINTS}.lowest", f"{joints.lowest:g} m", other="the highest joint", most=f"{highest:g} m"
+        )
     return [joints.lowest + place * joints.every for place in reversed(range(count))]
 
 

@@ -19,6 +19,7 @@ from heeltoe.case.at_crack import AnchorAtCrack, anchor_at_crack, flat, too_flat
 from heeltoe.case.changes import apply
 from heeltoe.case.combinations import conflicts
 from heeltoe.case.crack.crack import Crack, FurtherCrack
+from heeltoe.case.crack.fit_file import with_fit_read
 from heeltoe.case.crack.kinks import climbs, kinks_misfit
 from heeltoe.case.dam import Anchor, Concrete, Ice, Reservoir, Rock, Silt, Uplift, Water
 from heeltoe.case.fields import Fields
@@ -43,6 +44,8 @@ from heeltoe.units.parse import InSI
 _DEEPEST = 2.0
 # Cracks nearer to each other than this part of the height of the section leave no part of the dam between them.
 _NEAREST = 1e-3
+# A block that the file leaves out: the validator of the case fills it, so that none of its own is built.
+_LEFT_OUT: Any = Field(default_factory=dict, validate_default=True)
 
 
 class Case(Shown, Fields):
@@ -52,14 +55,13 @@ class Case(Shown, Fields):
     """Title of the results."""
     units: Literal["si", "us"] = "si"
     """Units in which everything is shown: SI, or those of the United States; files of numbers stay SI."""
-    project: Project = Project()
+    project: Project = _LEFT_OUT
     """The title block of the report."""
     gravity: Annotated[Gravity, Field(ge=0.01, le=1e4)] = Field(default="9.80665 m/s^2", validate_default=True)
     """Acceleration of gravity, for weights and for motions given in g."""
     section: Section
     """The section of the dam."""
-    # A factory, since the defaults with units take pint, which is slow to load, to read.
-    concrete: Concrete = Field(default_factory=Concrete)
+    concrete: Concrete = _LEFT_OUT
     """The concrete."""
     crack: Crack
     """The crack; or the list `[[cracks]]` of one or several, from the crest down."""
@@ -78,7 +80,7 @@ class Case(Shown, Fields):
     """The silt upstream."""
     anchors: tuple[Anchor, ...] = ()
     """Anchors and bars across the crack."""
-    uplift: Uplift = Uplift()
+    uplift: Uplift = _LEFT_OUT
     """The water in the crack."""
     motion: Motion | None = None
     """The earthquake; statics needs none."""
@@ -87,18 +89,18 @@ class Case(Shown, Fields):
     `[[motion]]`."""
     motions: tuple[SuiteMotion, ...] = ()
     """A suite of records, which the dam meets one by one, each from rest; `heeltoe run` runs all of them."""
-    suite: Suite = Suite()
+    suite: Suite = _LEFT_OUT
     """How strong the records of the suite are, and how it is judged."""
-    flexible: Flexible = Flexible()
+    flexible: Flexible = _LEFT_OUT
     """Choices of the flexible model."""
-    decoupled: Decoupled = Decoupled()
+    decoupled: Decoupled = _LEFT_OUT
     """Choices of the decoupled chain."""
-    statics: StaticsChoice = Field(default_factory=StaticsChoice)
+    statics: StaticsChoice = _LEFT_OUT
     """Static checks."""
-    limits: Limits = Limits()
+    limits: Limits = _LEFT_OUT
     """Limits on the results."""
-    analysis: Analysis = Field(default_factory=Analysis)
-    """Choices for rare situations."""
+    analysis: Analysis = _LEFT_OUT
+    """End of the run, large rotations, limits of time and memory."""
 
     def __repr__(self) -> str:
         levels = [z for _, z in self.section.vertices()]
@@ -123,7 +125,12 @@ class Case(Shown, Fields):
             if self.uplift.during_shaking == "full while open":
                 yield InputError("needs-other", "uplift.during_shaking", other="a reservoir")
         elif self.ice is not None and self.ice.depth >= self.reservoir.depth:
-            yield InputError("ice-depth", "ice.depth", f"{self.ice.depth:g} m", depth=f"{self.reservoir.depth:g} m")
+            yield InputError(
+                "out-of-range",
+                "ice.depth",
+                f"{self.ice.depth:g} m",
+                bound=f"from 0 m to {self.reservoir.depth:g} m, within the water",
+            )
         for name in ("reservoir", "tailwater"):
             water = getattr(self, name)
             if water and water.follows_vertical_motion and self.motion and not self.motion.vertical:
@@ -453,7 +460,7 @@ def _problems(
         read, wrong = {**fields, "section": _SECTION}, [error, *error.others]
     try:
         # Joints go up to the crest of the section.
-        read = as_blocks(read)
+        read = with_fit_read(as_blocks(read), directory)
     except InputError as error:
         return None, [*wrong, error, *error.others]
     return _checked(read, wrong, listed=listed)
@@ -462,7 +469,7 @@ def _problems(
 def _checked(
     read: Mapping[str, object], wrong: list[InputError], *, listed: bool
 ) -> tuple[Case | None, list[InputError]]:
-    """Return the case of blocks and fields, and all that is wrong with them beside what is known to be."""
+    """Return the case of blocks and fields, and all its errors besides those already known."""
     try:
         case = Case.model_validate(read)
     except ValidationError as complaint:
@@ -573,12 +580,12 @@ def _distance_between(upper: Case, lower: Case) -> float:
 
 
 def _outside(field: str, elevation: float, height: float) -> InputError:
-    return InputError("crack-outside", field, f"{elevation:g} m", height=f"{height:g} m")
+    return InputError("out-of-range", field, f"{elevation:g} m", bound=f"from 0 m to below the crest at {height:g} m")
 
 
 def _above_crest(field: str, depth: float, height: float) -> InputError:
-    code = "silt-above-crest" if field == "silt.depth" else "water-above-crest"
-    return InputError(code, field, f"{depth:g} m", height=f"{height:g} m", most=f"{_DEEPEST * height:g} m")
+    other, most = ("the crest", height) if field == "silt.depth" else ("twice the height of the dam", _DEEPEST * height)
+    return InputError("above-other", field, f"{depth:g} m", other=other, most=f"{most:g} m")
 
 
 def _ice_above_crest(level: float, height: float) -> InputError:
@@ -586,4 +593,6 @@ def _ice_above_crest(level: float, height: float) -> InputError:
 
 
 def _beyond_toe(field: str, distance: float, width: float) -> InputError:
-    return InputError("anchor-outside", field, f"{distance:g} m", width=f"{width:g} m")
+    return InputError(
+        "out-of-range", field, f"{distance:g} m", bound=f"from 0 m to {width:g} m, the width of the crack"
+    )

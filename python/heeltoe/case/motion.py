@@ -75,7 +75,12 @@ class Source(Fields):
                     raise InputError("out-of-range", f"points[{place}][1]", str(value), bound="from -10 g to 10 g")
             for option in FILE_OPTIONS:
                 if getattr(self, option) is not None:
-                    raise InputError("motion-file-option", option)
+                    raise InputError(
+                        "option-foreign",
+                        option,
+                        owner="a motion given by points",
+                        remedy=", or give file instead of points",
+                    )
         if self.unit is not None:
             acceleration_unit(self.unit, "unit")
         # The case's own g plays no part in what is plausible.
@@ -93,8 +98,8 @@ class Motion(Source):
     """Which way round the motion shakes the dam. Where the case does not say, here or by `reverse`, both ways are run
     and the worse one leads; `points` are as they are written."""
     at: Literal["surface", "rock"] = "surface"
-    """Where the ground has this motion: on the free surface of the rock, as records and hazard curves have it; or
-    within the rock, as a deconvolution leaves it, which no model takes."""
+    """Where the ground has this motion: on the free surface of the rock (outcrop), as records and hazard curves have
+    it; or within the rock, as a deconvolution leaves it, which no model takes."""
     allow_zero: Truth = False
     """Accept a motion that is zero throughout, which is otherwise taken for a mistake."""
     vertical: Annotated[
@@ -117,6 +122,7 @@ class Motion(Source):
     else. "none" leaves it out."""
 
     @model_validator(mode="after")
+    @collected
     def _check_sign(self) -> Self:
         if self.sign is not None and "reverse" in self.model_fields_set:
             raise InputError("contradiction", "sign", f'"{self.sign}"', other=f"reverse = {str(self.reverse).lower()}")

@@ -35,10 +35,10 @@ class Flexible(Fields):
     plane: Literal["stress", "strain"] = "stress"
     """Plane stress (dams with open joints between monoliths) or plane strain."""
     elements_across: Annotated[int, Field(strict=True, ge=1, le=200)] = 8
-    """Number of elements along the crack."""
+    """Number of elements along the crack; above the base those at its ends are smaller."""
     elements_away: Annotated[int, Field(strict=True, ge=1, le=200)] | None = None
-    """Number of elements of the rows far from the crack: fewer elements from row to row, by halves. As many as along
-    the crack where it is not given."""
+    """Number of elements of the rows far from the crack: fewer elements from row to row, by halves, and even ones
+    along the crack. As many as along the crack where it is not given."""
     damping: Literal["relative", "stiffness", "modal", "thesis", "deformation"] = "relative"
     """Rayleigh's on the motion relative to a rigid slide along the crack; its stiffness term alone; one ratio for the
     modes of the intact dam; as in Zhu (2004), Rayleigh's on all motion while the crack sticks; or, for comparison,
@@ -269,6 +269,9 @@ class StaticsChoice(Fields):
     drain_diameter: Annotated[Length, Field(gt=0.0, le=10.0)] | None = None
     """Diameter of the drains of a `drained` uplift: slip closes them in proportion, and wholly from one diameter on;
     this acts on the checks after an earthquake and on each further motion of a sequence."""
+    closed_drains: Literal["reservoir head", "linear"] = "reservoir head"
+    """Uplift where slip has closed the drains: the reservoir's head as far as their line, or linear from heel to toe
+    (Ferguson 2023)."""
     sections: tuple[Annotated[StaticsSection, BeforeValidator(_section_of)], ...] = ()
     """Lift joints to judge, the base among them where it is listed: elevations, or tables with the fields that differ
     there."""
@@ -311,6 +314,8 @@ class StaticsChoice(Fields):
                 yield InputError("earthquake-rarity", f"earthquakes[{place}].name", shown(earthquake.name))
         if self.uplift_in_earthquake != "criteria" and not self.pseudo_static:
             yield InputError("needs-other", "uplift_in_earthquake", other="seismic_coefficient or earthquakes")
+        if self.closed_drains != "reservoir head" and self.drain_diameter is None:
+            yield InputError("needs-other", "closed_drains", other="drain_diameter")
         if self.flood_rarity == "extreme" and self.flood_depth is None:
             yield InputError("needs-other", "flood_rarity", other="flood_depth")
         elevations = [section.elevation for section in self.sections]

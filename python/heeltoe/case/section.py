@@ -79,12 +79,14 @@ class Section(Fields):
         # Half a neck is a slip of the pen, no neck is a plain trapezoid.
         yield from self._missing((*_SIZES, "base_width", *(_NECK if set(_NECK) & set(names) else ())))
         if self.neck_height is not None and self.height is not None and self.neck_height > self.height:
-            yield InputError("neck-above-crest", "neck_height", f"{self.neck_height:g} m", height=f"{self.height:g} m")
+            yield InputError(
+                "above-other", "neck_height", f"{self.neck_height:g} m", other="the crest", most=f"{self.height:g} m"
+            )
 
     def _missing(self, names: tuple[str, ...]) -> Iterator[InputError]:
         for name in names:
             if getattr(self, name) is None:
-                yield InputError("section-incomplete", name, fields=", ".join(names))
+                yield InputError("missing", name, remedy=f"give {', '.join(names)}; or slopes, a polygon or a file")
 
     def _wrong_face(self, name: str) -> Iterator[InputError]:
         levels = [level for level, _ in getattr(self, name)]
@@ -97,7 +99,7 @@ class Section(Fields):
                 remedy="the base at 0 m first, then each break",
             )
         elif self.height is not None and levels[-1] >= self.height:
-            yield InputError("face-above-crest", name, f"{levels[-1]:g} m", height=f"{self.height:g} m")
+            yield InputError("out-of-range", name, f"{levels[-1]:g} m", bound=f"below the crest at {self.height:g} m")
 
     def vertices(self) -> tuple[tuple[float, float], ...]:
         """Return the corners (x, z) [m] around the section, as given or counter-clockwise from the heel."""

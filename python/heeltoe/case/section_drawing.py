@@ -12,7 +12,7 @@ from typing import Any
 import shapely
 
 from heeltoe.case.drawing_lines import Line, Point, extent, joined, lines_of, loose_end
-from heeltoe.errors.error import InputError, shown
+from heeltoe.errors.error import InputError, package, shown
 from heeltoe.errors.sanitize import plain
 
 Corners = list[tuple[float, float]]
@@ -66,10 +66,8 @@ def corners_of_drawing(path: Path, layer: str | None) -> tuple[Corners, str, str
 
 def _read(path: Path) -> tuple[list[Line], str]:
     """Return the lines of a drawing, and its unit."""
-    try:
+    with package("section.file", "ezdxf"):
         from ezdxf.filemanagement import readfile
-    except ImportError:
-        raise InputError("package-missing", "section.file", "ezdxf", install="pip install ezdxf") from None
     # It would tell on standard error what it makes of a broken file.
     logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
     try:
@@ -79,7 +77,9 @@ def _read(path: Path) -> tuple[list[Line], str]:
         raise
     except Exception as error:  # ezdxf passes on whatever a broken file leads to
         reason = plain(str(error)) or type(error).__name__
-        raise InputError("drawing-unreadable", "section.file", reason=reason) from None
+        raise InputError(
+            "source-unreadable", "section.file", reason=reason, expected="a DXF file, best of the release 2010"
+        ) from None
 
 
 def _outlines(lines: Sequence[Line]) -> tuple[list[_Outline], list[Line]]:

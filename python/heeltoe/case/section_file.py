@@ -6,6 +6,7 @@ import math
 import os
 import re
 from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 from heeltoe.base.input_files import read_bounded
@@ -14,6 +15,13 @@ from heeltoe.units.parse import parse
 
 Corners = list[tuple[float, float]]
 
+_no_section = partial(
+    InputError,
+    "source-unreadable",
+    "section.file",
+    reason="it is neither a drawing in DXF nor a table of numbers",
+    expected="one of them",
+)
 _EXPECTED = "a drawing in DXF or a table in CSV"
 #: What is read of a section's block where that names a file.
 FILE_FIELDS = ("file", "layer", "unit")
@@ -108,9 +116,11 @@ def read_corners(path: Path, layer: str | None = None, unit: str | None = None) 
             "too-large", "section.file", f"{_MOST_CORNERS} corners", expected="the outline of the section alone"
         )
     if len(corners) < 3:
-        raise InputError("polygon-corners", "section.file", len(corners))
+        raise InputError("too-few", "section.file", f"{len(corners)} different corners", least="3")
     if unit is None and not stated:
-        raise InputError("section-unit-missing", "section.unit")
+        raise InputError(
+            "missing", "section.unit", remedy='the file does not state it: add for example unit = "m" under [section]'
+        )
     one = parse(f"1 {unit or stated}", "length", "section.unit" if unit else "section.file")
     levels = [z * one for _, z in corners]
     height = max(levels) - min(levels)
@@ -125,10 +135,10 @@ def _corners_of_table(content: bytes) -> tuple[Corners, str]:
     try:
         lines = content.decode("utf-8-sig").splitlines()
     except UnicodeDecodeError:
-        raise InputError("section-file-kind", "section.file") from None
+        raise _no_section() from None
     rows = [(number, line) for number, line in enumerate(lines, start=1) if line.split("#")[0].strip()]
     if not rows:
-        raise InputError("section-file-kind", "section.file")
+        raise _no_section()
     cells = [(number, _cells(line.split("#")[0])) for number, line in rows]
     columns, stated, width = (0, 1), "", 2
     if any(_number(cell) is None for cell in cells[0][1]):

@@ -50,12 +50,12 @@ def collected(check: Callable[P, R]) -> Callable[P, R]:
         try:
             return check(*args, **kwargs)
         except InputError as error:
-            raise _handed_on(error) from None
+            raise handed_on(error) from None
 
     return inner
 
 
-def _handed_on(error: InputError, others: Sequence[InputError] = ()) -> PydanticCustomError:
+def handed_on(error: InputError, others: Sequence[InputError] = ()) -> PydanticCustomError:
     # Pydantic can hand on no halves of letters.
     context = {"text": harmless(f"{error.problem}; {error.remedy}"), "error": error, "others": others}
     return PydanticCustomError("input_error", "{text}", context)
@@ -67,7 +67,7 @@ def gathered(check: Callable[[M], Iterator[InputError]]) -> Callable[[M], M]:
     def inner(block: M) -> M:
         wrong = list(check(block))
         if wrong:
-            raise _handed_on(wrong[0], wrong[1:])
+            raise handed_on(wrong[0], wrong[1:])
         return block
 
     return inner

@@ -12,9 +12,8 @@ from heeltoe.errors.error import InputError
 from heeltoe.motion.check import check, check_moved, check_pair, check_record, check_scaling
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import process
-from heeltoe.motion.records import called, read_record
+from heeltoe.motion.records import HeaderFactor
 from heeltoe.motion.records.catalog import PREFIX, find
-from heeltoe.motion.records.to_motion import HeaderFactor
 from heeltoe.motion.scenario import synthetic
 from heeltoe.motion.sequence import joined
 from heeltoe.warnings.notice import Notice
@@ -199,8 +198,11 @@ def _source(
         for option in FILE_OPTIONS:
             # What is said of a list is for its files.
             if getattr(shaking, option) is not None and options_field is None:
-                raise InputError("synthetic-option", f"{block}.{option}")
+                raise InputError("option-foreign", f"{block}.{option}", owner="a synthetic motion", remedy="")
         return synthetic(shaking.file, gravity=gravity, field=file_field)
+    # Here: a dozen formats, each with its words, take longer than a run whose motion is made to order.
+    from heeltoe.motion.records.read import called, read_record
+
     path = find(shaking.file, base_directory, field=file_field)
     options = {"unit": shaking.unit, "time_step": shaking.time_step, "gravity": gravity, "field": block}
     options |= {"layout": shaking.layout, "factor": header_factor or shaking.factor}

@@ -13,7 +13,7 @@ from heeltoe.case.processing import CorrectionStep
 from heeltoe.case.quantities import AccelerationField, Duration
 from heeltoe.case.sentences import gathered
 from heeltoe.errors.error import InputError
-from heeltoe.motion.records.to_motion import HeaderFactor
+from heeltoe.motion.records import HeaderFactor
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
 
 #: A period, or that of the first mode of the dam.
@@ -58,6 +58,14 @@ class Suite(SuiteRule):
     """Whether each record runs both ways round: it does unless `motion.sign` says which way round motions are."""
     vertical: Truth = False
     """Whether vertical components of folders, recognised by their names, shake the dam with each horizontal one."""
+    disaggregation: str | None = Field(default=None, strict=True, min_length=1)
+    """File of OpenQuake's disaggregation by magnitude and distance (Mag_Dist), relative to the case file; of several
+    measures and probabilities one, `FILE#PGA,0.02`. Each record is labelled with the share of the hazard from
+    earthquakes like its own."""
+    cross_valley: Truth = False
+    """Whether the two horizontal components of each earthquake, recognised by station and direction in the files and
+    else by their names, shake the dam together: each one along the stream with the other across the valley, and each
+    one alone, for the factor between the two. Blocks alone follow that."""
     unit: str | None = Field(default=None, strict=True)
     """Unit of the numbers in files that do not state it."""
     time_step: TimeSpan | None = None

@@ -109,6 +109,7 @@ friction = 1.0
 # uplift_intensity = 0.5
 # static_friction = 1.1            # instead of friction, where the friction at rest
 # kinetic_friction = 1.0           # is higher than in motion
+# fit = "fit/law-fit.toml"         # instead of friction and band: what heeltoe law fit has written
 restitution = 0.5                  # of a rocking block's impacts: 0 stays down, 1 loses nothing
 # rocking_loss = 0.05              # what impacts of a rocking block take beyond theory: 0.03 to 0.05 on concrete
 # side_gap = "3 mm"                # joints to either neighbour, closed by shaking across the valley; "free" without
@@ -132,6 +133,17 @@ restitution = 0.5                  # of a rocking block's impacts: 0 stays down,
 # slip_weakening = {{ residual_friction = 0.8, slip = "20 mm" }}          # friction falls to so much over this slip,
 # speed_weakening = {{ residual_friction = 0.8, speed = "0.1 m/s" }}      # or with the speed of the slip
 # judge = "best"                   # or "low", "high", ..., "worst": which of them the limits judge
+# Or both ends by a distribution, 5 and 95 % of which lie below them:
+# distribution = "lognormal"       # or "normal", "uniform", "triangular"
+# median = 1.0                     # of lognormal
+# dispersion = 0.15
+# mean = 1.0                       # of normal
+# std = 0.1
+# lower = 0.7                      # cuts normal and lognormal
+# upper = 1.3
+# from = 0.8                       # of uniform and triangular
+# mode = 1.0
+# to = 1.2
 
 # A friction law, in place of the coefficients (heeltoe law NAME draws one); each knows some of these fields:
 # [crack.law]
@@ -223,6 +235,7 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # period = "0.3 s"
 # match = "en1998:0.3g,B"          # match each to this spectrum first
 # target = "en1998:0.3g,B"         # draw this spectrum beside theirs
+# disaggregation = "Mag_Dist-0.csv#PGA,0.02"   # of OpenQuake: labels records by their share of the hazard
 # judge = "mean"                   # what is held against the limits: largest (the default), mean, median, 84%
 # both_signs = true                # each record both ways round
 # vertical = true                  # with the vertical components of folders
@@ -296,6 +309,7 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # residual_friction = 0.8          # after the earthquake
 # residual_slip = "100 mm"         # that of an analysis without it
 # drain_diameter = "75 mm"         # drains of a drained uplift that slip closes
+# closed_drains = "linear"         # uplift then: "reservoir head" as far as the drains, or "linear" from heel to toe
 """
 
 

@@ -30,9 +30,11 @@ def case_warnings(case: Case) -> tuple[Notice, ...]:
     """Return what is allowed in a case but seldom meant."""
     notices = list(drawing_notice(case))
     if case.crack.mu_static > 2.0:
-        notices.append(Notice("friction-high", friction=case.crack.mu_static))
+        why = "a coefficient of friction of {friction:g} is higher than tests of concrete show"
+        notices.append(unusual("crack", why, friction=case.crack.mu_static))
     if case.uplift.intensity > 1.0:
-        notices.append(Notice("uplift-intensity", intensity=case.uplift.intensity))
+        why = "{intensity:g} means more pressure than the pattern gives"
+        notices.append(unusual("uplift.intensity", why, intensity=case.uplift.intensity))
     upstream = case.reservoir.depth if case.reservoir else 0.0
     if case.reservoir and 0.0 < upstream <= case.crack.elevation:
         notices.append(Notice("below-crack", field="reservoir", ends="ends", effect=_NO_PRESSURE))
@@ -44,17 +46,23 @@ def case_warnings(case: Case) -> tuple[Notice, ...]:
     if case.silt and case.silt.depth <= case.crack.elevation:
         notices.append(Notice("below-crack", field="silt", ends="ends", effect=_NO_FORCE))
     if case.silt and case.silt.depth > upstream:
-        notices.append(Notice("silt-above-water"))
+        why = "the silt is higher than the water, though its densities are of silt under water"
+        notices.append(unusual("silt.depth", why))
     if case.silt and (case.silt.horizontal_density > 1000.0 or case.silt.vertical_density > 1300.0):
-        notices.append(
-            Notice("silt-with-water", densities_kg_m3=(case.silt.horizontal_density, case.silt.vertical_density))
-        )
+        why = "{densities_kg_m3:g kg/m^3} seem to include the water, which is counted separately"
+        densities = (case.silt.horizontal_density, case.silt.vertical_density)
+        notices.append(unusual("silt", why, densities_kg_m3=densities))
     toe = case.cut.toe[1] - case.cut.base_elevation
     if case.tailwater and 0.0 < case.tailwater.depth <= toe:
         notices.append(Notice("below-crack", field="tailwater", ends="ends", effect=_NO_PRESSURE))
     if case.tailwater and case.tailwater.depth > upstream:
         notices.append(Notice("tailwater-deeper"))
     return (*notices, *_about_the_anchors(case), *_about_the_asperities(case), *_implausible(case))
+
+
+def unusual(field: str, why: str, **quantities: object) -> Notice:
+    """Return the warning that a value is allowed and seldom meant; `why` is a template of the quantities."""
+    return Notice("value-unusual", field=field, value=Sentence.of(why, **quantities))
 
 
 def _implausible(case: Case) -> Iterator[Notice]:
@@ -73,7 +81,7 @@ def _implausible(case: Case) -> Iterator[Notice]:
     for path, (low, high, _, sentence, quantity) in PLAUSIBLE.items():
         value = values[path]
         if value is not None and not low <= value <= high:
-            yield Notice("value-unusual", field=path, value=Sentence.of(sentence, **{quantity: value}))
+            yield unusual(path, sentence, **{quantity: value})
 
 
 def drawing_notice(case: Case) -> Iterator[Notice]:
@@ -104,11 +112,18 @@ def _about_the_asperities(case: Case) -> Iterator[Notice]:
     if rough is None:
         return
     if rough.angle > _STEEPEST_FLANK:
-        yield Notice("rough-steep", angle_deg=math.degrees(rough.angle))
+        why = "flanks of {angle_deg:.3g} degrees shear off rather than being climbed; no model here represents that"
+        yield unusual("crack.roughness", why, angle_deg=math.degrees(rough.angle))
     if rough.asperity_height > _TALL * width:
-        yield Notice("rough-tall", height_m=rough.asperity_height, share=rough.asperity_height / width, width_m=width)
+        why = (
+            "asperities of {height_m:.3g m} are {share:.2g %} of the crack's width, {width_m:.4g m}; the geometry of "
+            "the block leaves them out"
+        )
+        height = rough.asperity_height
+        yield unusual("crack.roughness.asperity_height", why, height_m=height, share=height / width, width_m=width)
     if rough.wave_length > width:
-        yield Notice("rough-long", wave_m=rough.wave_length, width_m=width)
+        why = "{wave_m:.3g m} is more than the crack is wide, {width_m:.4g m}: heel and toe stand on unlike flanks"
+        yield unusual("crack.roughness.wave_length", why, wave_m=rough.wave_length, width_m=width)
 
 
 def _about_the_anchors(case: Case) -> Iterator[Notice]:
@@ -119,7 +134,11 @@ def _about_the_anchors(case: Case) -> Iterator[Notice]:
     if not inside:
         yield Notice("drains-miss")
     elif at.pattern == "drained" and (at.drain_efficiency or 0.0) < (at.drain_position or 0.0):
-        yield Notice("drains-raise", efficiency=at.drain_efficiency)
+        why = (
+            "with {efficiency:g} the head at the drains is higher than without drains: drains without effect are "
+            'uplift.pattern = "triangular"'
+        )
+        yield unusual("uplift.drain_efficiency", why, efficiency=at.drain_efficiency)
     near = _ON_FACE * (section.crest_elevation - section.base_elevation)
     faces = {
         "upstream": (section.upstream_face, case.reservoir),
@@ -150,13 +169,7 @@ def rock_warnings(case: Case) -> tuple[Notice, ...]:
 
 def concrete_warnings(case: Case) -> tuple[Notice, ...]:
     """Return what elastic concrete seldom is; models of a rigid dam do not ask."""
-    notices = []
-    if case.concrete.poisson > 0.35:
-        notices.append(
-            Notice(
-                "value-unusual",
-                field="concrete.poisson",
-                value=Sentence.of("{poisson:g} is unusual for concrete", poisson=case.concrete.poisson),
-            )
-        )
-    return tuple(notices)
+    poisson = case.concrete.poisson
+    return (
+        (unusual("concrete.poisson", "{poisson:g} is unusual for concrete", poisson=poisson),) if poisson > 0.35 else ()
+    )

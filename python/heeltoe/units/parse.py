@@ -192,7 +192,8 @@ def parse(value: object, dimension: str, field: str) -> float:
     if dimension == "acceleration":
         return parse_acceleration(value, field).si(STANDARD_GRAVITY)
     number, unit = _split(value, dimension, field)
-    return _finite(number * _factor(unit, value, dimension, field), value, dimension, field)
+    number *= _factor(unit, value, dimension, field)
+    return number if math.isfinite(number) else _finite(number, value, dimension, field)
 
 
 def parse_acceleration(value: object, field: str) -> Acceleration:

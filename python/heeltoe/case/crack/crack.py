@@ -78,7 +78,7 @@ class CrackFields(Fields):
             yield InputError("fields-conflict", "friction", other=next(iter(stated)))
         if self.friction is None and len(stated) < 2:
             missing = next((name for name in pair if stated and name not in stated), "friction")
-            yield InputError("friction-missing", missing)
+            yield InputError("missing", missing, remedy="give friction, or both static_friction and kinetic_friction")
         elif stated and self.friction is None and stated["static_friction"] < stated["kinetic_friction"]:
             static, kinetic = stated["static_friction"], stated["kinetic_friction"]
             yield InputError(
@@ -157,19 +157,25 @@ class Crack(CrackFields):
     def _around_the_friction(self) -> Iterator[InputError]:
         if self.band is None:
             return
+        crack = "the friction of the crack"
         for name in ("slip_weakening", "speed_weakening"):
             fall = getattr(self.band, name)
             if fall is not None and self.law is not None:
-                yield InputError("band-law", f"band.{name}")
+                yield InputError(
+                    "option-foreign",
+                    f"band.{name}",
+                    owner="a crack with a friction law, which falls by itself",
+                    remedy=", or give crack.friction instead of the law",
+                )
             elif fall is not None and fall.residual_friction > self.mu_static:
-                peak, residual = f"{self.mu_static:g}", f"{fall.residual_friction:g}"
-                yield InputError("band-falls", f"band.{name}.residual_friction", residual, peak=peak)
+                field, residual = f"band.{name}.residual_friction", f"{fall.residual_friction:g}"
+                yield InputError("above-other", field, residual, other=crack, most=f"{self.mu_static:g}")
         if self.law is None:
             low, high = self.band.low, self.band.high
             if low is not None and low > self.mu_kinetic:
-                yield InputError("band-low", "band.low", f"{low:g}", friction=f"{self.mu_kinetic:g}")
+                yield InputError("above-other", "band.low", f"{low:g}", other=crack, most=f"{self.mu_kinetic:g}")
             if high is not None and high < self.mu_static:
-                yield InputError("band-high", "band.high", f"{high:g}", friction=f"{self.mu_static:g}")
+                yield InputError("below-other", "band.high", f"{high:g}", other=crack, least=f"{self.mu_static:g}")
 
     @model_validator(mode="after")
     @gathered

@@ -46,7 +46,12 @@ def kinks_misfit(
             remedy="the kinks from heel to toe",
         )
     if distances[-1] >= section.crack_width:
-        return InputError("kinks-outside", field, f"{distances[-1]:g} m", width=f"{section.crack_width:g} m")
+        return InputError(
+            "out-of-range",
+            field,
+            f"{distances[-1]:g} m",
+            bound=f"below {section.crack_width:g} m, the crack's width",
+        )
     for (start, low), (end, high) in pairwise(corners(section, kinks)):
         angle = math.atan2(high - low, end - start)
         steepest = max(abs(angle), abs(angle + section.inclination))
