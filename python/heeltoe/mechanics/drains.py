@@ -19,6 +19,10 @@ def drainage_left(case: Case, slip: float) -> float:
 
 
 def with_drainage(case: Case, share: float) -> Case:
-    """Return a case with a share of its drainage left."""
-    efficiency = share * (case.uplift.drain_efficiency or 0.0)
+    """Return a case with a share of its drainage left; without any, the drains have the head that the case says."""
+    own, closed = case.uplift.drain_efficiency or 0.0, 0.0
+    if case.statics.closed_drains == "linear":
+        # A drain at a part of the width is on the straight line from heel to toe with that part as its efficiency.
+        closed = min(case.uplift_at_crack.drain_position or 0.0, own)
+    efficiency = closed + share * (own - closed)
     return case.model_copy(update={"uplift": case.uplift.model_copy(update={"drain_efficiency": efficiency})})

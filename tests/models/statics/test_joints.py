@@ -78,7 +78,7 @@ def test_a_joint_may_be_judged_by_a_run_of_its_own():
     [
         (
             {"sections": ["0 m", "100 m"]},
-            "statics.sections[1].elevation: 100 m is outside the section; give an elevation from 0 m to below 100 m",
+            "statics.sections[1].elevation: 100 m is out of range; give a value from 0 m to below the crest at 100 m",
         ),
         ({"sections": ["5 m", "5 m"]}, "statics.sections: 5 m is listed twice; list it once"),
         ({"sections": [5]}, 'statics.sections[0].elevation: 5 has no unit; write for example "5 m"'),

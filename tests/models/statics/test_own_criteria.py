@@ -97,13 +97,19 @@ def test_the_file_says_what_the_water_does(tmp_path):
     ("text", "said"),
     [
         ("title = 3\n", "own.toml: title: 3 is of the wrong type; give a text"),
-        ("[sliding]\nusual = 0\n", "own.toml: sliding.usual: 0 is not a number above 0 and up to 100; give one"),
-        ('[sliding]\nusual = "2"\n', 'own.toml: sliding.usual: "2" is not a number above 0 and up to 100; give one'),
+        ("[sliding]\nusual = 0\n", "own.toml: sliding.usual: 0 is out of range; give a value above 0 and up to 100"),
+        (
+            '[sliding]\nusual = "2"\n',
+            'own.toml: sliding.usual: "2" is out of range; give a value above 0 and up to 100',
+        ),
         (
             "[resultant]\nusual = 0.7\n",
-            "own.toml: resultant.usual: 0.7 is not a number above 0 and up to 0.5; give one",
+            "own.toml: resultant.usual: 0.7 is out of range; give a value above 0 and up to 0.5",
         ),
-        ("[sliding]\nusual = nan\n", "own.toml: sliding.usual: NaN is not a number above 0 and up to 100; give one"),
+        (
+            "[sliding]\nusual = nan\n",
+            "own.toml: sliding.usual: NaN is out of range; give a value above 0 and up to 100",
+        ),
         (
             "[slidding]\nusual = 2\n",
             "own.toml: slidding: slidding is not a choice; choose one of sliding, sliding-with-cohesion, "
@@ -121,7 +127,7 @@ def test_the_file_says_what_the_water_does(tmp_path):
         ),
         (
             'title = "empty"\n',
-            "statics.criteria_file: own.toml sets no criteria; add a table, for example [sliding] with usual = 1.5",
+            "statics.criteria_file: own.toml has no criteria; give a table, for example [sliding] with usual = 1.5",
         ),
         (
             "[sliding]\nusual = 2\n[sliding-with-cohesion]\nusual = 3\n",

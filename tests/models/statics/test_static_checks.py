@@ -165,12 +165,13 @@ def test_every_row_names_its_paragraph():
 
 
 def criteria_lines(name):
-    """Return the rows of a table of docs/statics.md."""
-    groups = {}
+    """Return the rows of a table of docs/statics.md, whose heading names the first document."""
+    groups, first = {}, CRITERIA[name][0].document
     for row in CRITERIA[name]:
         cohesion = {True: "with cohesion", False: "without cohesion", None: None}[row.cohesion]
         kind = ", ".join(text for text in (row.structure, row.site_information, cohesion) if text) or "all"
-        groups.setdefault((row.check, kind, row.source), {})[row.loads] = row.required
+        source = row.paragraph if row.document == first else row.source
+        groups.setdefault((row.check, kind, source), {})[row.loads] = row.required
     for (check_, kind, source), values in groups.items():
         cells = [f"{values[item]:.3g}" if item in values else "-" for item in LOADS]
         yield f"| {check_} | {kind} | {' | '.join(cells)} | {source} |"

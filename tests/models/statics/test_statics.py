@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 import heeltoe
+from heeltoe import InputError
 from shared.statics import CLOSE, SHAKEN, M, dam, only
 
 # Hand calculations
@@ -252,6 +253,23 @@ def test_slip_closes_drains():
     kept = only(heeltoe.statics(dam(uplift=drained), 0.03), "post-seismic")
     assert kept.normal_force_n == pytest.approx((96.0 - 15.6 * 79.97 / 80.0) * M, **CLOSE)
     assert any("drains as before" in text for text in map(str, kept.assumptions))
+
+
+def test_drains_that_are_closed_leave_the_uplift_linear_where_that_is_chosen():
+    drained = {"pattern": "drained", "drain_position": 0.1, "drain_efficiency": 2.0 / 3.0}
+    case = dam(uplift=drained, statics={"drain_diameter": "75 mm", "closed_drains": "linear"})
+    after = only(heeltoe.statics(case, 0.08), "post-seismic")
+    # Linear from 0.9 MPa at the heel to zero at 79.92 m, as `triangular` has it.
+    assert after.normal_force_n == pytest.approx((96.0 - 0.45 * 79.92) * M, **CLOSE)
+    triangular = only(heeltoe.statics(dam(uplift={"pattern": "triangular"}), 0.08), "post-seismic")
+    assert after.sliding_factor == pytest.approx(triangular.sliding_factor, **CLOSE)
+    assert any("linear from heel to toe" in text for text in map(str, after.assumptions))
+    # 30 of 75 mm: the head at the drains is 0.6 of 0.3 and 0.4 of 0.81 MPa.
+    half = only(heeltoe.statics(case, 0.03), "post-seismic")
+    uplift = (0.9 + 0.504) / 2.0 * 7.997 + 0.504 / 2.0 * 71.973
+    assert half.normal_force_n == pytest.approx((96.0 - uplift) * M, **CLOSE)
+    with pytest.raises(InputError, match=r"statics\.closed_drains: .*drain_diameter"):
+        dam(uplift=drained, statics={"closed_drains": "linear"})
 
 
 def test_a_crack_beyond_the_drains_drains_no_more():

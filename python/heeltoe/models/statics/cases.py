@@ -229,6 +229,8 @@ def post_seismic(case: Case, slip: float, source: str, ligament: tuple[float, fl
         else:
             share = drainage_left(case, slip)
             text = "slip over a drain diameter of {diameter_m:g m} leaves {share:.3g} of the drainage"
+            if choice.closed_drains == "linear":
+                text += "; closed drains leave the uplift linear from heel to toe"
             assumptions.append(Sentence.of(text, diameter_m=choice.drain_diameter, share=share))
             case = with_drainage(case, share)
     if case.anchors and size:

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.polynomial import Chebyshev
 
 from heeltoe.base.arrays import Floats
 from heeltoe.mechanics.loads import Resultant
@@ -193,7 +192,7 @@ class _State:
         def margins(lengths: Floats) -> Floats:
             return np.array([self.margin(float(length), side) for length in lengths])
 
-        slope = Chebyshev.interpolate(margins, self.water.degree, [low, high]).deriv()
+        slope = np.polynomial.Chebyshev.interpolate(margins, self.water.degree, [low, high]).deriv()
         slope = slope.trim(_ROUNDING * float(np.abs(slope.coef).max()))
         roots: list[complex] = np.asarray(slope.roots(), dtype=np.complex128).tolist()
         real = [root.real for root in roots if abs(root.imag) < 1e-9 * (high - low)]

@@ -169,13 +169,7 @@ _USACE = (
 )
 
 # The largest flood is an unusual load to USBR.
-_USBR_LOADS: dict[Loads, float] = {
-    "usual": 3.0,
-    "unusual": 2.0,
-    "extreme": 2.0,
-    "earthquake": 1.0,
-    "post-earthquake": 1.0,
-}
+_USBR_LOADS = _five(3.0, 2.0, 2.0, 1.0, 1.0)
 _PSI = 6894.757
 _USBR_CAPS: dict[Loads, float] = {"usual": 1500.0 * _PSI, "unusual": 2250.0 * _PSI, "extreme": 2250.0 * _PSI}
 _USBR = (
@@ -243,7 +237,7 @@ _CDA_ROWS = (
     ),
     *_rows(
         "sliding",
-        {"usual": 1.5, "unusual": 1.3, "extreme": 1.3, "earthquake": 1.0, "post-earthquake": 1.1},
+        _five(1.5, 1.3, 1.3, 1.0, 1.1),
         _CDA,
         "residual sliding factor",
         f"{_FELL}, table 16.2; {_BULLETIN}",
@@ -251,20 +245,14 @@ _CDA_ROWS = (
     ),
     *_rows(
         "resultant",
-        {"usual": 1.0 / 6.0, "unusual": 0.5, "extreme": 0.5, "earthquake": 0.5, "post-earthquake": 0.5},
+        _five(1.0 / 6.0, 0.5, 0.5, 0.5, 0.5),
         _CDA,
         "position of the resultant",
         f"{_FELL}, table 16.1, which leaves the middle third to all but usual loads; {_BULLETIN}",
     ),
     *_rows(
         "compression",
-        {
-            "usual": 1.0 / 3.0,
-            "unusual": 1.0 / 2.0,
-            "extreme": 1.0 / 2.0,
-            "earthquake": 1.0 / 1.1,
-            "post-earthquake": 1.0 / 1.5,
-        },
+        _five(1.0 / 3.0, 1.0 / 2.0, 1.0 / 2.0, 1.0 / 1.1, 1.0 / 1.5),
         _CDA,
         "compressive strength factor",
         f"{_FELL}, table 16.1; {_BULLETIN}",

@@ -10,9 +10,9 @@ from heeltoe.case.field_usage import unused_fields
 from heeltoe.case.model import Case, misfits
 from heeltoe.case.options import StaticsSection
 from heeltoe.errors.error import InputError, expect
+from heeltoe.kernel.build import build_info
 from heeltoe.models.statics.checks import Check
 from heeltoe.models.statics.model import Statics, statics
-from heeltoe.result.write import build_info
 from heeltoe.warnings.notice import Notice, by_gravity
 
 

@@ -11,8 +11,9 @@ from heeltoe.base.display import Shown
 from heeltoe.base.pandas import dataframe_of_rows
 from heeltoe.case.field_usage import unused_fields
 from heeltoe.case.model import Case
-from heeltoe.case.warnings import case_warnings
+from heeltoe.case.warnings import case_warnings, unusual
 from heeltoe.errors.error import expect
+from heeltoe.kernel.build import build_info
 from heeltoe.mechanics.block import build_block, static_state, without_bond
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.mechanics.references import REFERENCES
@@ -24,7 +25,8 @@ from heeltoe.models.statics.load_case import LoadCase, along_line
 from heeltoe.models.statics.own_criteria import Rules, rules_of
 from heeltoe.models.statics.spectral import SpectralDemand
 from heeltoe.result.contract import SHEARS_M
-from heeltoe.result.write import build_info, critical_json
+from heeltoe.result.write import critical_json
+from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice, by_gravity
 
 # So many checks that are not met are told at once.
@@ -246,9 +248,11 @@ def _warnings_of_cases(case: Case, cases: Sequence[LoadCase]) -> list[Notice]:
         notices.append(Notice("crack-opens-statically", length_m=usual.cracked_length_m))
     usual_depth = case.reservoir.depth if case.reservoir else 0.0
     if choice.flood_depth is not None and choice.flood_depth < usual_depth:
-        notices.append(Notice("flood-low", usual_depth_m=usual_depth))
+        why = "the flood is lower than the {usual_depth_m:g m} of the usual loads"
+        notices.append(unusual("statics.flood_depth", why, usual_depth_m=usual_depth))
     if choice.residual_friction is not None and choice.residual_friction > _peak(case, usual):
-        notices.append(Notice("residual-friction-high"))
+        why = "more than the friction of the crack before it has slid"
+        notices.append(unusual("statics.residual_friction", why))
     if any(anchor.yields for anchor in case.anchors):
         notices.append(Notice("anchors-as-prestress"))
     if choice.sections:
@@ -283,9 +287,12 @@ def _of_pieces(cases: Sequence[LoadCase]) -> Iterator[Notice]:
     usual = cases[0]
     along, angle = along_line(usual), math.degrees(usual.steepest_rise_rad)
     if usual.pieces_bear == "any push":
-        yield Notice("kinks-lock", along=along, angle_deg=angle)
+        bear = Sentence("any push until something shears off")
+        yield Notice("kinks-add", along=along, angle_deg=angle, bear=bear)
     elif usual.pieces_bear == "more":
-        yield Notice("kinks-add", along=along, angle_deg=angle, factor=usual.sliding_factor_on_pieces)
+        factor = usual.sliding_factor_on_pieces
+        bear = Sentence.of("a factor of {factor:.3f} if nothing shears off", factor=factor)
+        yield Notice("kinks-add", along=along, angle_deg=angle, bear=bear)
     for load_case in cases:
         if load_case.pieces_bear == "less":
             yield Notice(

@@ -20,8 +20,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, get_args
 
+from heeltoe.case.fields_file import read_fields
 from heeltoe.case.model import Case
-from heeltoe.case.read import read_fields
 from heeltoe.errors.error import InputError, shown
 from heeltoe.errors.sanitize import plain
 from heeltoe.models.statics.criteria import CRITERIA, UPLIFT_IN_EARTHQUAKE, Criterion, Loads, chosen
@@ -122,7 +122,9 @@ def _read(fields: Mapping[str, object], name: str) -> Rules:
             raise InputError("not-a-choice", f"{name}: {table}", table, choices=f"one of {', '.join(_TABLES)}")
         rows += _rows(table, values, title, name)
     if not rows:
-        raise InputError("criteria-empty", _FIELD, name)
+        raise InputError(
+            "empty", _FIELD, name, what="criteria", expected="a table, for example [sliding] with usual = 1.5"
+        )
     if "sliding" in fields and {"sliding-with-cohesion", "sliding-without-cohesion"} & fields.keys():
         raise InputError("fields-conflict", f"{name}: sliding", other="sliding-with-cohesion or -without-cohesion")
     return Rules(title, tuple(rows), (law, f"{title}: {law} where the earthquake opens the crack"))
@@ -143,7 +145,9 @@ def _rows(table: str, values: Mapping[str, Any], title: str, name: str) -> list[
         # Of the width, the resultant can be half away from the middle.
         most = 0.5 if check == "resultant" else 1.0 if check == "compression" else 100.0
         if not number or not 0.0 < value <= most:
-            raise InputError("criteria-number", f"{name}: {table}.{loads}", shown(value), most=f"{most:g}")
+            raise InputError(
+                "out-of-range", f"{name}: {table}.{loads}", shown(value), bound=f"above 0 and up to {most:g}"
+            )
         note = f"of the user's own criteria, {name}"
         criteria.append(Criterion(loads, check, float(value), title, plain(source), note, cohesion))  # type: ignore[arg-type]
     return criteria
