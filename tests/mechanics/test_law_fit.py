@@ -146,22 +146,22 @@ def test_a_bilinear_block_is_the_two_lines():
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("normal stress [MPa],strength [MPa]\n1,2\n", "is not a column of shear tests"),
+        ("normal stress [MPa],strength [MPa]\n1,2\n", "is not a choice; choose columns of"),
         ("normal stress,peak shear [MPa]\n1,2\n", "has no unit"),
         ("normal stress [MPa],peak shear [mm]\n1,2\n", "peak shear"),
-        ("normal stress [MPa],normal stress [kPa],peak shear [MPa]\n1,2,3\n", "two columns have this name"),
-        ("peak shear [MPa]\n1\n", "normal stress: this column is missing"),
-        ("normal stress [MPa]\n1\n", "peak shear: this column is missing"),
-        ("normal stress [MPa],slip [mm],shear [MPa]\n1,2,3\n", "specimen: this column is missing"),
+        ("normal stress [MPa],normal stress [kPa],peak shear [MPa]\n1,2,3\n", "is listed twice"),
+        ("peak shear [MPa]\n1\n", "normal stress: is required but missing"),
+        ("normal stress [MPa]\n1\n", "peak shear: is required but missing"),
+        ("normal stress [MPa],slip [mm],shear [MPa]\n1,2,3\n", "specimen: is required but missing"),
         ("normal stress [MPa],slip [mm],peak shear [MPa]\n1,2,3\n", "strengths and points of curves"),
         ("normal stress [MPa],peak shear [MPa]\n1,2,3\n", "row 1: has 3 cells, the header 2"),
         ("normal stress [MPa],peak shear [MPa]\n1,x\n", "row 1: peak shear: "),
         ("normal stress [MPa],peak shear [MPa]\n1,\n", "row 1: peak shear: "),
         ("normal stress [MPa],peak shear [MPa]\n0,1\n", "row 1: normal stress: "),
         ("normal stress [MPa],peak shear [MPa]\n1,-1\n", "is out of range"),
-        ("normal stress [MPa],peak shear [MPa]\n1,1\n2,2\n", "2 tests have a strength"),
+        ("normal stress [MPa],peak shear [MPa]\n1,1\n2,2\n", "has 2 tests with a strength"),
         ("specimen,normal stress [MPa],slip [mm],shear [MPa]\nA,1,1,1\n", "the curve has 1 points"),
-        ("", "this column is missing"),
+        ("", "is required but missing"),
         ("normal stress [MPa],peak shear [MPa]\n1,\udcff\n", "cannot be read"),
     ],
 )
@@ -181,8 +181,19 @@ def test_the_command_prints_and_writes_the_laws(tmp_path):
     assert "friction = 0.90" in reply.stdout
     assert "chosen: criterion" in reply.stdout
     assert {file.name for file in (tmp_path / "fit").iterdir()} >= {"law-fit.json", "law-fit.toml", "strength.png"}
+    assert not (tmp_path / "fit" / "report.html").exists()
+    reply = command("law", "fit", "tests.csv", "--out", "fit", "--report", cwd=tmp_path)
+    assert reply.returncode == 0, reply.stderr
+    page = (tmp_path / "fit" / "report.html").read_text(encoding="utf-8")
+    assert "Friction laws from shear tests" in page
+    assert "As a block of the case file" in page
+    assert (tmp_path / "fit" / "report.pdf").is_file()
+    for options in (("fit", "tests.csv", "--report"), ("cohesion", "--report")):
+        reply = command("law", *options, cwd=tmp_path)
+        assert reply.returncode == 2
+        assert "--report: has no meaning without" in reply.stderr
     assert command("law", "fit").returncode == 2
-    assert "needs a table of shear tests" in command("law", "fit").stderr
+    assert "law fit TESTS.csv: is required but missing" in command("law", "fit").stderr
     assert "there is no file" in command("law", "fit", tmp_path / "none.csv").stderr
     assert "--set" in command("law", "fit", path, "--set", "crack.friction=1").stderr
     assert "TESTS.csv" in command("law", "cohesion", path).stderr

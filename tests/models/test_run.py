@@ -43,7 +43,7 @@ def test_every_way_to_a_model_is_the_same():
     }
     # What the block reads is not said to change nothing.
     unread = {warning.code for warning in one.warnings} - {warning.code for warning in both.warnings}
-    assert unread == {"restitution-unused"}
+    assert unread == {"value-unused"}
     # The better model is judged.
     assert both.limits
     assert not both.beside.limits
@@ -53,9 +53,9 @@ def test_every_way_to_a_model_is_the_same():
 def test_models_are_listed_once():
     for name in MODELS:
         assert callable(getattr(heeltoe, name))
-    with pytest.raises(InputError, match="use auto, rigid, decoupled, flexible") as refused:
+    with pytest.raises(InputError, match="choose auto, rigid, decoupled, flexible") as refused:
         run(read_case(BASE), "elastic")
-    assert refused.value.code == "unknown-model"
+    assert refused.value.code == "not-a-choice"
 
 
 def test_the_way_of_a_rigid_run_is_straight():

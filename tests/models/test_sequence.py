@@ -106,12 +106,12 @@ def test_a_motion_beside_the_case_comes_alone():
     motion = heeltoe.rigid(case).motion
     other = heeltoe.GroundMotion.from_points([0.0, 0.1, 0.3], [0.0, 6.0, 0.0])
     response = heeltoe.rigid(case, other)
-    assert "aftershocks-left-out" in [warning.code for warning in response.warnings]
+    assert "motions-left-out" in [warning.code for warning in response.warnings]
     assert response.sequence == ()
     # The sequence itself may be handed in again.
     again = heeltoe.rigid(case, motion)
     assert again.residual_slip_m == heeltoe.rigid(case).residual_slip_m
-    assert "aftershocks-left-out" not in [warning.code for warning in again.warnings]
+    assert "motions-left-out" not in [warning.code for warning in again.warnings]
 
 
 def test_a_spread_is_that_of_the_whole_sequence():

@@ -153,7 +153,7 @@ def test_a_dam_at_rest_costs_one_run(monkeypatch):
 def test_without_silence_a_run_ends_with_the_motion_and_says_so():
     response = rigid(read_case(BASE, [*SLIDING, ENDS]))
     assert (response.silence_s, response.end_time_s) == (0.0, 2.1)
-    message = next(warning for warning in response.warnings if warning.code == "block-still-moves")
+    message = next(warning for warning in response.warnings if warning.code == "still-moves")
     assert message.field == "analysis.silence"
     assert "still moves when the ground motion ends (slide downstream, slip velocity" in str(message)
     assert "a longer analysis.silence may let it come to rest" in str(message)

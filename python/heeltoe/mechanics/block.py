@@ -148,7 +148,7 @@ class Block:
         water lifts the block."""
         needed = abs(self.static.horizontal)
         # Equal water on both sides leaves the rounding of its forces.
-        rounding = ROUNDING_OF_FORCES * sum(abs(force.horizontal) + abs(force.vertical) for force in self.forces)
+        rounding = ROUNDING_OF_FORCES * sum([abs(force.horizontal) + abs(force.vertical) for force in self.forces])
         return self.friction_static * max(0.0, self.normal_force) / needed if needed > rounding else None
 
     @property
@@ -166,7 +166,7 @@ class Block:
         force vanishes (the limits behind 4.3.14). Where an acceleration cannot do it the limit is infinite.
         """
         static = (self.static.horizontal, self.static.vertical, self.static_moment)
-        along, across, moment = (load + up * rate for load, rate in zip(static, self.per_vertical, strict=True))
+        along, across, moment = [load + up * rate for load, rate in zip(static, self.per_vertical, strict=True)]
         rates = self.per_horizontal
 
         def limit(shear: float, normal: float, turning: float, sign: float) -> float:

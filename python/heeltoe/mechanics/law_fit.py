@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Annotated
 
 import numpy as np
@@ -37,6 +37,9 @@ _BAND_POINTS = 61
 # Places at which two lines may meet.
 _BREAKS = 200
 _SMOOTHEST, _ROUGHEST = 0.01, 20.0
+# From peak, fall and way to peak, residual and way.
+_TURN = np.array([[1.0, 0.0, 0.0], [1.0, -1.0, 0.0], [0.0, 0.0, 1.0]])
+_FALL = (("peak_friction", "", False), ("residual_friction", "", False))
 
 _Strength = Callable[..., Floats]
 
@@ -65,20 +68,24 @@ class LawFit(Block):
 
     law: Annotated[str, Number("Name of the law.")]
     over: Annotated[str, Number('What it goes by: "normal stress", "slip path" or "slip speed".')]
-    points: Annotated[int, Number("Tests, or points of curves, that it was fitted to.")]
-    parameters: Annotated[list[Parameter], Number("Its numbers.")]
+    points: Annotated[int, Number("Tests, or points of curves, that it was fitted to.")] = 0
+    parameters: Annotated[list[Parameter], Number("Its numbers.")] = field(default_factory=list)
     covariance: Annotated[
         list[list[float]],
         Number("Covariance of its numbers, stresses in MPa, of `jcs`, `slip` and `speed` of their natural logarithms."),
-    ]
-    residuals: Annotated[list[float], Number("Measured less fitted apparent friction of each test.")]
-    scatter: Annotated[float, Number("Standard deviation about the law: shear stress [Pa], or apparent friction.")]
+    ] = field(default_factory=list)
+    residuals: Annotated[list[float], Number("Measured less fitted apparent friction of each test.")] = field(
+        default_factory=list
+    )
+    scatter: Annotated[float, Number("Standard deviation about the law: shear stress [Pa], or apparent friction.")] = (
+        0.0
+    )
     criterion: Annotated[
         float | None, Number("Corrected information criterion of Akaike; null where the tests are too few for it.")
-    ]
-    chosen: Annotated[bool, Number("Whether the tests bear this law out best.")]
-    why: Annotated[str, Number("Why it was or was not chosen.")]
-    band: Annotated[Band | None, Number("The law and the band of further tests; null where it was not fitted.")]
+    ] = None
+    chosen: Annotated[bool, Number("Whether the tests bear this law out best.")] = False
+    why: Annotated[str, Number("Why it was or was not chosen.")] = ""
+    band: Annotated[Band | None, Number("The law and the band of further tests; null where it was not fitted.")] = None
 
 
 class Fall(Block):
@@ -176,7 +183,7 @@ def _strength_fits(tests: Sequence[ShearTest]) -> list[LawFit]:
     normal = np.array([test.normal_pa for test in strongest]) / _MPA
     shear = np.array([test.peak_pa if has_peak else test.residual_pa for test in strongest]) / _MPA
     if shear.size < 3:
-        raise InputError("tests-few", "tests", shear.size, least=3)
+        raise InputError("too-few", "tests", f"{shear.size} tests with a strength", least=3)
     rows = _Rows(normal, shear, shear.size)
     fits = [_constant(rows), _coulomb(rows), _patton(rows), _barton(rows, tests if has_peak else ())]
     able = [fit for fit in fits if fit.criterion is not None]
@@ -387,24 +394,18 @@ def _fit(
         )
 
     best, half = _band(along, values, covariance, scatter, freedom)
-    count = len(start)
-    return LawFit(
-        law=name,
-        over=over,
-        points=int(rows.peaks),
-        parameters=_parameters(values, covariance, names, freedom),
-        covariance=covariance.tolist(),
-        residuals=(peaks / rows.normal[: rows.peaks]).tolist(),
-        scatter=scatter * _MPA,
-        criterion=_criterion(peaks, count),
-        chosen=False,
-        why="not chosen: the tests are too few for its criterion",
-        band=Band(
-            at=(at * _MPA).tolist(),
-            best=(best / at).tolist(),
-            low=((best - half) / at).tolist(),
-            high=((best + half) / at).tolist(),
+    return _fitted(
+        LawFit(
+            law=name,
+            over=over,
+            points=int(rows.peaks),
+            scatter=scatter * _MPA,
+            criterion=_criterion(peaks, len(start)),
+            why="not chosen: the tests are too few for its criterion",
         ),
+        (values, covariance, names, freedom),
+        peaks / rows.normal[: rows.peaks],
+        (at * _MPA, best / at, (best - half) / at, (best + half) / at),
     )
 
 
@@ -486,10 +487,7 @@ def _curves_fit(curves: Sequence[Curve], form: str) -> LawFit:
     table = np.array(rows)
     mean, freedom = table.mean(axis=0), len(rows) - 1
     spread = np.atleast_2d(np.cov(table.T))
-    # Peak and residual rather than peak and fall.
-    turn = np.array([[1.0, 0.0, 0.0], [1.0, -1.0, 0.0], [0.0, 0.0, 1.0]])
-    covariance = turn @ spread @ turn.T / len(rows)
-    names = [("peak_friction", "", False), ("residual_friction", "", False), ("slip", "m", True)]
+    covariance = _TURN @ spread @ _TURN.T / len(rows)
     misfit = np.concatenate(misfits)
     longest = max(float(curve.slip_m[-1]) for curve in curves)
     at = np.linspace(0.0, longest, _BAND_POINTS)
@@ -498,18 +496,12 @@ def _curves_fit(curves: Sequence[Curve], form: str) -> LawFit:
     # Another specimen has its own curve, and points about it.
     noise = float(misfit @ misfit) / misfit.size
     half = _student(freedom) * np.sqrt(each.var(axis=0, ddof=1) * (1.0 + 1.0 / len(rows)) + noise)
-    return LawFit(
-        law=name,
-        over=over,
-        points=int(misfit.size),
-        parameters=_parameters(turn @ mean, covariance, names, freedom),
-        covariance=covariance.tolist(),
-        residuals=misfit.tolist(),
-        scatter=math.sqrt(noise),
-        criterion=_criterion(misfit, 3 * len(rows)),
-        chosen=False,
-        why="",
-        band=Band(at=at.tolist(), best=best.tolist(), low=(best - half).tolist(), high=(best + half).tolist()),
+    criterion = _criterion(misfit, 3 * len(rows))
+    return _fitted(
+        LawFit(law=name, over=over, points=int(misfit.size), scatter=math.sqrt(noise), criterion=criterion),
+        (_TURN @ mean, covariance, [*_FALL, ("slip", "m", True)], freedom),
+        misfit,
+        (at, best, best - half, best + half),
     )
 
 
@@ -549,25 +541,14 @@ def _by_speed(tests: Sequence[ShearTest]) -> tuple[Fall | None, LawFit]:
         return fall, _unfitted(name, over, "a fall is found, the speed that it takes is not")
     values, spread = min(able, key=lambda one: float(np.sum((friction - ratio(speed, *one[0])) ** 2)))
     misfit, freedom = friction - ratio(speed, *values), len(ready) - 3
-    turn = np.array([[1.0, 0.0, 0.0], [1.0, -1.0, 0.0], [0.0, 0.0, 1.0]])
-    covariance = turn @ spread @ turn.T
-    names = [("peak_friction", "", False), ("residual_friction", "", False), ("speed", "m/s", True)]
+    covariance = _TURN @ spread @ _TURN.T
     scatter = math.sqrt(float(misfit @ misfit) / freedom)
     at = np.linspace(0.0, most, _BAND_POINTS)
     best, half = _band(lambda *numbers: ratio(at, *numbers), values, spread, scatter, freedom)
-    return fall, LawFit(
-        law=name,
-        over=over,
-        points=len(ready),
-        parameters=_parameters(turn @ values, covariance, names, freedom),
-        covariance=covariance.tolist(),
-        residuals=misfit.tolist(),
-        scatter=scatter,
-        criterion=_criterion(misfit, 3),
-        chosen=True,
-        why=f"chosen: the fall is found (probability {probability:.2g})",
-        band=Band(at=at.tolist(), best=best.tolist(), low=(best - half).tolist(), high=(best + half).tolist()),
-    )
+    fit = LawFit(law=name, over=over, points=len(ready), scatter=scatter, criterion=_criterion(misfit, 3))
+    numbers = (_TURN @ values, covariance, [*_FALL, ("speed", "m/s", True)], freedom)
+    why = f"chosen: the fall is found (probability {probability:.2g})"
+    return fall, _fitted(replace(fit, chosen=True, why=why), numbers, misfit, (at, best, best - half, best + half))
 
 
 # --- what all fits have in common
@@ -631,20 +612,27 @@ def _criterion(misfit: Floats, count: int) -> float | None:
     return points * math.log(mean) + 2.0 * numbers + 2.0 * numbers * (numbers + 1) / (points - numbers - 1)
 
 
-def _unfitted(name: str, over: str, why: str) -> LawFit:
-    return LawFit(
-        law=name,
-        over=over,
-        points=0,
-        parameters=[],
-        covariance=[],
-        residuals=[],
-        scatter=0.0,
-        criterion=None,
-        chosen=False,
-        why=f"not fitted: {why}",
-        band=None,
+def _fitted(
+    fit: LawFit,
+    numbers: tuple[Floats, Floats, Sequence[tuple[str, str, bool]], int],
+    residuals: Floats,
+    band: tuple[Floats, Floats, Floats, Floats],
+) -> LawFit:
+    """Return a fit with its numbers (values, covariance, names, freedom), its residuals and its band (places, best, low
+    and high)."""
+    values, covariance, names, freedom = numbers
+    at, best, low, high = (values.tolist() for values in band)
+    return replace(
+        fit,
+        parameters=_parameters(values, covariance, names, freedom),
+        covariance=covariance.tolist(),
+        residuals=residuals.tolist(),
+        band=Band(at=at, best=best, low=low, high=high),
     )
+
+
+def _unfitted(name: str, over: str, why: str) -> LawFit:
+    return LawFit(law=name, over=over, why=f"not fitted: {why}")
 
 
 # --- what a reader must know of the tests

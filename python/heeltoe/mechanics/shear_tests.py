@@ -112,18 +112,20 @@ def read_shear_tests(path: str | os.PathLike[str]) -> tuple[ShearTest, ...]:
     try:
         rows = read_csv_rows(Path(path), _LARGEST)
     except FileNotFoundError:
-        raise InputError("tests-missing", _FIELD, shown(str(path))) from None
+        raise InputError("file-missing", _FIELD, shown(str(path)), expected="the shear tests, as CSV") from None
     except (OSError, ValueError) as error:
-        raise InputError("tests-unreadable", _FIELD, shown(str(path)), reason=reason_of(error)) from None
+        raise InputError(
+            "file-unreadable", _FIELD, shown(str(path)), reason=reason_of(error), expected="a CSV file in UTF-8"
+        ) from None
     head, *cells = rows or [[]]
     for number, row in enumerate(cells):
         if len(row) != len(head):
-            raise InputError("tests-row", f"{_FIELD}: row {number + 1}", len(row), count=len(head))
+            raise InputError("row-length", f"{_FIELD}: row {number + 1}", len(row), count=len(head))
     columns = [_column(title) for title in head]
     names = [name for name, _ in columns]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
-        raise InputError("tests-twice", f"{_FIELD}: {twice}")
+        raise InputError("listed-twice", _FIELD, shown(twice))
     _check_columns(names)
     table = {
         name: _words(cells, place) if COLUMNS[name] is None else _numbers(cells, place, name, factor)
@@ -131,7 +133,7 @@ def read_shear_tests(path: str | os.PathLike[str]) -> tuple[ShearTest, ...]:
     }
     tests = _of_curves(table) if "shear" in table else _of_rows(table, len(cells))
     if len(tests) < FEWEST and not ("shear" in table and tests):
-        raise InputError("tests-few", _FIELD, len(tests), least=FEWEST)
+        raise InputError("too-few", _FIELD, f"{len(tests)} tests with a strength", least=FEWEST)
     return tests
 
 
@@ -142,12 +144,16 @@ def _column(title: str) -> tuple[str, float]:
     name = " ".join(words.replace("_", " ").lower().split()).removesuffix(" stress") if match else title
     name = "normal stress" if name == "normal" else name
     if name not in COLUMNS:
-        raise InputError("tests-heading", _FIELD, shown(title), names=", ".join(COLUMNS), near=near(name, COLUMNS))
+        raise InputError(
+            "not-a-choice", _FIELD, shown(title), choices=f"columns of {', '.join(COLUMNS)}{near(name, COLUMNS)}"
+        )
     kind = COLUMNS[name]
     if kind in (None, "number"):
         return name, 1.0
     if not unit:
-        raise InputError("tests-unit", f"{_FIELD}: {name}", shown(title))
+        raise InputError(
+            "unit-missing", f"{_FIELD}: {name}", shown(title), example="normal stress [MPa] as its heading"
+        )
     return name, parse(f"1 {unit}", kind or "", f"{_FIELD}: {name}")
 
 
@@ -160,7 +166,9 @@ def _check_columns(names: Sequence[str]) -> None:
     needed = ["normal stress", *(("specimen", "slip", "shear") if curves else () if strengths else ("peak shear",))]
     missing = next((name for name in needed if name not in names), None)
     if missing is not None:
-        raise InputError("tests-column", f"{_FIELD}: {missing}")
+        raise InputError(
+            "missing", f"{_FIELD}: {missing}", remedy="add this column; `docs/friction.md` lists the columns"
+        )
 
 
 def _words(rows: Sequence[Sequence[str]], place: int) -> list[str]:
@@ -181,7 +189,7 @@ def _numbers(rows: Sequence[Sequence[str]], place: int, name: str, factor: float
             raise InputError("tests-cell", field, shown(cell)) from None
         least_open = name in ("normal stress", "size", "wall strength", "stage")
         if not np.isfinite(value) or value < 0.0 or (least_open and value == 0.0):
-            raise InputError("tests-range", field, shown(cell), bound="above 0" if least_open else "0 or more")
+            raise InputError("out-of-range", field, shown(cell), bound=f"of {'above 0' if least_open else '0 or more'}")
         numbers.append(value * factor)
     return numbers
 

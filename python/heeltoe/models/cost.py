@@ -41,7 +41,7 @@ class Cost:
         return self.seconds <= case.analysis.time_limit and self.memory <= case.analysis.memory_limit
 
     def times(self, count: float) -> Cost:
-        """Return the cost of so many, one after the other."""
+        """Return the cost of `count` such runs, one after the other."""
         return Cost(count * self.seconds, self.memory)
 
     def shown(self) -> str:
@@ -60,7 +60,7 @@ def two_digits(value: float) -> str:
 
 
 def block_cost(model: str, seconds: float, samples: float) -> Cost:
-    """Return what a run of a block costs, ``"rigid"`` or ``"decoupled"``, through a motion of so many seconds and
+    """Return the cost of a run of a block, ``"rigid"`` or ``"decoupled"``, through a motion of given length and
     samples."""
     if model == "decoupled":
         return Cost(_CHAIN[0] * seconds, _CHAIN[1] * seconds)

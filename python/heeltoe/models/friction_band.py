@@ -1,4 +1,5 @@
-"""The band of a crack's friction: the cases that have the other frictions, and what a run of each comes to."""
+"""The band of a crack's friction: the cases that have the other frictions, and what a run of each comes to; without a
+band what a little less friction does."""
 
 from __future__ import annotations
 
@@ -9,8 +10,34 @@ from dataclasses import replace
 from heeltoe.case.crack.crack import FRICTION, Crack
 from heeltoe.case.model import Case
 from heeltoe.result.judge import LimitCheck
-from heeltoe.result.numbers import BEST, FrictionBand, FrictionTrial, SignNumbers
+from heeltoe.result.numbers import BEST, FrictionBand, FrictionEffect, FrictionTrial, SignNumbers
 from heeltoe.units.sentences import Sentence
+
+#: By how much less friction a case without a band is tried, too.
+LESS = 0.1
+
+
+def with_less_friction(case: Case) -> Case | None:
+    """Return the case with coefficients of friction less by :data:`LESS`; None where a law or a bond gives the
+    strength, or so little is left."""
+    cracks = [("crack", case.crack)]
+    own = [(f"further_cracks[{place}]", crack) for place, crack in enumerate(case.further_cracks)]
+    changes: dict[str, float] = {}
+    for path, crack in (*cracks, *(item for item in own if not item[1].friction_is_inherited)):
+        if crack.law is not None or crack.bond is not None:
+            return None
+        stated = {name: getattr(crack, name) for name in FRICTION if name != "law"}
+        changes |= {f"{path}.{name}": round(value - LESS, 12) for name, value in stated.items() if value is not None}
+    if min(changes.values()) <= 0.0 or any(crack.bond is not None for crack in case.further_cracks):
+        return None
+    return case.with_(changes)
+
+
+def effect_of(own: float | None, less: SignNumbers) -> FrictionEffect:
+    """Return what less friction does, beside a slip of the same runs with the friction of the case [m]."""
+    slip = less.residual_slip_m
+    change = None if own is None or slip is None else abs(slip) - abs(own)
+    return FrictionEffect(friction_change=-LESS, outcome=less.outcome, residual_slip_m=slip, slip_change_m=change)
 
 
 def frictions_of(case: Case) -> dict[str, Case]:

@@ -18,7 +18,15 @@ from heeltoe.mechanics.beam import step_warnings
 from heeltoe.mechanics.friction import friction_of
 from heeltoe.models.cost import Cost, block_cost, reading_cost
 from heeltoe.models.drain_closure import drained, follows_drains, with_shares
-from heeltoe.models.friction_band import band_of, frictions_of, judged_name, named, worse
+from heeltoe.models.friction_band import (
+    band_of,
+    effect_of,
+    frictions_of,
+    judged_name,
+    named,
+    with_less_friction,
+    worse,
+)
 from heeltoe.models.rigid.omitted import omitted
 from heeltoe.models.runner import (
     about_the_end,
@@ -100,7 +108,10 @@ def run(
     check_model(model, "model")
     shaking = earthquake(case, motion, vertical)
     response = _run(case, model, shaking, output_step)
-    return response if case.crack.band is None else _with_band(case, model, response, shaking, output_step)
+    if response.started and case.crack.band is not None:
+        return _with_band(case, model, response, shaking, output_step)
+    # One model that is asked for is what its own function returns.
+    return _with_friction_effect(case, response, shaking, output_step) if model == AUTO else response
 
 
 def _run(case: Case, model: str, shaking: Earthquake, output_step: float | None) -> Response:
@@ -128,8 +139,6 @@ def _run(case: Case, model: str, shaking: Earthquake, output_step: float | None)
 def _with_band(case: Case, model: str, response: Response, shaking: Earthquake, output_step: float | None) -> Response:
     """Add what the other frictions of the band do, and judge the limits by the one that the case names: a run with all
     of its evidence."""
-    if not response.started:
-        return response
     began = perf_counter()
     cases = frictions_of(case)
     shakings = {"recorded": shaking}
@@ -155,6 +164,30 @@ def _with_band(case: Case, model: str, response: Response, shaking: Earthquake, 
     took = perf_counter() - began
     band = band_of(case, ways, judged)
     return replace(response, friction_band=band, limits=limits, seconds=response.seconds + took)
+
+
+def _with_friction_effect(case: Case, response: Response, shaking: Earthquake, output_step: float | None) -> Response:
+    """Add what the sign of the motion that governs does with a little less friction; two quick runs of an elastic dam,
+    none where no evidence is wanted."""
+    elastic = response.elastic and not follows_drains(case, shaking)
+    less = None if elastic and case.flexible.evidence == "none" else with_less_friction(case)
+    if less is None or not response.started or response.outcome != Outcome.OK:
+        return response
+    began = perf_counter()
+    governing = next((way.sign for way in response.signs if way.governs), "recorded")
+    through = {governing: shaking.reversed() if governing == "reversed" else shaking}
+    own: float | None = response.residual_slip_m
+    if elastic:
+        from heeltoe.models.flexible.model import rest_each
+
+        both = {"own": case.without_evidence(), "less": less.without_evidence()}
+        each = rest_each(both, through, output_step)
+        own, (numbers,) = each["own"][0].residual_slip_m, each["less"]
+    else:
+        ran = MODELS[response.model](less.without_evidence(), through[governing], output_step)
+        numbers = numbers_of_sign(governing, ran, (), governs=True)
+    took = perf_counter() - began
+    return replace(response, friction_effect=effect_of(own, numbers), seconds=response.seconds + took)
 
 
 def _elastic_by_sign(
@@ -216,7 +249,7 @@ def check_model(name: str, field: str) -> None:
     """
     if name not in (AUTO, *MODELS, *BOTH):
         models = f"{AUTO}, {', '.join(MODELS)}, both or decoupled,flexible"
-        raise InputError("unknown-model", field, name, models=models, near=near(str(name), (AUTO, *MODELS, *BOTH)))
+        raise InputError("not-a-choice", field, name, choices=f"{models}{near(str(name), (AUTO, *MODELS, *BOTH))}")
 
 
 def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
@@ -259,8 +292,8 @@ def cost_of(case: Case, model: str = AUTO, output_step: float | None = None, spr
 
 
 def wish_cost(case: Case, model: str = AUTO, output_step: float | None = None, spread: int = 0) -> Cost | None:
-    """Return what a run is estimated to take with its blocks, and with so many runs for a spread; None where that of
-    its elastic parts is more than the case allows, so that it is refused."""
+    """Return the estimated cost of a run with its blocks, and with `spread` runs for a spread; None where the cost of
+    its elastic parts is more than the case allows, which is refused."""
     names, shaking = models_of(case, model)[0], earthquake(case)
     signs, end = (2 if runs_both_signs(case, shaking) else 1), shaking.run_end
     samples = max(shaking.motion.time.size * end / max(shaking.motion.duration, 1e-9), end / (output_step or end))
@@ -293,6 +326,9 @@ def _cost(case: Case, shaking: Earthquake, output_step: float | None, spread: in
     bare = analysing(case.without_evidence(), end, frame_step_of(end, output_step), silence=case.analysis.silence)
     # The other way round is run without evidence, as are other frictions both ways; one that is judged has its own.
     for _ in range(both + (0 if band is None else (1 + both) * len(band.names))):
+        cost += bare
+    if band is None and case.flexible.evidence != "none" and with_less_friction(case) is not None:
+        # Both runs of the effect of friction have dams that are built already, and mostly longer steps.
         cost += bare
     return cost + cost if band is not None and band.judge != "best" else cost
 
@@ -440,11 +476,11 @@ def earthquake(
 def _left_out(case: Case, vertical: GroundMotion | None) -> Iterator[Notice]:
     """Walk what of a case's own motions a motion that is given beside it comes without."""
     if case.aftershocks:
-        yield Notice("aftershocks-left-out")
+        yield Notice("motions-left-out", field="aftershocks", effect="takes the place of all of its motions")
     if vertical is None and case.motion is not None and case.motion.vertical is not None:
         yield Notice("vertical-left-out")
     if case.motion is not None and case.motion.cross_valley is not None:
-        yield Notice("cross-valley-not-given")
+        yield Notice("motions-left-out", field="motion.cross_valley", effect="has no shaking across the valley")
 
 
 def _alone(response: R, case: Case, chosen: Chosen | None = None) -> R:

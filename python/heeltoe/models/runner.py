@@ -356,21 +356,15 @@ def about_the_end(response: Response, *, asked: bool) -> Iterator[Notice]:
         when = Sentence.of("{silence_s:g s} after the ground motion has ended", silence_s=response.silence_s)
     end = response.end_time_s
     if not response.elastic:
-        yield Notice(
-            "block-still-moves",
-            time_s=end,
-            when=when,
+        how = Sentence.of(
+            " ({mode}, slip velocity {slip_velocity_m_s:.3g m/s})",
             mode=response.final_mode,
             slip_velocity_m_s=response.final_slip_velocity_m_s,
         )
+        yield Notice("still-moves", time_s=end, body="block", when=when, how=how)
         return
     last = last_of(response)
     span = "second" if last.seconds == 1.0 else f"{last.seconds:.2g} s"
-    yield Notice(
-        "dam-still-moves",
-        time_s=end,
-        when=when,
-        span=span,
-        what=last.what,
-        change_m=last.change_m,
-    )
+    change = {"span": span, "what": last.what, "change_m": last.change_m}
+    how = Sentence.of(": in the last {span} its {what} changes by {change_m:.3g mm}", **change)
+    yield Notice("still-moves", time_s=end, body="dam", when=when, how=how)

@@ -196,7 +196,8 @@ def test_a_tower_that_carries_a_block():
 
 
 def test_the_whole_dam_is_that_of_the_flexible_model():
-    case = plane_case(KOYNA, [COARSE])
+    # With the damping of the thesis the flexible dam has the even elements of the chain, too; periods have no damping.
+    case = plane_case(KOYNA, [COARSE, "flexible.damping=thesis"])
     from heeltoe import build_flexible_dam
 
     assert bonded_chain(case).periods[:5] == pytest.approx(intact_periods(build_flexible_dam(case), 5), rel=1e-9)
@@ -245,7 +246,7 @@ def test_a_crack_at_the_base_has_nothing_below():
         assert refused.value.code == "crack-at-base"
     with pytest.raises(InputError) as refused:
         chain(plane_case({**TOWER, "concrete": {"density": "2400 kg/m^3"}}))
-    assert refused.value.code == "modulus-missing"
+    assert refused.value.code == "missing"
 
 
 def test_the_chain_takes_compressible_water_as_a_mass():

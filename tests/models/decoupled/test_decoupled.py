@@ -230,10 +230,10 @@ def test_both_on_the_command_line():
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("--model", "rigid,decoupled"), "rigid,decoupled is not a model"),
-        (("--spread", "3", "--vary", "crack.friction=1,2"), "--spread: goes with one run"),
+        (("--model", "rigid,decoupled"), "rigid,decoupled is not a choice; choose auto"),
+        (("--spread", "3", "--vary", "crack.friction=1,2"), "--spread: does not belong to a table of runs"),
         (("--vary", "crack.frictoin=1,2"), "crack.frictoin"),
-        (("--model", "decoupled", "--vtk", "--out", "x"), "--vtk: shows elastic parts"),
+        (("--model", "decoupled", "--vtk", "--out", "x"), "--vtk: does not belong to a rigid block"),
     ],
 )
 def test_what_the_command_line_refuses(arguments, words):
@@ -281,7 +281,7 @@ def test_the_option_of_one_run_is_refused_in_process():
 
     with pytest.raises(InputError) as refused:
         run(str(KOYNA), vary=["crack.friction=1,2"], spread="3")
-    assert refused.value.code == "vary-option"
+    assert refused.value.code == "option-foreign"
 
 
 def test_pieces_of_any_length_are_divided_alike_for_all_modes_and_half_of_them():

@@ -25,7 +25,7 @@ def refused(numbers=None, motions=(PUSH,), **more):
 def test_a_number_that_is_none_is_refused(name, value):
     numbers = np.tile(DAM, (3, 1))
     numbers[1, BLOCK.index(name)] = value
-    assert refused(numbers).startswith(f"blocks[1].{name}: {value:g} is out of range for a block")
+    assert refused(numbers).startswith(f"blocks[1].{name}: {value:g} is out of range; give a value of")
 
 
 @pytest.mark.parametrize(
@@ -45,11 +45,11 @@ def test_a_number_that_is_none_is_refused(name, value):
 def test_a_number_out_of_its_range_is_refused(name, value):
     numbers = np.tile(DAM, (3, 1))
     numbers[2, BLOCK.index(name)] = value
-    assert refused(numbers).startswith(f"blocks[2].{name}: {value:g} is out of range for a block")
+    assert refused(numbers).startswith(f"blocks[2].{name}: {value:g} is out of range; give a value of")
 
 
 def test_what_goes_with_the_blocks_is_checked():
-    assert refused(scales=[1.0, np.nan, 1.0]).startswith("scales[1]: nan is not a factor")
+    assert refused(scales=[1.0, np.nan, 1.0]).startswith("scales[1]: nan is out of range")
     assert refused(scales=[[1.0, 1.0], [1.0, 1.0], [np.inf, 1.0]]).startswith("scales[2]: inf")
     assert refused(scales=[1.0]).startswith("scales: 1 for 3 blocks")
     assert refused(motion_of=[0, 0]).startswith("motion_of: 2 for 3 blocks")

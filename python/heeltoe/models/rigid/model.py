@@ -111,7 +111,7 @@ def moments_of(earthquake: Earthquake, step: float | None) -> Floats:
         after = np.arange(earthquake.end, earthquake.run_end, spacing)
         return np.unique(np.concatenate([time, *between, after]))
     if not 0.0 < step <= time[-1]:
-        raise InputError("output-step", "output_step", f"{step:g} s", duration=f"{time[-1]:g} s")
+        raise InputError("out-of-range", "output_step", f"{step:g} s", bound=f"above 0 s and up to {time[-1]:g} s")
     if time[-1] / step > MOST_MOMENTS:
-        raise InputError("output-many", "output_step", f"{step:g} s", count=time[-1] / step, most=MOST_MOMENTS)
+        raise InputError("too-many", "output_step", f"{time[-1] / step:.3g} moments", most=f"{MOST_MOMENTS:.3g}")
     return np.arange(int(np.floor(time[-1] / step * (1.0 + 1e-12))) + 1, dtype=np.float64) * step

@@ -122,7 +122,7 @@ def _check_numbers(numbers: Floats) -> None:
     if failures:
         row, order = min(failures)
         name, _, bounds = wrong[order]
-        raise InputError("block-number", f"blocks[{row}].{name}", f"{column[name][row]:g}", bounds=bounds)
+        raise InputError("out-of-range", f"blocks[{row}].{name}", f"{column[name][row]:g}", bound=f"of {bounds}")
 
 
 def _which(motion_of: Sequence[int] | Integers | None, count: int, motions: int) -> Integers:
@@ -144,7 +144,7 @@ def _scales(scales: Sequence[float] | Floats | None, count: int) -> Floats:
     bad = np.argwhere(~np.isfinite(pairs))
     if bad.size:
         row, column = bad[0]
-        raise InputError("blocks-scale", f"scales[{row}]", f"{pairs[row, column]:g}")
+        raise InputError("out-of-range", f"scales[{row}]", f"{pairs[row, column]:g}", bound="that is finite")
     return pairs
 
 

@@ -188,7 +188,7 @@ def with_crest(
     seen = series.histories(moments[shown], displacement)
     # The block stays where it is beyond its last look.
     crest = series.motion(blocks[0].gravity, float(displacement[-1]))
-    return [replace(crack, histories=Histories({**crack.histories, **seen})) for crack in cracks], crest
+    return [replace(crack, histories=Histories(dict(crack.histories.items()) | seen)) for crack in cracks], crest
 
 
 def crest_looks(end: float) -> Floats:
