@@ -80,7 +80,7 @@ def check_directory(directory: Path, field: str, names: Sequence[str] = ()) -> N
             if place.is_dir():
                 break
             if place.exists():
-                raise InputError("not-a-directory", field, place)
+                raise InputError("not-a-directory", field, place, expected="a directory")
         if not os.access(place, os.W_OK | os.X_OK):
             raise InputError("cannot-write", field, directory, reason="Permission denied")
         _check_own(directory, names, files(directory), field)

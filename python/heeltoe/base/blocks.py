@@ -13,9 +13,21 @@ from __future__ import annotations
 import re
 import types
 from collections.abc import ItemsView, Iterator, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields
 from functools import cache
-from typing import Annotated, Any, Literal, NamedTuple, Union, dataclass_transform, get_args, get_origin, get_type_hints
+from inspect import get_annotations
+from typing import (
+    Annotated,
+    Any,
+    Literal,
+    NamedTuple,
+    Self,
+    Union,
+    dataclass_transform,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 import numpy as np
 
@@ -53,15 +65,11 @@ class Number:
 class Block(Mapping[str, Any]):
     """A block of a result: an immutable record, which reads by its JSON names, too (``block["watched"]``)."""
 
-    def __init_subclass__(cls) -> None:
-        super().__init_subclass__()
-        dataclass(frozen=True, kw_only=True, eq=False)(cls)
-
-    def __post_init__(self) -> None:
-        for name in _lists(type(self)):
-            value = getattr(self, name)
-            if type(value) is list:
-                object.__setattr__(self, name, FrozenList(value))
+    def __new__(cls, **_: Any) -> Self:
+        """Make the class a dataclass before its first object: making all of them takes longer than a rigid run."""
+        if "__dataclass_fields__" not in cls.__dict__:
+            made(cls)
+        return super().__new__(cls)
 
     def __iter__(self) -> Iterator[str]:
         return iter([name for name, _ in self.items()])
@@ -95,6 +103,23 @@ class Block(Mapping[str, Any]):
         return {name: value if type(value) in _PLAIN else plain_json(value) for name, value in self.items()}
 
 
+def made(kind: type[Block]) -> Any:
+    """Return a kind of block as the dataclass that it is from its first use on, its bases first."""
+    for owner in reversed(kind.__mro__):
+        if issubclass(owner, Block) and owner is not Block and "__dataclass_fields__" not in owner.__dict__:
+            if any("list[" in str(hint) for hint in get_annotations(owner).values()):
+                owner.__post_init__ = _freeze_lists  # type: ignore[attr-defined]
+            dataclass(frozen=True, kw_only=True, eq=False)(owner)
+    return kind
+
+
+def _freeze_lists(block: Block) -> None:
+    for name in _lists(type(block)):
+        value = getattr(block, name)
+        if type(value) is list:
+            object.__setattr__(block, name, FrozenList(value))
+
+
 def plain_json(value: Any) -> Any:
     """Return a value of a block as JSON has it."""
     if hasattr(value, "to_json"):
@@ -120,7 +145,7 @@ class Entry(NamedTuple):
 def entries(kind: type) -> tuple[Entry, ...]:
     """Return what the JSON has of a block, in its order: fields, then properties, with a :class:`Number`."""
     hints = get_type_hints(kind, include_extras=True)
-    entries = {item.name: hints[item.name] for item in fields(kind)}
+    entries = {item.name: hints[item.name] for item in fields(made(kind))}
     for name, thing in (item for owner in reversed(kind.__mro__) for item in vars(owner).items()):
         if isinstance(thing, property) and str(thing.fget.__annotations__.get("return")).startswith("Annotated"):
             entries[name] = get_type_hints(thing.fget, include_extras=True)["return"]
@@ -135,7 +160,7 @@ def entries(kind: type) -> tuple[Entry, ...]:
 @cache
 def _lists(kind: type) -> tuple[str, ...]:
     """Return the fields of a block that may hold a list."""
-    return tuple(item.name for item in fields(kind) if "list[" in str(item.type))
+    return tuple(item.name for item in fields(made(kind)) if "list[" in str(item.type))
 
 
 @cache
@@ -160,7 +185,7 @@ def numbers_in(kind: type, above: str = "") -> Iterator[tuple[str, str, str]]:
     for name, hint, number in entries(kind):
         path, label = f"{above}{name}", number.full[:1].upper() + number.full[1:]
         kinds = set(get_args(hint)) if get_origin(hint) in (Union, types.UnionType) else {hint}
-        if isinstance(hint, type) and is_dataclass(hint):
+        if isinstance(hint, type) and issubclass(hint, Block):
             yield from numbers_in(hint, f"{path}.")
         elif kinds & {float, int}:
             yield label, path, number.unit
@@ -179,7 +204,7 @@ def described(kind: type, above: str = "") -> Iterator[tuple[str, Number]]:
 
 def _blocks_in(hint: Any) -> Iterator[tuple[type, str]]:
     """Walk the blocks that a type holds, and how a path leads on to them."""
-    if isinstance(hint, type) and is_dataclass(hint):
+    if isinstance(hint, type) and issubclass(hint, Block):
         yield hint, ""
         return
     origin, inner = get_origin(hint), get_args(hint)
@@ -211,7 +236,7 @@ def json_schema(hint: Any, number: Number | None = None) -> dict[str, Any]:
         schema = {"type": "array", "items": json_schema(inner[0])}
     elif origin in (dict, Mapping):
         schema = {"type": "object", "additionalProperties": json_schema(inner[1])}
-    elif isinstance(hint, type) and is_dataclass(hint):
+    elif isinstance(hint, type) and issubclass(hint, Block):
         rows = entries(hint)
         schema = {
             "type": "object",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from heeltoe.errors.error import InputError
+from heeltoe.errors.error import package
 
 
 def dataframe(columns: Mapping[str, object]) -> Any:
@@ -16,10 +16,8 @@ def dataframe(columns: Mapping[str, object]) -> Any:
     InputError
         Where pandas is not installed.
     """
-    try:
+    with package("to_pandas", "pandas"):
         from pandas import DataFrame
-    except ImportError:
-        raise InputError("package-missing", "to_pandas", "pandas", install="pip install pandas") from None
     return DataFrame(dict(columns))
 
 

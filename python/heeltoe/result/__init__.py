@@ -1,1 +1,1 @@
-"""What an analysis returns, what is said of it in one sentence, and how it is written."""
+"""Results of an analysis, their verdict in one sentence, and the files they are written to."""

@@ -1,4 +1,5 @@
-"""Two models on one case: what the better one says over what the simpler one does, and what their difference means."""
+"""Two models on one case: the numbers of the better one beside those of the simpler one, and the meaning of their
+difference."""
 
 from __future__ import annotations
 
@@ -96,7 +97,7 @@ def _agreement(block: ResponseData) -> str:
 
 
 def _numbers_of(of: Quantity, dam: ResponseData, block: ResponseData, units: str) -> str:
-    """Return a number of both: what the elastic dam does against what the block does."""
+    """Return a number of both models: elastic dam and block."""
     # Adding zero makes a negative zero a plain one.
     values = [of.way * of.of(response) + 0.0 for response in (dam, block)]
     one, other = (angle(value) if of.kind == "rotation" else length(value, units) for value in values)

@@ -124,8 +124,8 @@ def crest_series(step: float, place: Floats, ground: Floats) -> CrestSeries:
 
 
 def in_band(acceleration: Floats, step: float) -> Floats:
-    """Return what of an acceleration (n,), so many seconds from moment to moment, is within the band; beyond its ends
-    it goes on as it is there."""
+    """Return the part of an acceleration (n,), with steps of `step` seconds, that is within the band; beyond its ends
+    it is constant."""
     half = band_weights(step)
     reach = half.size - 1
     if not reach or not acceleration.size:
@@ -139,8 +139,8 @@ def in_band(acceleration: Floats, step: float) -> Floats:
 
 @lru_cache(maxsize=32)
 def band_weights(step: float) -> Floats:
-    """Return the weights of the filter for the distances 0, 1, 2, ... between moments so many seconds apart, the same
-    either way, together 1: how a blow goes forward and backward through it. Steps too long for the band pass all."""
+    """Return the weights of the filter for the distances 0, 1, 2, ... between moments one `step` apart, the same either
+    way, together 1: how a blow goes forward and backward through it. Steps too long for the band pass all."""
     if step * BAND_HZ > 0.25:
         return np.ones(1)
     size = math.ceil(_MEMORY_S / step) + 1

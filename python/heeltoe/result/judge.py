@@ -54,7 +54,7 @@ CREST_LIMITS = ("crest_displacement", "crest_acceleration")
 
 
 class LimitCheck(Block):
-    """A result beside what the user allows."""
+    """Comparison of a result with the user's limit."""
 
     name: Annotated[str, Number("Field of limits in the case.")]
     value: Annotated[
@@ -91,7 +91,7 @@ class LimitCheck(Block):
     def utilisation(
         self,
     ) -> Annotated[float | None, Number("The result over its limit; null without a limit or without a result.")]:
-        """The result over what is allowed."""
+        """Ratio of the result to its limit."""
         return self.value / self.allowed if self.allowed and self.value is not None else None
 
     @property
@@ -161,7 +161,7 @@ class Judgement:
         """(n,) whether the part above slides farther than its crack is wide, so that nothing is left below it."""
         if "slid_off" in self.columns:
             return np.asarray(self.columns["slid_off"][:, 0] != 0.0)
-        if WIDTH not in self.columns or any(key not in self.columns for key in PEAKS):
+        if WIDTH not in self.columns or not set(PEAKS) <= self.columns.keys():
             return np.zeros(len(self), dtype=bool)
         known = self._by_outcome(lambda outcome: outcome in (Outcome.OK, Outcome.LOST, Outcome.LARGE_ROTATION))
         down, up = (self.columns[key] for key in PEAKS)
@@ -174,13 +174,13 @@ class Judgement:
 
     @cached_property
     def governing_crack(self) -> Integers:
-        """(n,) which of several cracks slips most, or the lowest one where none slips by what a joint meter shows."""
+        """(n,) which of several cracks slips most, or the lowest one where none slips as far as a joint meter shows."""
         slips = np.nan_to_num(np.abs(self.columns[RESIDUAL_SLIP.key]))
         most = slips.argmax(axis=1)
         return np.asarray(np.where(slips.max(axis=1) >= JOINT_METER_M, most, slips.shape[1] - 1), dtype=np.int64)
 
     def size(self, limit: str) -> Floats:
-        """Return (n, cracks) the size of what a limit limits; not a number without a result."""
+        """Return (n, cracks) the size of the quantity that a limit bounds; not a number without a result."""
         sizes = np.max([np.abs(self.columns[key]) for key in LIMITS[limit].keys], axis=0)
         return np.where(self.has_result[:, None], sizes, np.nan)
 
@@ -203,8 +203,8 @@ class Judgement:
         return {name: self.exceeds(name, value) for name, value in self.limits.items() if self.known(name)}
 
     def badness(self, row: int = 0) -> tuple[int, int, float]:
-        """Return by what the worse of two runs is told: how it ended, how many limits it does not meet, and how far
-        the dam slips, infinite where that is not known."""
+        """Return the sort key for the worse of two runs: outcome, number of limits exceeded, and slip, infinite where
+        it is not known."""
         outcome = self.outcome[row]
         severity = 2 if self.failed[row] else outcome.severity
         slip = float(self.size("residual_slip")[row].max())

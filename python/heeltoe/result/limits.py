@@ -1,4 +1,4 @@
-"""A result beside what the user allows."""
+"""Comparison of a result with the user's limits."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def allowances(limits: Limits, gravity: float) -> dict[str, float]:
 
 def judge_response(limits: Limits, response: ResponseData) -> Judgement:
     """Return the judgement of a response, one row."""
-    cracks = [crack.numbers for crack in response.cracks]
+    cracks = [crack.of_crack for crack in response.cracks]
     columns = dict[str, list[list[float]]]()
     for key in _KEYS:
         columns[key] = [[math.nan if numbers is None else getattr(numbers, key) for numbers in cracks]]

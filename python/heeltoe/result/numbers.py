@@ -40,7 +40,7 @@ class TimeByMode(Block):
 
 
 class AnchorForce(Block):
-    """What an anchor bears."""
+    """Force of an anchor."""
 
     distance_m: Annotated[
         float | None, Number("Where the anchor crosses the crack, from the heel; null where it misses it.", "m")
@@ -87,14 +87,14 @@ class AnchorForce(Block):
 
 
 class CrackEnergy(Block):
-    """What one of several cracks takes of the energy of the dam."""
+    """Energy that one of several cracks takes from the dam."""
 
     friction_j: Annotated[float, Number("Energy lost in its friction.", _JOULE)]
     impact_j: Annotated[float, Number("Energy lost in its impacts.", _JOULE)]
 
 
 class FrictionLawState(Block):
-    """What the friction law of a crack has come to."""
+    """State of the friction law of a crack at the end."""
 
     name: Annotated[str, Number("Name of the friction law.")]
     slip_path_m: Annotated[float, Number("How far the crack has slipped, to and fro.", "m")]
@@ -129,7 +129,7 @@ class ElasticFrictionLaw(FrictionLawState):
 
 
 class BondState(Block):
-    """What has become of the bond of a joint."""
+    """State of the bond of a joint at the end."""
 
     first_cracking_s: Annotated[
         float | None, Number("When the bond of the joint first breaks; null where it holds.", "s")
@@ -173,7 +173,7 @@ class BlockBond(Block):
 
 
 class Roughness(Block):
-    """What the asperities of a rough crack have come to."""
+    """State of the asperities of a rough crack at the end."""
 
     asperity_height_m: Annotated[float, Number("Height of the asperities.", "m")]
     wave_length_m: Annotated[float, Number("Their wave length.", "m")]
@@ -224,7 +224,7 @@ class Mesh(Block):
 
 
 class CrackNumbers(Block):
-    """What a crack did, of every model."""
+    """Numbers of a crack that every model has."""
 
     elevation_m: Annotated[
         float | None,
@@ -374,7 +374,7 @@ class CrossValley(Block):
 
 
 class BlockNumbers(CrackNumbers):
-    """What a crack below a rigid block did."""
+    """Numbers of a crack below a rigid block."""
 
     events: Annotated[int, Number("Changes of mode and impacts of a block.")]
     end_time_s: Annotated[float, Number("When the run ended.", "s")]
@@ -453,7 +453,7 @@ class CrackLevel(Block):
 
 
 class Chain(Block):
-    """What the decoupled chain did beside its block."""
+    """Numbers of the decoupled chain besides those of its block."""
 
     crack_level: Annotated[
         CrackLevel | None,
@@ -519,7 +519,7 @@ class TensileStrength(Block):
 
 
 class TensionByMesh(Block):
-    """What another mesh makes of the largest tension."""
+    """Largest tension on another mesh."""
 
     other_elements_across: Annotated[int, Number("Elements along the crack of that mesh.")]
     stress_pa: Annotated[float, Number("The largest tension with it.", "Pa")]
@@ -632,7 +632,7 @@ class EvidenceNumbers(Block):
 
 
 class ElasticCrack(CrackNumbers):
-    """What a crack of an elastic dam did."""
+    """Numbers of a crack of an elastic dam."""
 
     elastic_give: Annotated[ElasticGive, Number("Rotation and gap from which on it rocks and drifts.")]
     peak_normal_force_n: Annotated[float, Number("Largest force across the crack.", _NEWTON)]
@@ -672,7 +672,7 @@ class FacePressure(Block):
 
 
 class ElasticDam(Block):
-    """What an elastic dam did as a whole."""
+    """Numbers of an elastic dam as a whole."""
 
     end_time_s: Annotated[float, Number("When the run ended.", "s")]
     periods_s: Annotated[list[float], Number("Period of the intact dam with its water: the longest ones first.", "s")]
@@ -725,7 +725,7 @@ class Statistics(Block):
 
 
 class SignNumbers(Block):
-    """What the motion does one way round."""
+    """Numbers of a run with one sign of the motion."""
 
     sign: Annotated[str, Number("Which way round the motion shakes the dam: recorded or reversed.")]
     governs: Annotated[bool, Number("Whether it is the worse way, whose numbers lead the result.")]
@@ -771,6 +771,23 @@ class FrictionBand(Block):
     def judged(self) -> FrictionTrial:
         """The friction that the limits judge."""
         return next(trial for trial in self.trials if trial.judged)
+
+
+class FrictionEffect(Block):
+    """The same run with a little less friction, where the crack has no band."""
+
+    friction_change: Annotated[float, Number("By how much the coefficient of friction differs.")]
+    outcome: Annotated[str, Number("How the run ended.")]
+    residual_slip_m: Annotated[
+        float | None,
+        Number(
+            "Its residual slip, positive downstream, of an elastic dam without evidence; null without a result.", "m"
+        ),
+    ]
+    slip_change_m: Annotated[
+        float | None,
+        Number("How much farther it slides than the same run with the friction of the crack; null without both.", "m"),
+    ]
 
 
 class Spread(Block):

@@ -24,6 +24,7 @@ from heeltoe.result.numbers import (
     CrossValley,
     Energy,
     FrictionBand,
+    FrictionEffect,
     FrictionLawState,
     Roughness,
     SignNumbers,
@@ -75,7 +76,7 @@ class Numbered(ABC):
 
     @property
     def of_dam(self) -> Block | None:
-        """Those of the dam as a whole; None of a block."""
+        """Numbers of the dam as a whole; None for a block."""
         return None
 
     residual_slip_m = Of[float]()
@@ -208,6 +209,8 @@ class ResponseData(Numbered):
         What the motion does as recorded and reversed, where both were run: the response is that of the worse way.
     friction_band
         Results with other frictions of the crack, where the case has a band of them.
+    friction_effect
+        The result with a little less friction, where it has none.
     crest
         How the crest moves; None where the model does not say.
     """
@@ -234,6 +237,7 @@ class ResponseData(Numbered):
     silence_s: float = 0.0
     signs: tuple[SignNumbers, ...] = ()
     friction_band: FrictionBand | None = None
+    friction_effect: FrictionEffect | None = None
     crest: CrestMotion | None = None
 
     #: Whether the parts of the dam are elastic, so that both ends of a crack shift with nothing happening to the dam.
@@ -258,7 +262,7 @@ class ResponseData(Numbered):
 
     @property
     def started(self) -> bool:
-        """Whether there was a run: a dam that does not stand has none."""
+        """Whether there was a run: a dam that does not stand is not run."""
         return self.numbers is not None
 
     @property

@@ -1,4 +1,4 @@
-"""What an analysis returns: one immutable :class:`Response` with its evidence and warnings."""
+"""Response of a dam: one immutable :class:`Response` with its evidence and warnings."""
 
 from __future__ import annotations
 
@@ -11,10 +11,11 @@ from heeltoe.base.blocks import plain_json
 from heeltoe.base.display import Shown
 from heeltoe.base.pandas import dataframe
 from heeltoe.errors.sanitize import plain
+from heeltoe.kernel.build import build_info
 from heeltoe.result.comparison import meaning, ratio
 from heeltoe.result.record import ResponseData
 from heeltoe.result.verdict import verdict
-from heeltoe.result.write import build_info, motion_json, static_json, write_table
+from heeltoe.result.write import motion_json, static_json, write_table
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -86,6 +87,7 @@ class Response(ResponseData, Shown):
             **({"sequence": [stage.to_json() for stage in self.sequence]} if self.sequence else {}),
             **({"signs": [way.to_json() for way in self.signs]} if self.signs else {}),
             **({} if self.friction_band is None else {"friction_band": self.friction_band.to_json()}),
+            **({} if self.friction_effect is None else {"friction_effect": self.friction_effect.to_json()}),
             "limits": [check.to_json() for check in self.limits],
             "motion": motion_json(self.motion, self.gravity),
             "vertical_motion": motion_json(self.vertical, self.gravity) if self.vertical else None,

@@ -16,7 +16,7 @@ LAST_S = 1.0
 
 
 class LastChange(NamedTuple):
-    """What moves most in the last second of a run, by how much [m], and how long that second is [s]."""
+    """Quantity that moves most in the last second of a run, by how much [m], and how long that second is [s]."""
 
     seconds: float
     what: str
@@ -24,7 +24,7 @@ class LastChange(NamedTuple):
 
     @property
     def rest(self) -> bool:
-        """Whether nobody could measure it."""
+        """Whether the change is too small to be measured."""
         return self.change_m < JOINT_METER_M
 
 
@@ -41,7 +41,7 @@ def last_change(time: Floats, slip: Floats, gap_heel: Floats, gap_toe: Floats) -
 
 
 def still_since(time: Floats, *moved: Floats) -> float:
-    """Return from when on to the end [s] each of these lengths changes by nothing that a joint meter shows."""
+    """Return the time after which each of these lengths changes by less than a joint meter shows [s]."""
     late = [
         np.maximum.accumulate(values[::-1]) - np.minimum.accumulate(values[::-1]) < JOINT_METER_M for values in moved
     ]
@@ -64,7 +64,7 @@ def comes_to_rest(response: ResponseData) -> bool:
 
 
 def rests_from(response: ResponseData) -> float:
-    """Return from when on the dam is at rest [s]; infinite where it still moves when the run ends."""
+    """Return the time at which the dam comes to rest [s]; infinite where it still moves when the run ends."""
     if not comes_to_rest(response):
         return math.inf
     if response.elastic:

@@ -18,6 +18,7 @@ from heeltoe.result.numbers import (
     ElasticDam,
     Energy,
     FrictionBand,
+    FrictionEffect,
     SignNumbers,
     Spread,
     Stage,
@@ -45,6 +46,7 @@ def run_schema() -> dict[str, object]:
                 "sequence",
                 "signs",
                 "friction_band",
+                "friction_effect",
                 "cross_valley_motion",
                 "ratio",
                 "meaning",
@@ -61,7 +63,7 @@ def run_schema() -> dict[str, object]:
 
 
 def _of_models() -> dict[str, object]:
-    """Return the numbers of the crack of ``[crack]`` and of the dam; a run that never started has none."""
+    """Return the numbers of the crack of ``[crack]`` and of the dam, absent from a run that never started."""
     properties: dict[str, Any] = {}
     for kind in (BlockNumbers, Chain, ElasticCrack, ElasticDam):
         for name, schema in _properties(kind).items():
@@ -97,6 +99,7 @@ def _of_every_run() -> dict[str, object]:
         "sequence": {"type": "array", "items": json_schema(Stage)},
         "signs": {"type": "array", "items": json_schema(SignNumbers)},
         "friction_band": json_schema(FrictionBand),
+        "friction_effect": json_schema(FrictionEffect),
         "limits": {"type": "array", "items": json_schema(LimitCheck)},
         "motion": motion,
         "vertical_motion": _or_null(motion),

@@ -1,4 +1,4 @@
-"""What each motion of a sequence does to a dam, and what it leaves to the next one."""
+"""Sequences of motions: the effect of each motion on a dam, and the state that it leaves to the next one."""
 
 from __future__ import annotations
 

@@ -21,7 +21,8 @@ def place_phrase(stress: StressPlace) -> str:
 
 
 def tension_sentence(tension: Tension | None, units: str) -> str:
-    """Say that the concrete does not bear its largest tension; nothing where it does, or where nobody knows."""
+    """Say that the largest tension exceeds the strength of the concrete; empty where it does not, or where it is not
+    known."""
     strength = None if tension is None else tension.strength
     if tension is None or strength is None or not strength.exceeds:
         return ""

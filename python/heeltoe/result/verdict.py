@@ -1,4 +1,4 @@
-"""What a response means, in a few sentences."""
+"""Verdict on a response, in a few sentences."""
 
 from __future__ import annotations
 
@@ -6,7 +6,16 @@ from collections.abc import Sequence
 
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
 from heeltoe.result.judge import LimitCheck
-from heeltoe.result.numbers import BEST, AssumedRock, BlockBond, BondState, CrossValley, FrictionTrial, RockTrial
+from heeltoe.result.numbers import (
+    BEST,
+    AssumedRock,
+    BlockBond,
+    BondState,
+    CrossValley,
+    FrictionEffect,
+    FrictionTrial,
+    RockTrial,
+)
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.record import CrackResponse, ResponseData
 from heeltoe.result.rest import comes_to_rest, last_of, motion_end, rests_from
@@ -101,7 +110,7 @@ def band_sentence(response: ResponseData, units: str = "si") -> str:
     )
 
 
-def trial_text(trial: FrictionTrial, units: str) -> str:
+def trial_text(trial: FrictionTrial | FrictionEffect, units: str) -> str:
     """Say what the dam does with one friction."""
     if trial.outcome == Outcome.OVERTURNED:
         return "overturns"
@@ -111,6 +120,13 @@ def trial_text(trial: FrictionTrial, units: str) -> str:
         return f"comes to no result ({trial.outcome})"
     slip = abs(trial.residual_slip_m)
     return f"slides {length(slip, units)} {_way(trial.residual_slip_m)}" if slip else "does not slide"
+
+
+def effect_sentence(effect: FrictionEffect, units: str) -> str:
+    """Say what the dam does with a little less friction."""
+    does, change = trial_text(effect, units), effect.slip_change_m
+    more = "" if not change else f", {length(abs(change), units)} {'more' if change > 0.0 else 'less'}"
+    return f"With {abs(effect.friction_change):g} less friction it {does}{more}."
 
 
 def _limits(response: ResponseData, units: str) -> str:

@@ -8,10 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-
 from heeltoe.base.blocks import Block, Number
-from heeltoe.kernel.build import PROFILE, VERSION
 from heeltoe.mechanics.block import StaticState
 from heeltoe.motion.ground_motion import GroundMotion, Part
 from heeltoe.motion.measures import measures
@@ -149,8 +146,3 @@ def _part(part: Part, gravity: float) -> MotionPart:
         ends_s=part.ends,
         processing=list(part.processing),
     )
-
-
-def build_info() -> dict[str, str]:
-    """Return which build made a result."""
-    return {"heeltoe": VERSION, "kernel": PROFILE, "numpy": np.__version__}
