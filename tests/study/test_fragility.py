@@ -449,13 +449,13 @@ def test_the_tables_of_an_opened_study(tmp_path):
     assert refused.value.code == "not-a-choice"
     with pytest.raises(InputError) as refused:
         _ = study.fragility
-    assert refused.value.code == "study-no-fragility"
+    assert refused.value.code == "empty"
     assert study.bands()["rigid"]["runs"] == [30, 30]
     assert study.summary[0]["outcomes"] == {"ok": 60}
     drawn = run_study(study_file(tmp_path, DRAWN, "drawn.toml"), tmp_path / "drawn")
     with pytest.raises(InputError) as refused:
         drawn.to_xarray()
-    assert refused.value.code == "study-no-grid"
+    assert refused.value.code == "study-no-answer"
 
 
 def test_what_is_not_installed_is_said(tmp_path, monkeypatch):

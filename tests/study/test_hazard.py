@@ -299,7 +299,7 @@ def test_a_limit_without_a_curve_has_no_rate(tmp_path):
         ('curve = [["0.1 g", 0.001], ["0.2 g", 0.01]]', "hazard-rates"),
         ('file = "nowhere.csv"', "file-unreadable"),
         ('file = "bare.csv"', "hazard-header"),
-        ('file = "words.csv"', "hazard-row"),
+        ('file = "words.csv"', "wrong-quantity"),
     ],
 )
 def test_what_is_wrong_with_a_hazard_is_said(tmp_path, hazard, code):
@@ -380,7 +380,7 @@ def test_a_hazard_file_is_what_its_headings_say(tmp_path, name, content):
         ("a.csv", CSV.format(*RATES, head="SA(0.3 s) [g],annual rate"), "hazard-measure"),
         ("a.csv", CSV.format(*probabilities(50, 100), head="pga [g],poe in 50 years"), "out-of-range"),
         ("a.csv", OPENQUAKE.format(*probabilities(50), imt="SA(0.3)"), "hazard-measure"),
-        ("a.csv", OPENQUAKE.format(*probabilities(50), imt="PGA") + "11,45,0,0.5,0.4,0.3,0.2,0\n", "hazard-sites"),
+        ("a.csv", OPENQUAKE.format(*probabilities(50), imt="PGA") + "11,45,0,0.5,0.4,0.3,0.2,0\n", "several"),
         ("a.json", '{"response": {}}', "file-unreadable"),
         ("a.json", "[" * 20_000, "file-unreadable"),
     ],

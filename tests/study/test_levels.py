@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import textwrap
 
 import pytest
 
@@ -92,6 +91,15 @@ def test_a_suite_too_small_says_so_on_one_page_with_a_row_for_each_level(records
     assert [level["enough"] for level in data["levels"]] == [True, False, True]
     assert [level["met"] for level in data["levels"]] == [False, False, True]
     assert not data["met"]
+    assert not (tmp_path / "page").exists()
+    reply = command(
+        "run", case, "--model", "rigid", "--motions", records, "--levels", path, "--report", "--out", tmp_path / "page"
+    )
+    assert reply.returncode == 0, reply.stderr
+    page = (tmp_path / "page" / "report.html").read_text(encoding="utf-8")
+    for words in ("1,000 years", "10,000 years", "the criteria ask for 7 earthquakes", "A level is not met"):
+        assert words in page.replace("\u00a0", " ")
+    assert (tmp_path / "page" / "report.pdf").is_file()
 
 
 def test_a_dam_that_fails_meets_no_level(records, tmp_path):
@@ -131,17 +139,42 @@ def test_a_file_that_is_not_there_and_options_of_one_suite_are_refused(records, 
     path = written(tmp_path, TWO)
     reply = command("run", case, "--motions", records, "--levels", path, "--pga", "0.2g")
     assert reply.returncode == 2
-    assert "goes with one suite, not with one for each level" in reply.stderr
+    assert "does not belong to a suite for each level" in reply.stderr
     wrong = written(tmp_path, TWO.replace('pga = "0.2 g"', 'sa = "0.2 g"'))
     reply = command("run", case, "--model", "rigid", "--levels", wrong, "--set", "concrete.modulus=none")
     assert reply.returncode == 2
     assert "levels, 1000 years" in reply.stderr
 
 
-def test_the_example_of_the_page_can_be_read(tmp_path):
-    page = (ROOT / "docs" / "suites.md").read_text(encoding="utf-8").partition("## Criteria by level")[2]
-    block = page[page.index("    title =") :]
-    lines = block.splitlines()
-    end = next(k for k, line in enumerate(lines) if line and not line.startswith("    "))
-    levels = read_levels(written(tmp_path, textwrap.dedent("\n".join(lines[:end]))))
+def test_the_example_of_the_page_is_a_file_that_judges_a_dam(records):
+    file = ROOT / "docs" / "levels.toml"
+    page = (ROOT / "docs" / "suites.md").read_text(encoding="utf-8")
+    shown = "".join(f"    {line}".rstrip() + "\n" for line in file.read_text(encoding="utf-8").splitlines())
+    assert shown in page
+    levels = read_levels(file)
     assert [level.return_period for level in levels.levels] == [1000, 5000, 10000]
+    assert [level.limits.residual_slip for level in levels.levels] == [0.0, 0.6, 1.2]
+    assert {level.residual_friction for level in levels.levels[1:]} == {0.7}  # tan 35 degrees
+    results = run_levels(example("typical-base"), levels, records, model="rigid").levels
+    assert [level.enough for level in results] == [True, False, False]
+
+
+def test_a_level_may_have_its_own_uplift(records, tmp_path):
+    drains = {"pattern": "drained", "drain_position": 0.1, "drain_efficiency": 0.667}
+    dam = example("typical-base").with_({"uplift": drains, "statics.drain_diameter": "50 mm"})
+    text = '[[levels]]\nreturn_period = 1\npga = "0.7 g"\nfactor = 0.1\n'
+    (closed,) = run_levels(dam, read_levels(written(tmp_path, text)), records, model="rigid").levels
+    own = text + 'closed_drains = "linear"\nduring_shaking = "zero while open"\n'
+    (linear,) = run_levels(dam, read_levels(written(tmp_path, own)), records, model="rigid").levels
+    assert linear.checks[-1].value > closed.checks[-1].value
+    case = dam.with_({"statics.closed_drains": "linear", "uplift.during_shaking": "zero while open"})
+    slip = heeltoe.run_suite(case, records, model="rigid", pga="0.7 g").suite["models"][0]
+    (after,) = (
+        one
+        for one in heeltoe.statics(case, slip["statistics"]["residual_slip_m"]["largest"]).cases
+        if one.name == "post-seismic"
+    )
+    assert linear.checks[-1].value == after.sliding_factor
+    wrong = read_levels(written(tmp_path, own))
+    with pytest.raises(InputError, match=r"levels, 1 years: statics\.closed_drains"):
+        run_levels(example("typical-base"), wrong, records, model="rigid")

@@ -118,7 +118,7 @@ def test_a_dam_that_fails_comes_first_and_warnings_name_their_dam(tmp_path):
     assert any(text.startswith("Bad: reservoir.depth") for text in answer.manifest["warnings"])
     with pytest.raises(InputError) as error:
         answer.to_xarray()
-    assert error.value.code == "study-no-grid"
+    assert error.value.code == "study-no-answer"
 
 
 @pytest.mark.slow
@@ -144,7 +144,7 @@ def test_a_study_without_a_table_has_no_ranks(tmp_path):
     assert answer.portfolio is None
     with pytest.raises(InputError) as error:
         answer.portfolio_table()
-    assert error.value.code == "study-no-dams"
+    assert error.value.code == "empty"
 
 
 @pytest.mark.parametrize(
@@ -155,9 +155,9 @@ def test_a_study_without_a_table_has_no_ranks(tmp_path):
         ("name, section.height [m]\nA, tall\n", "wrong-quantity", "row 1: section.height"),
         ("name, section.height [kg]\nA, 1\n", "wrong-quantity", "section.height"),
         ("name, uplift.pattern [m]\nA, none\n", "dams-unit", "uplift.pattern"),
-        ("name, crack.friction\nA, 1, 2\n", "dams-row", "row 1"),
-        ("name, crack.friction\n", "dams-empty", "cases"),
-        ("name\nA\n", "dams-empty", "cases"),
+        ("name, crack.friction\nA, 1, 2\n", "row-length", "row 1"),
+        ("name, crack.friction\n", "empty", "cases"),
+        ("name\nA\n", "empty", "cases"),
         ("name, motion.pga [g]\nA, 1\n", "study-motion-varies", "motion.pga"),
         ("crack.friction, crack.friction\n1, 1\n", "listed-twice", "cases"),
     ],

@@ -8,9 +8,10 @@ import pytest
 from scipy import stats
 
 from heeltoe import read_case
+from heeltoe.case.distribution import Distribution
 from heeltoe.study.plan import samples as module
 from heeltoe.study.plan.axes import axis_of
-from heeltoe.study.plan.file import Distribution, read_study
+from heeltoe.study.plan.file import read_study
 from heeltoe.study.plan.plan import plan_of
 from heeltoe.study.plan.samples import Samples
 from shared.dams import BLOCK

@@ -80,8 +80,8 @@ def test_what_varies_may_be_spread_as_in_a_study_file():
     [
         ("crack.friction={from=0.8,to=1.2}", "study-count"),
         ("crack.friction={from=0.8,count=3}", "option-missing"),
-        ("crack.friction={from=1.2,to=0.8,count=3}", "distribution-order"),
-        ("crack.friction={from=0.8", "vary-form"),
+        ("crack.friction={from=1.2,to=0.8,count=3}", "out-of-range"),
+        ("crack.friction={from=0.8", "wrong-quantity"),
         ("uplift.pattern={from=0.8,to=1.2,count=3}", "study-not-a-number"),
         ("crack.friction={from=1,to=1.0000000001,count=3}", "listed-twice"),
     ],
@@ -134,7 +134,7 @@ def test_json():
         ("crack.friction=0.9,eleven", "wrong-quantity"),
         ("crack.friction=0.9,12", "out-of-range"),
         ("reservoir.depth=90 m,90", "unit-missing"),
-        ("reservoir.depth=90 m,220 m", "water-above-crest"),
+        ("reservoir.depth=90 m,220 m", "above-other"),
         ("uplift.pattern=none,some", "not-a-choice"),
         ("crack.frictoin=0.9,1.0", "unknown-field"),
         ("crack=1,2", "wrong-type"),
@@ -184,13 +184,13 @@ def test_a_run_without_a_result_has_its_row():
 @pytest.mark.parametrize(
     ("texts", "code"),
     [
-        (["crack.friction"], "vary-form"),
-        (["crack.friction="], "vary-form"),
-        (["=1,2"], "vary-form"),
-        (["crack.friction=1,,2"], "vary-form"),
+        (["crack.friction"], "wrong-quantity"),
+        (["crack.friction="], "wrong-quantity"),
+        (["=1,2"], "wrong-quantity"),
+        (["crack.friction=1,,2"], "wrong-quantity"),
         (["crack.friction=1", "crack.friction=2"], "listed-twice"),
         (["crack.friction=1,1"], "listed-twice"),
-        ([f"crack.friction={','.join(map(str, range(MOST + 1)))}"], "vary-many"),
+        ([f"crack.friction={','.join(map(str, range(MOST + 1)))}"], "too-many"),
     ],
 )
 def test_variations_that_are_none(texts, code):

@@ -127,15 +127,15 @@ def test_the_command_says_value_and_give_or_take(tmp_path):
 @pytest.mark.parametrize(
     ("field", "until", "between", "code"),
     [
-        ("crack.friction", "slip = 1 m", None, "solve-until"),
-        ("crack.friction", "residual_slip", None, "solve-until"),
+        ("crack.friction", "slip = 1 m", None, "not-a-choice"),
+        ("crack.friction", "residual_slip", None, "not-a-choice"),
         ("crack.friction", "residual_slip = 0 m", None, "out-of-range"),
         ("title", "residual_slip = 1 m", None, "solve-field"),
         ("crack.frictoin", "residual_slip = 1 m", None, "unknown-field"),
         ("uplift.pattern", "residual_slip = 1 m", None, "solve-field"),
         ("flexible.elements_across", "residual_slip = 1 m", None, "solve-field"),
         ("tailwater.depth", "residual_slip = 1 m", None, "solve-no-range"),
-        ("crack.friction", "residual_slip = 1 m", (0.5, 0.5), "solve-order"),
+        ("crack.friction", "residual_slip = 1 m", (0.5, 0.5), "wrong-quantity"),
         ("crack.friction", "residual_slip = 1 m", (-2.0, -1.0), "solve-range"),
     ],
 )

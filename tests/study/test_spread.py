@@ -135,7 +135,7 @@ def test_the_verdict_has_the_range():
 def test_numbers_of_runs_that_are_none(runs):
     with pytest.raises(InputError) as refused:
         check_runs(runs, "--spread")
-    assert refused.value.code == "spread-runs"
+    assert refused.value.code == "out-of-range"
 
 
 def test_numbers_of_runs():

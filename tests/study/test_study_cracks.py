@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, flexible, read_case, read_study, rigid, run_study
-from heeltoe.motion.records import read_record
+from heeltoe.motion.records.read import read_record
 from heeltoe.result.contract import HEADLINES
 from heeltoe.study.plan.plan import plan_of
 from heeltoe.study.run import batches as parts

@@ -192,7 +192,7 @@ def test_a_hostile_record_is_one_sentence(out, change):
     records.write_record(out, record | HOSTILE[change])
     with pytest.raises(InputError) as refused:
         open_study(out)
-    assert refused.value.code == "study-unreadable"
+    assert refused.value.code == "source-unreadable"
     assert "\n" not in str(refused.value)
 
 
@@ -201,7 +201,7 @@ def test_a_record_that_is_none_is_one_sentence(out, text):
     (out / "study.json").write_bytes(text.encode("utf-8", "surrogatepass"))
     with pytest.raises(InputError) as refused:
         open_study(out)
-    assert refused.value.code == "study-unreadable"
+    assert refused.value.code == "source-unreadable"
 
 
 def test_the_command_says_it_in_one_line(made, out):
@@ -219,7 +219,7 @@ def test_a_number_changed_in_the_record_is_refused(out):
     path.write_text(json.dumps(record))
     with pytest.raises(InputError) as refused:
         open_study(out)
-    assert refused.value.code == "study-damaged"
+    assert refused.value.code == "source-unreadable"
 
 
 def flipped(made: Path, tmp_path: Path, count: int) -> None:

@@ -14,7 +14,7 @@ from distributed.comm.core import CommClosedError
 from heeltoe import InputError, flexible, open_study, read_case, read_study, rigid, run_study
 from heeltoe.errors.error import UnfinishedError
 from heeltoe.models.run import decoupled
-from heeltoe.motion.records import read_record
+from heeltoe.motion.records.read import read_record
 from heeltoe.study.plan.plan import plan_of
 from heeltoe.study.run import batches as parts
 from heeltoe.study.run.schedule import run_on_workers
@@ -233,7 +233,7 @@ def test_what_is_no_study_is_refused(tmp_path):
     (tmp_path / "study.json").write_text("{}")
     with pytest.raises(InputError) as refused:
         open_study(tmp_path)
-    assert refused.value.code == "study-unreadable"
+    assert refused.value.code == "source-unreadable"
     (tmp_path / "study.json").write_text(json.dumps({"version": 99}))
     with pytest.raises(InputError) as refused:
         open_study(tmp_path)

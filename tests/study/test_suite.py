@@ -148,7 +148,7 @@ def test_a_suite_needs_records_and_a_period(dam, records, tmp_path):
     assert error.value.code == "study-motions"
     with pytest.raises(InputError) as error:
         heeltoe.run_suite(dam, tmp_path)
-    assert error.value.code == "study-folder-empty"
+    assert error.value.code == "empty"
     with pytest.raises(InputError) as error:
         heeltoe.run_suite(dam, [records / "quake-a-000.txt"] * 2)
     assert error.value.code == "listed-twice"
@@ -191,9 +191,9 @@ def test_the_command_prints_the_records_and_writes_page_and_figures(dam, records
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [
-        (("--judge", "mean"), "--judge: goes with a suite"),
-        (("--motions", "quakes", "--reverse"), "--reverse: goes with one motion"),
-        (("--motions", "quakes", "--resume"), "--resume: needs the directory"),
+        (("--judge", "mean"), "--judge: does not belong to a run of one motion"),
+        (("--motions", "quakes", "--reverse"), "--reverse: does not belong to a suite of records"),
+        (("--motions", "quakes", "--resume"), "--resume: has no meaning without --out DIR"),
     ],
 )
 def test_options_that_do_not_go_together_are_refused(dam, records, tmp_path, arguments, text):
@@ -333,7 +333,7 @@ def test_a_case_that_lists_motions_is_run_as_a_suite(dam, records, tmp_path):
     (record,) = json.loads(process.stdout)["suite"]["models"][0]["records"]
     assert record["pga_g"] == pytest.approx(0.7)
     refused = command("run", "dam.toml", "--spread", "3", cwd=tmp_path)
-    assert "--spread: goes with one motion" in refused.stderr
+    assert "--spread: does not belong to a suite of records" in refused.stderr
 
 
 def test_a_suite_of_one_record_states_no_number_over_several(dam, records):

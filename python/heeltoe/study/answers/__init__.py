@@ -1,1 +1,1 @@
-"""What a study says: fragility, sensitivity, comparisons of its models."""
+"""Answers of a study: fragility, sensitivity, comparisons of its models."""

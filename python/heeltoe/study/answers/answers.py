@@ -1,4 +1,4 @@
-"""What the runs of a study say: summaries, curves over the strength of the motion, modes of motion. All of it walks
+"""Answers from the runs of a study: summaries, curves over the strength of the motion, modes of motion. All of it walks
 through the runs and holds none of them."""
 
 from __future__ import annotations
@@ -242,8 +242,8 @@ def modes(walk: Walk, measure: str) -> tuple[Floats, Integers]:
 
 
 def farther(walk: Walk, than: Floats) -> tuple[Integers, Integers]:
-    """Return how many runs of each model slide farther than so much, either way, (models, than), and how many have a
-    residual slip at all, (models,)."""
+    """Return the number of runs of each model that slide farther than given slips, either way, (models, than), and of
+    those with a residual slip, (models,)."""
     models = len(walk.models)
     counts = np.zeros((models, than.size + 1), dtype=np.int64)
     for runs in walk("model", RESIDUAL_SLIP.key):

@@ -134,7 +134,8 @@ class Comparison:
 
 
 class _Sums:
-    """Sums of the logarithms of a measure, less the first of them: of what does not vary rounding leaves nothing."""
+    """Sums of the logarithms of a measure, less the first of them: where the measure does not vary, rounding leaves
+    nothing."""
 
     def __init__(self, events: int) -> None:
         self._first: float | None = None

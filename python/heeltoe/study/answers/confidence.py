@@ -13,9 +13,9 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.special import betaincinv, stdtrit
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.distributions import betaincinv, stdtrit
 from heeltoe.study.answers.likelihood import Witnesses, fit, likelihood, rise
 
 #: Directions in which the edge of a region is looked for, and halvings until it is found.

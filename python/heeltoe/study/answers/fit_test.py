@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from scipy.special import ndtr
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.base.blocks import Block, Number
+from heeltoe.base.distributions import ndtr
 from heeltoe.study.answers.likelihood import SAME, Witnesses, greatest
 
 #: Studies that are made, and the probability below which a curve does not fit.

@@ -14,10 +14,10 @@ from dataclasses import field, replace
 from typing import Annotated, Any
 
 import numpy as np
-from scipy.special import ndtr
 
 from heeltoe.base.arrays import Floats
 from heeltoe.base.blocks import Block, Number
+from heeltoe.base.distributions import ndtr
 from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.confidence import Ends, Knowledge, dispersion_ends, exact_bounds, knowledge_of, median_ends
 from heeltoe.study.answers.fit_test import FitTest, fit_test, groups_of
@@ -57,7 +57,7 @@ class NotStanding(Block):
 
 
 class Curve(Block):
-    """A fragility curve with what it rests on; `knowledge` says how well it is known, None of a single event."""
+    """A fragility curve with its data; `knowledge` is the uncertainty of the curve, None for a single event."""
 
     model: Annotated[str, Number("The model.")] = ""
     limit: Annotated[str, Number("Name of the limit.")]
@@ -181,7 +181,7 @@ def _no_curve(known: Witnesses, not_standing: NotStanding | None) -> str:
 
 
 def _with_intervals(curve: Curve, known: Witnesses) -> Curve:
-    """Return a curve with what its numbers lie within, and the parts of its dispersion."""
+    """Return a curve with intervals of its numbers, and the parts of its dispersion."""
     assert curve.median is not None
     assert curve.dispersion is not None
     knowledge = knowledge_of(known, float(np.log(curve.median)), curve.dispersion)
@@ -218,7 +218,7 @@ def _shares(known: Witnesses, confidence: float) -> tuple[Share, ...]:
 
 
 def _fitted(curve: Curve) -> tuple[Share, ...]:
-    """Return the shares of a curve with what it makes of them."""
+    """Return the observed shares of a curve with the probabilities of its fit."""
     strength = np.array([share.strength for share in curve.shares])
     probability, ends = curve.probability(strength).tolist(), curve.within(strength)
     within = [None] * strength.size if ends is None else list(zip(ends[0].tolist(), ends[1].tolist(), strict=True))

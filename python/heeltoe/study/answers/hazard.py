@@ -27,10 +27,10 @@ from itertools import pairwise
 from typing import Annotated, Any
 
 import numpy as np
-from scipy.special import log_ndtr, ndtr
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.base.blocks import Block, Number
+from heeltoe.base.distributions import log_ndtr, ndtr
 from heeltoe.study.answers.fragility import Curve
 from heeltoe.study.answers.likelihood import Witnesses, offsets
 

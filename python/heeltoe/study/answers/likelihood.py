@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import log_ndtr, ndtri
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.distributions import log_ndtr, ndtri
 
 #: Strengths that differ by rounding are one.
 SAME = 1e-9
@@ -108,7 +108,7 @@ class Tally:
 
     @property
     def witnesses(self) -> Witnesses:
-        """What is known."""
+        """Known outcomes of the runs."""
         _, event = np.unique(self._event, return_inverse=True)
         return Witnesses(self._logarithm / self._runs, event, self._runs, self._exceeding)
 

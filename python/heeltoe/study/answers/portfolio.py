@@ -78,7 +78,7 @@ def portfolio_of(walk: Walk) -> list[Ranks] | None:
 
 def _by_motion(walk: Walk, cube: Floats) -> Floats:
     """Return numbers of runs by dam, by motion at each strength and by model, each motion by its worse sign; infinite
-    where a run has none."""
+    where a run has no number."""
     size = np.nan_to_num(cube, nan=np.inf, posinf=np.inf)
     if size.shape[1] > 1:
         motions = [motion["name"] for motion in walk.manifest["motions"]]

@@ -1,4 +1,4 @@
-"""What the results depend on: Sobol's indices, and one field at a time."""
+"""Sensitivity of the results: Sobol's indices, and one field at a time."""
 
 from __future__ import annotations
 
@@ -52,8 +52,8 @@ class FieldEffect(TypedDict):
 
 
 class Tornado(TypedDict):
-    """Effect of each field alone, that of the largest span first: behind it are so many motions, others are left
-    out; without any there is no mean of the base case."""
+    """Effect of each field alone, largest span first, with the number of motions behind it, others being left out;
+    without any there is no mean of the base case."""
 
     motions: int
     left_out: int

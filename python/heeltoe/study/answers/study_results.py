@@ -18,7 +18,7 @@ from heeltoe.base.arrays import Floats, Integers
 from heeltoe.base.blocks import plain_json
 from heeltoe.base.display import Shown
 from heeltoe.case.paths import quantity_of
-from heeltoe.errors.error import STUDY_PACKAGES, InputError
+from heeltoe.errors.error import STUDY_PACKAGES, InputError, package
 from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.outcome import Outcome
 from heeltoe.study.answers.answers import bands, summary
@@ -60,7 +60,7 @@ class StudyResults(Shown):
 
     @property
     def title(self) -> str:
-        """Of the study; without a title what it varies."""
+        """Title of the study; by default the fields that it varies."""
         count = len({motion["name"] for motion in self.manifest["motions"]})
         dams = len(self.manifest["dams"] or ())
         return str(self.manifest["title"]) or untitled(self.manifest["study"], count, dams)
@@ -102,18 +102,14 @@ class StudyResults(Shown):
 
     def to_pandas(self, columns: list[str] | None = None) -> Any:
         """Return the runs as a ``pandas.DataFrame``."""
-        try:
+        with package("to_pandas", "pandas"):
             import pandas  # noqa: F401
-        except ImportError:
-            raise InputError("package-missing", "to_pandas", "pandas", install="pip install pandas") from None
         return self.to_table(columns).to_pandas()
 
     def duckdb(self) -> Any:
         """Return a DuckDB connection with the table ``runs``, which reads the files as it needs them."""
-        try:
+        with package("duckdb", "duckdb", STUDY_PACKAGES):
             import duckdb
-        except ImportError:
-            raise InputError("package-missing", "duckdb", "duckdb", install=STUDY_PACKAGES) from None
         connection = duckdb.connect()
         files = ", ".join("'{}'".format(path.replace("'", "''")) for path in self._files())
         connection.execute(f"create view runs as select * from read_parquet([{files}])")
@@ -130,12 +126,10 @@ class StudyResults(Shown):
         """
         method = "a table of dams" if self.manifest["dams"] else self.manifest["study"]["method"]
         if method != "grid":
-            raise InputError("study-no-grid", "to_xarray", method)
-        try:
+            raise InputError("study-no-answer", "to_xarray", method, remedy="take to_pandas")
+        with package("to_xarray", "xarray", STUDY_PACKAGES):
             import pandas  # noqa: F401
             import xarray  # noqa: F401
-        except ImportError:
-            raise InputError("package-missing", "to_xarray", "xarray", install=STUDY_PACKAGES) from None
         table = self.to_pandas()
         table["motion"] = table["motion"].astype(str) + np.where(table["reversed"], ", turned round", "")
         along = [*self.manifest["study"]["vary"], "motion", *self._strength(table), "model"]
@@ -184,8 +178,8 @@ class StudyResults(Shown):
 
     @cached_property
     def suite(self) -> SuiteAnswer | None:
-        """What a suite of records says: each record by its worse sign, the numbers over all of them, and the limits;
-        None where the study is none, or has runs to come."""
+        """Results of a suite of records: each record by its worse sign, the numbers over all of them, and the limits;
+        None where the study is no suite, or has runs to come."""
         return suite_of(self.walk) if self.complete else None
 
     @cached_property
@@ -202,8 +196,8 @@ class StudyResults(Shown):
 
     @cached_property
     def portfolio(self) -> list[Ranks] | None:
-        """The dams of a table in the order of their ranks, model by model; None where the study has none, or has runs
-        to come."""
+        """The dams of a table in the order of their ranks, model by model; None where the study has no table of dams,
+        or has runs to come."""
         return portfolio_of(self.walk) if self.complete else None
 
     def portfolio_table(self) -> pa.Table:
@@ -215,7 +209,9 @@ class StudyResults(Shown):
             Where the study has no table of dams.
         """
         if self.portfolio is None:
-            raise InputError("study-no-dams", "cases")
+            raise InputError(
+                "empty", "cases", "the study", what="table of dams", expected='one in its file: cases = "dams.csv"'
+            )
         return ranks_table(self.portfolio)
 
     @property
@@ -262,7 +258,9 @@ class StudyResults(Shown):
         """
         settings = self.manifest["study"]["fragility"]
         if settings is None:
-            raise InputError("study-no-fragility", "fragility")
+            raise InputError(
+                "empty", "fragility", "the study", what="fragility curves", expected="limits under [fragility]"
+            )
         return counted(self.walk, settings)
 
     def bands(self, demand: str = RESIDUAL_SLIP.key, measure: str = "pga", period: str | float | None = None) -> Any:
@@ -350,7 +348,7 @@ class StudyResults(Shown):
     def _asked(self, method: str) -> dict[str, Any]:
         study: dict[str, Any] = self.manifest["study"]
         if study["method"] != method:
-            raise InputError("study-no-answer", "method", study["method"], method=method)
+            raise InputError("study-no-answer", "method", study["method"], remedy=f'run one with method = "{method}"')
         return study
 
     def to_json(self) -> dict[str, Any]:

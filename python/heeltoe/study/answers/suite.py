@@ -15,9 +15,10 @@ import numpy as np
 
 from heeltoe.base.arrays import Floats, finite
 from heeltoe.base.blocks import Block, Number
-from heeltoe.result.contract import CRACKED, RESIDUAL_SLIP
+from heeltoe.result.contract import CRACKED, JOINT_METER_M, RESIDUAL_SLIP
 from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judged, LimitCheck
 from heeltoe.study.plan.crack_columns import column_of
+from heeltoe.study.plan.motions import alone
 from heeltoe.study.run.aggregate import Walk
 from heeltoe.units.parse import STANDARD_GRAVITY
 
@@ -30,7 +31,7 @@ _SIGNS = ("recorded", "reversed")
 
 
 class SuiteLimit(LimitCheck):
-    """A number over the records of a suite beside what the case allows."""
+    """Comparison of a number over the records of a suite with its limit."""
 
     elevation_m: Annotated[
         float | None, Number("Elevation of the bonded joint that is judged, where there are several cracks.", "m")
@@ -81,10 +82,20 @@ class SuiteRecord(Block):
     other_sign_residual_slip_m: Annotated[
         float | None, Number("Residual slip with the other sign; null without it.", "m")
     ]
+    without_cross_valley_slip_m: Annotated[
+        float | None,
+        Number("Residual slip without the shaking across the valley, by this sign; null where none is.", "m"),
+    ] = None
+    cross_valley_factor: Annotated[
+        float | None, Number("Residual slip over that; null where there is none, or it is too small to tell.")
+    ] = None
     magnitude: Annotated[float | None, Number("Magnitude by the list of records or the event; null without one.")]
     distance_m: Annotated[float | None, Number("From the fault to where it was recorded, likewise.", "m")]
     vs30_m_s: Annotated[float | None, Number("Velocity of shear waves in the upper 30 m there, likewise.", "m/s")]
     pulse_period_s: Annotated[float | None, Number("Period of the pulse in its velocity, likewise.", "s")]
+    hazard_share: Annotated[
+        float | None, Number("Share of the hazard from earthquakes like its own; null without a disaggregation.")
+    ] = None
     governs: Annotated[bool, Number("Whether it is the worst of all records.")] = False
 
 
@@ -109,8 +120,8 @@ class SuiteAnswer(Block):
 
 
 class _Way(NamedTuple):
-    """What a record does to the dam one way round: its judgement, the demands, SI, not a number where the run does not
-    say, and how far each bonded joint has cracked [m]."""
+    """Result of a record with one sign: its judgement, the demands, SI, not a number where the run has no value, and
+    how far each bonded joint has cracked [m]."""
 
     judged: Judged
     factor: float
@@ -137,14 +148,18 @@ def _of_model(walk: Walk, model: str, judge: str) -> SuiteModel:
     ways = _ways(walk, model)
     records: list[SuiteRecord] = []
     judged: list[Judged] = []
-    for motion in walk.manifest["motions"]:
+    motions = walk.manifest["motions"]
+    apart = {alone(motion["name"]) for motion in motions}
+    for motion in motions:
         name = motion["name"]
+        if name in apart:
+            continue
         if motion["reversed"] and any(record.motion == name for record in records):
             continue
         signs = {sign: ways[name, sign] for sign in _SIGNS if (name, sign) in ways}
         if signs:
             sign = max(signs, key=lambda name: signs[name].judged.badness)
-            records.append(_record(motion, sign, signs))
+            records.append(_record(motion, sign, signs, ways.get((alone(name), sign))))
             judged.append(signs[sign].judged)
     demands = _demands(walk)
     values = {key: np.array([_counted(*row, key) for row in zip(records, judged, strict=True)]) for key in demands}
@@ -206,11 +221,14 @@ def _ways(walk: Walk, model: str) -> dict[tuple[str, str], _Way]:
     return ways
 
 
-def _record(motion: Mapping[str, Any], sign: str, signs: Mapping[str, _Way]) -> SuiteRecord:
-    """Return what a record does, by its worse sign."""
+def _record(motion: Mapping[str, Any], sign: str, signs: Mapping[str, _Way], without: _Way | None) -> SuiteRecord:
+    """Return what a record does, by its worse sign, beside the run without the shaking across the valley."""
     way = signs[sign]
     other = next((signs[name] for name in signs if name != sign), None)
     demands: dict[str, Any] = {key: finite(value) for key, value in way.demands.items()}
+    along = None if without is None else finite(without.demands[RESIDUAL_SLIP.key])
+    slip = demands[RESIDUAL_SLIP.key]
+    factor = None if along is None or slip is None or along < JOINT_METER_M else slip / along
     return SuiteRecord(
         motion=motion["name"],
         event=motion["event"],
@@ -221,10 +239,13 @@ def _record(motion: Mapping[str, Any], sign: str, signs: Mapping[str, _Way]) -> 
         **demands,
         joints_cracked_m=[finite(value) for value in way.joints],
         other_sign_residual_slip_m=None if other is None else finite(other.demands[RESIDUAL_SLIP.key]),
+        without_cross_valley_slip_m=along,
+        cross_valley_factor=factor,
         magnitude=motion["traits"]["magnitude"],
         distance_m=motion["traits"]["distance_m"],
         vs30_m_s=motion.get("vs30_m_s"),
         pulse_period_s=motion.get("pulse_period_s"),
+        hazard_share=motion.get("hazard_share"),
     )
 
 
@@ -295,7 +316,7 @@ def _uncertainty(name: str, value: float, worth: Mapping[str, Any]) -> float:
 
 def suite_spectra(walk: Walk, records: Sequence[SuiteRecord]) -> dict[str, Any] | None:
     """Return the response spectra of the records as they shake the dam [m/s2], (records, periods), with their mean, and
-    the target; None where the study keeps none."""
+    the target; None where the study stores no spectra."""
     spectra = walk.manifest.get("spectra")
     if spectra is None:
         return None

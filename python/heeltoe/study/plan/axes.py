@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats
+from heeltoe.case.distribution import PLACES, Distribution, Value, distributed
 from heeltoe.case.model import Case
 from heeltoe.case.paths import quantity_of, value_of
 from heeltoe.errors.error import InputError, shown
-from heeltoe.study.plan.file import Distribution, Value
 from heeltoe.study.plan.problems import Problems
 from heeltoe.units.parse import DIMENSIONS, parse
 
@@ -159,64 +159,14 @@ def law_of(distribution: Distribution, read: Callable[[object, str], float], fie
     InputError
         Where its numbers do not make one.
     """
-
-    from scipy import stats
-
     numbers, problems = dict[str, float](), Problems()
-    for name in ("from", "mode", "to", "mean", "std", "median", "lower", "upper"):
+    for name in PLACES:
         value = getattr(distribution, "from_" if name == "from" else name)
         if value is not None:
             with problems:
                 numbers[name] = read(value, f"{field}.{name}")
     problems.tell()
-    if distribution.distribution in ("uniform", "triangular"):
-        low, high = numbers["from"], numbers["to"]
-        if low >= high:
-            raise InputError(
-                "distribution-order", f"{field}.to", shown(distribution.to), lowest=shown(distribution.from_)
-            )
-        if distribution.distribution == "uniform":
-            return stats.uniform(low, high - low)
-        middle = numbers["mode"]
-        if not low <= middle <= high:
-            raise InputError("distribution-mode", f"{field}.mode", shown(distribution.mode))
-        return stats.triang((middle - low) / (high - low), low, high - low)
-    low, high = numbers.get("lower", -np.inf), numbers.get("upper", np.inf)
-    if low >= high:
-        raise InputError(
-            "distribution-order", f"{field}.upper", shown(distribution.upper), lowest=shown(distribution.lower)
-        )
-    if distribution.distribution == "normal":
-        mean, std = numbers["mean"], numbers["std"]
-        if std <= 0.0:
-            raise InputError("distribution-spread", f"{field}.std", shown(distribution.std))
-        return stats.truncnorm((low - mean) / std, (high - mean) / std, mean, std)
-    median, dispersion = numbers["median"], distribution.dispersion
-    assert dispersion is not None
-    if median <= 0.0 or high <= 0.0:
-        raise InputError("distribution-spread", f"{field}.median", shown(distribution.median))
-    logarithms = [np.log(bound / median) / dispersion if bound > 0.0 else -np.inf for bound in (low, high)]
-    return _CutLognormal(median, dispersion, *logarithms)
-
-
-class _CutLognormal:
-    """The lognormal distribution between two bounds, which scipy has not; what is used of it."""
-
-    def __init__(self, median: float, dispersion: float, low: float, high: float) -> None:
-        from scipy import stats
-
-        self._normal = stats.truncnorm(low, high, 0.0, 1.0)
-        self._median, self._dispersion = median, dispersion
-
-    def ppf(self, share: Floats) -> Floats:
-        """Return the values below which these shares of all draws lie."""
-        return np.asarray(self._median * np.exp(self._dispersion * self._normal.ppf(share)), dtype=np.float64)
-
-    def support(self) -> tuple[float, float]:
-        """Return the bounds, infinite where there is none: zero is never drawn."""
-        low, high = (float(end) for end in self._normal.support())
-        scaled = [self._median * np.exp(self._dispersion * end) if np.isfinite(end) else end for end in (low, high)]
-        return float(scaled[0]), float(scaled[1])
+    return distributed(distribution, numbers, field)
 
 
 def even(distribution: Distribution, quantity: str, field: str) -> Floats:

@@ -15,9 +15,9 @@ from heeltoe.case.suite import Suite
 from heeltoe.errors.error import InputError, shown
 from heeltoe.motion.check import way_of
 from heeltoe.motion.ground_motion import UNCORRECTED, GroundMotion
-from heeltoe.motion.records import read_channels
+from heeltoe.motion.records import HeaderFactor
 from heeltoe.motion.records.catalog import PREFIX, find
-from heeltoe.motion.records.to_motion import HeaderFactor
+from heeltoe.motion.records.read import read_channels
 from heeltoe.study.plan.file import Motions
 from heeltoe.study.plan.search_results import Listed, listed_records
 
@@ -177,7 +177,7 @@ def component_of(motion: GroundMotion, name: str, *, several: bool, row: Listed 
 
 
 def check_asked(names: Sequence[str], directory: Path, reading: Reading) -> None:
-    """Refuse what is said of how files are read where each of them says it itself.
+    """Refuse options for reading files whose values each file states itself.
 
     Raises
     ------
@@ -188,7 +188,13 @@ def check_asked(names: Sequence[str], directory: Path, reading: Reading) -> None
         value = getattr(reading, said.name)
         without = replace(reading, **{said.name: None})
         if value is not None and not any(_asks(name, directory, without) for name in names):
-            raise InputError("study-said-by-records", f"motions.{said.name}", shown(value))
+            raise InputError(
+                "option-foreign",
+                f"motions.{said.name}",
+                shown(value),
+                owner="records that state this themselves",
+                remedy="",
+            )
 
 
 def _asks(name: str, directory: Path, reading: Reading) -> bool:

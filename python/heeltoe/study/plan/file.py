@@ -10,7 +10,6 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
     BeforeValidator,
-    ConfigDict,
     Discriminator,
     Field,
     PrivateAttr,
@@ -20,20 +19,19 @@ from pydantic import (
 )
 
 from heeltoe.base.display import Shown
-from heeltoe.case.fields import Count, Fields, TimeSpan, Truth
+from heeltoe.case.distribution import Distribution, Value
+from heeltoe.case.fields import Count, Fields, Fraction, TimeSpan, Truth
+from heeltoe.case.fields_file import read_fields
 from heeltoe.case.motion import Layout
 from heeltoe.case.processing import CorrectionStep
 from heeltoe.case.quantities import AccelerationField, DimensionlessNumber, Duration, Length, Rotation, Slip, Velocity
-from heeltoe.case.read import read_fields
 from heeltoe.case.sentences import collected, first_error, gathered
 from heeltoe.case.suite import PeriodField, SuiteRule
 from heeltoe.errors.error import InputError, shown
-from heeltoe.motion.records.to_motion import HeaderFactor
+from heeltoe.motion.records import HeaderFactor
 from heeltoe.units.parse import acceleration_unit
 from heeltoe.units.sentences import counted
 
-#: A value of some field as a case file has it; which quantity it is depends on the field.
-Value = str | int | float
 Model = Literal["rigid", "decoupled", "flexible"]
 Method = Literal["grid", "one at a time", "latin hypercube", "sobol", "sensitivity"]
 Measure = Literal[
@@ -43,61 +41,6 @@ Measure = Literal[
 
 def _listed(value: Any) -> Any:
     return [value] if isinstance(value, str | int | float) else value
-
-
-class Distribution(Fields):
-    """Values that are drawn. Quantities have units as in a case file."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True, populate_by_name=True)
-
-    distribution: Literal["uniform", "normal", "lognormal", "triangular"] = "uniform"
-    """How the values are distributed."""
-    from_: Value | None = Field(default=None, alias="from")
-    """Lowest value of `uniform` and `triangular`."""
-    to: Value | None = None
-    """Highest value of `uniform` and `triangular`."""
-    mode: Value | None = None
-    """Most likely value of `triangular`."""
-    mean: Value | None = None
-    """Mean of `normal`, before it is cut."""
-    std: Value | None = None
-    """Standard deviation of `normal`, before it is cut."""
-    median: Value | None = None
-    """Median of `lognormal`, before it is cut."""
-    dispersion: Annotated[DimensionlessNumber, Field(gt=0.0, le=3.0)] | None = None
-    """Standard deviation of the logarithm of `lognormal`, before it is cut."""
-    lower: Value | None = None
-    """Cuts `normal` and `lognormal` below: nothing less is drawn, and the rest in proportion more often."""
-    upper: Value | None = None
-    """Cuts `normal` and `lognormal` above."""
-    count: Annotated[int, Field(strict=True, ge=2, le=10_000)] | None = None
-    """How many equally likely values a `grid` or `one at a time` takes of it; of a uniform one both ends are among
-    them."""
-
-    @model_validator(mode="after")
-    @gathered
-    def _complete(self) -> Iterator[InputError]:
-        needed = {
-            "uniform": ("from", "to"),
-            "triangular": ("from", "mode", "to"),
-            "normal": ("mean", "std"),
-            "lognormal": ("median", "dispersion"),
-        }[self.distribution]
-        also = ("lower", "upper") if self.distribution in ("normal", "lognormal") else ()
-        fields = {
-            name: getattr(self, "from_" if name == "from" else name)
-            for name in ("from", "to", "mode", "mean", "std", "median", "dispersion", "lower", "upper")
-        }
-        for name, value in fields.items():
-            if value is None and name in needed:
-                yield InputError("option-missing", name, owner=f"the distribution {self.distribution}")
-            if value is not None and name not in (*needed, *also):
-                yield InputError(
-                    "option-foreign",
-                    name,
-                    owner=f"the distribution {self.distribution}",
-                    remedy=f"; that has {', '.join((*needed, *also))}",
-                )
 
 
 # Without names of their own the kinds leave no trace in the path of what is wrong with one.
@@ -125,6 +68,8 @@ class Event(Fields):
     """Velocity of shear waves in the upper 30 m of the place; shown beside its records."""
     pulse_period: Annotated[Duration, Field(gt=0.0)] | None = None
     """Period of the pulse in the velocity of a record near a fault; shown beside it."""
+    hazard_share: Fraction | None = None
+    """Share of the hazard from earthquakes of its magnitude and distance, by a disaggregation; shown beside it."""
 
 
 class Scale(Fields):
@@ -338,7 +283,13 @@ class Study(Shown, Fields):
             yield InputError("needs-other", "correlation", other='method "latin hypercube" or "sobol"')
         if self.method in ("sobol", "sensitivity") and self.samples and self.samples & (self.samples - 1):
             near = 2 ** max(1, self.samples.bit_length() - 1)
-            yield InputError("study-power", "samples", self.samples, below=near, above=2 * near)
+            yield InputError(
+                "wrong-quantity",
+                "samples",
+                self.samples,
+                kind="a power of two, which Sobol's points need",
+                example=f"{near} or {2 * near}",
+            )
         if self.hazard is not None and self.fragility is None:
             yield InputError("needs-other", "hazard", other="[fragility] with limits")
         if self.cases is not None and (self.vary or self.method != "grid"):
@@ -381,5 +332,11 @@ def read_study(source: str | PathLike[str]) -> Study:
     path = Path(source)
     fields = read_fields(path, "a study file; `heeltoe examples` writes some")
     if "section" in fields and fields.keys().isdisjoint(("case", "cases")):
-        raise InputError("case-no-study", str(path), name=path.name)
+        raise InputError(
+            "another-kind",
+            str(path),
+            "a case",
+            wanted="a study",
+            remedy=f'run it with "heeltoe run", or name it in a study file: case = "{path.name}"',
+        )
     return Study.of(fields, path.parent)

@@ -11,8 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.case.distribution import Value
 from heeltoe.errors.error import InputError, shown
-from heeltoe.study.plan.file import Hazard, Value
+from heeltoe.study.plan.file import Hazard
 from heeltoe.study.plan.hazard_file import read_pairs
 from heeltoe.study.plan.problems import Problems
 from heeltoe.units.parse import parse, parse_acceleration

@@ -102,7 +102,7 @@ def _of_openquake(rows: Sequence[Sequence[str]], years: float, field: str) -> tu
     if measure is None or len(rows) < 3:
         raise InputError("hazard-header", field)
     if len(rows) > 3:
-        raise InputError("hazard-sites", field, f"{len(rows) - 2}")
+        raise InputError("several", field, f"{len(rows) - 2}", things="curves", how="of the site")
     unit = _UNITS.get(measure[1].lower(), "g")
     pairs = [
         (f"{strength!r} {unit}", _rate_of_probability(probability, years, field))
@@ -122,7 +122,7 @@ def _of_json(path: Path, field: str) -> tuple[str, Pairs]:
         curves = response.get("hazardCurves", response)
         curves = curves if isinstance(curves, list) else [curves]
         if len(curves) != 1:
-            raise InputError("hazard-sites", field, f"{len(curves)}")
+            raise InputError("several", field, f"{len(curves)}", things="curves", how="of the site")
         (curve,) = curves
         known: dict[str, Any] = curve.get("metadata", curve)
         total = next(data for data in curve["data"] if data.get("component", "Total") == "Total")
@@ -201,4 +201,10 @@ def _pair(row: Sequence[str], field: str) -> tuple[float, float]:
         strength, rate = row
         return plain_number(strength), plain_number(rate)
     except ValueError:
-        raise InputError("hazard-row", field, shown(", ".join(row))) from None
+        raise InputError(
+            "wrong-quantity",
+            field,
+            shown(", ".join(row)),
+            kind="a strength with an annual rate",
+            example="two numbers, 0.1, 0.01",
+        ) from None

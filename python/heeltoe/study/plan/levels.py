@@ -22,10 +22,10 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, ValidationError, model_validator
 
 from heeltoe.case.fields import Count, Fields, FrictionCoefficient
+from heeltoe.case.fields_file import read_fields
 from heeltoe.case.model import Case
 from heeltoe.case.options import Limits
 from heeltoe.case.quantities import AccelerationField, DimensionlessNumber
-from heeltoe.case.read import read_fields
 from heeltoe.case.sentences import first_error, gathered
 from heeltoe.case.suite import PeriodField
 from heeltoe.errors.error import InputError
@@ -56,6 +56,11 @@ class Level(Fields):
     """Factor against sliding that must be left after the earthquake, by the static checks with the judged slip."""
     residual_friction: FrictionCoefficient | None = None
     """Coefficient of friction after the earthquake, of that factor; that of the case where it is not given."""
+    during_shaking: Literal["constant", "zero while open", "full while open", "follows opening"] | None = None
+    """Uplift in the earthquake, as `uplift.during_shaking`; that of the case where it is not given."""
+    closed_drains: Literal["reservoir head", "linear"] | None = None
+    """Uplift after it where slip has closed the drains, as `statics.closed_drains`; that of the case where it is not
+    given."""
 
     @model_validator(mode="after")
     @gathered
@@ -103,6 +108,12 @@ def read_levels(path: str | os.PathLike[str]) -> Levels:
 
 
 def case_at(case: Case, level: Level) -> Case:
-    """Return a case with the limits and the damping of a level."""
-    damped = case if level.damping is None else case.with_({"concrete.damping": level.damping})
-    return damped.model_copy(update={"limits": level.limits})
+    """Return a case with the limits, the damping and the uplift of a level."""
+    own = {
+        "concrete.damping": level.damping,
+        "uplift.during_shaking": level.during_shaking,
+        "statics.closed_drains": level.closed_drains,
+    }
+    changes = {path: value for path, value in own.items() if value is not None}
+    changed = case.with_(changes) if changes else case
+    return changed.model_copy(update={"limits": level.limits})

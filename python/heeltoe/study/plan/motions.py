@@ -24,7 +24,7 @@ from heeltoe.motion.check import check_moved, check_pair, check_scaling
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.intensity import intensity
 from heeltoe.motion.matching import match_known_band
-from heeltoe.motion.records import is_record
+from heeltoe.motion.records.read import is_record
 from heeltoe.motion.targets import Target, file_of_target, target_of
 from heeltoe.study.plan.components import NOTHING_SAID, Reading, check_asked, components_of, grouped, with_channel
 from heeltoe.study.plan.file import Event, Motions
@@ -74,6 +74,11 @@ class Shake:
         return np.sqrt(ratio) if measure == "arias" else ratio
 
 
+def alone(name: str) -> str:
+    """Return the name of a motion along the stream that is run without that across the valley, too."""
+    return f"{name} alone"
+
+
 def shakes_of(motions: Motions, case: Case, directory: Path) -> tuple[tuple[Shake, ...], tuple[str, ...]]:
     """Read the motions of a study.
 
@@ -118,7 +123,9 @@ def _shakes(motions: Motions, case: Case, directory: Path, number: int, event: E
     if motions.cross_valley and len(event.horizontal) != 2:
         raise InputError("study-pair", "motions.cross_valley", shown(event.name), count=len(event.horizontal))
     if motions.vertical and event.vertical is None:
-        raise InputError("study-vertical", "motions.vertical", shown(event.name))
+        raise InputError(
+            "study-component", "motions.vertical", shown(event.name), component="vertical", remedy="leave vertical out"
+        )
     horizontal, problems = list[GroundMotion](), Problems()
     vertical: GroundMotion | None = None
     for place, name in enumerate(event.horizontal):
@@ -215,7 +222,13 @@ def _events(motions: Motions, directory: Path) -> Iterator[Event]:
     groups = grouped(parts)
     for group in groups:
         if not group.horizontal:
-            raise InputError("study-horizontal", "motions", shown(group.vertical[0].file))
+            raise InputError(
+                "study-component",
+                "motions",
+                shown(group.vertical[0].file),
+                component="horizontal",
+                remedy="take the file out",
+            )
         files = [part.file for part in (*group.horizontal, *group.vertical)]
         if len(group.vertical) > 1 or len(group.horizontal) > 2:
             raise InputError("study-components", "motions", shown(group.name), names=", ".join(files))
@@ -239,9 +252,11 @@ def suite_events(
     directory: Path,
     *,
     vertical: bool,
+    cross_valley: bool = False,
     reading: Reading = NOTHING_SAID,
 ) -> tuple[list[Event], list[str]]:
-    """Return each horizontal record of a suite as an event by itself, with the entry of the case that it comes from.
+    """Return each horizontal record of a suite as an event by itself, with the entry of the case that it comes from;
+    both horizontal components of an earthquake as one event with `cross_valley`.
 
     A vertical component, known by what its record says and else by its name, goes with each horizontal one of its
     earthquake where `vertical` is asked for, and is left out otherwise.
@@ -268,13 +283,23 @@ def suite_events(
     for group in grouped(components_of(names, directory, reading)):
         # Alone and by its file, a vertical component is what the user asks for; it is warned of.
         level = group.horizontal or tuple(part for part in group.vertical if part.given not in found)
+        if cross_valley:
+            if len(level) != 2:
+                raise InputError("study-pair", "suite.cross_valley", shown(group.name), count=len(level))
+            entry, named = files[level[0].given]
+            up = group.vertical[0].file if vertical and group.vertical else None
+            event = _event(group.name, [part.file for part in level], named or up, level[0].listed)
+            rows.append((names.index(level[0].given), event, entry))
+            continue
         for part in level:
             entry, named = files[part.given]
             up = group.vertical[0].file if vertical and group.horizontal and group.vertical else None
             event = _event(_name_of(part.file, directory), [part.file], named or up, part.listed)
             rows.append((names.index(part.given), event, entry))
     if not rows:
-        raise InputError("study-horizontal", "motions", shown(names[0]))
+        raise InputError(
+            "study-component", "motions", shown(names[0]), component="horizontal", remedy="take the file out"
+        )
     rows.sort(key=lambda row: row[0])
     called = [event.name for _, event, _ in rows]
     return [
@@ -302,8 +327,10 @@ def records_of(name: str, directory: Path, field: str = "motions.folder") -> lis
     root = directory / os.path.expanduser(name)
     # A name that is too long for any file is no folder, either: Path.is_dir raises.
     if not os.path.isdir(root):
-        raise InputError("study-folder", field, shown(name))
+        raise InputError(
+            "not-a-directory", field, shown(name), expected="the directory of the records, relative to the study file"
+        )
     files = [str(path.resolve()) for path in sorted(root.iterdir()) if is_record(path) and not is_list(path.name)]
     if not files:
-        raise InputError("study-folder-empty", field, shown(name))
+        raise InputError("empty", field, shown(name), what="records", expected="a directory with records")
     return files

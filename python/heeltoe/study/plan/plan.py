@@ -15,6 +15,7 @@ import numpy as np
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.case.combinations import check
+from heeltoe.case.distribution import Distribution
 from heeltoe.case.model import Case
 from heeltoe.case.paths import value_of
 from heeltoe.case.read import read_case
@@ -35,9 +36,9 @@ from heeltoe.result.crest import CREST_PEAKS
 from heeltoe.result.judge import CREST_LIMITS
 from heeltoe.study.plan.axes import Axis, axis_of, beside, check_drawn, law_of
 from heeltoe.study.plan.crack_columns import check_cracks
-from heeltoe.study.plan.file import Distribution, Scale, Study
+from heeltoe.study.plan.file import Scale, Study
 from heeltoe.study.plan.hazard import HazardCurve, read_hazard
-from heeltoe.study.plan.motions import Shake, beside_file, both_signs, shakes_of
+from heeltoe.study.plan.motions import Shake, alone, beside_file, both_signs, shakes_of
 from heeltoe.study.plan.problems import Problems
 from heeltoe.study.plan.samples import MOST_SOBOL, Columns, Samples
 from heeltoe.study.plan.table import read_table
@@ -490,9 +491,9 @@ def plan_of(study: Study, case: Case | None = None) -> Plan:
     if plan.crest and "decoupled" in study.model:
         raise InputError("study-no-crest", "model", "decoupled")
     if plan.count > MOST:
-        raise InputError("study-many", "study", f"{plan.count:.3g}", most=f"{MOST:.0e}")
+        raise InputError("too-many", "study", f"{plan.count:.3g}", most=f"{MOST:.0e}")
     if study.method == "sobol" and plan.samples.count > MOST_SOBOL:
-        raise InputError("study-many", "samples", f"{study.samples:.3g}", most=f"{MOST_SOBOL:.3g}")
+        raise InputError("too-many", "samples", f"{study.samples:.3g}", most=f"{MOST_SOBOL:.3g}")
     if study.drawn:
         looked, _ = plan.samples.at(np.arange(min(plan.samples.count, _LOOKED_AT), dtype=np.int64))
         for axis in axes:
@@ -542,7 +543,11 @@ def _motions(study: Study, case: Case) -> tuple[tuple[Shake, ...], tuple[str, ..
     if study.motions.cross_valley:
         for model in study.model:
             check_across(case, model)
-    return shakes_of(study.motions, case, study.directory)
+    shakes, events = shakes_of(study.motions, case, study.directory)
+    if study.suite is not None and study.motions.cross_valley:
+        # What the other component changes is known by a run without it.
+        shakes += tuple(replace(shake, name=alone(shake.name), cross=None) for shake in shakes)
+    return shakes, events
 
 
 def _scale(scale: Scale | None, case: Case, *, drawn: bool) -> Axis | None:
@@ -604,6 +609,7 @@ def _place(shake: Shake) -> dict[str, float | None]:
     return {
         "vs30_m_s": None if event is None else event.vs30,
         "pulse_period_s": None if event is None else event.pulse_period,
+        "hazard_share": None if event is None else event.hazard_share,
     }
 
 

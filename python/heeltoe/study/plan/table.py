@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,7 @@ MOST = 200_000
 NAME = "name"
 # Bytes; a table of as many dams as may be has less.
 _LARGEST = 64_000_000
+_no_dams = partial(InputError, "empty", "cases", what="dams", expected="a header with fields, and a row for each dam")
 _HEAD = re.compile(r"([^\[\]]+(?:\[\d+\][^\[\]]*)*?)\s*(?:\[([^\[\]]*)\])?\s*")
 
 
@@ -95,16 +97,16 @@ def read_table(path: Path) -> DamTable:
     """
     rows = _rows(path)
     if len(rows) < 2:
-        raise InputError("dams-empty", "cases", shown(path.name))
+        raise _no_dams(shown(path.name))
     head, *dams = rows
     if len(dams) > MOST:
-        raise InputError("study-many", "cases", f"{len(dams):,}", most=f"{MOST:,}")
+        raise InputError("too-many", "cases", f"{len(dams):,}", most=f"{MOST:,}")
     problems, axes, units = Problems(), list[Axis](), dict[str, str]()
     names = tuple(str(number + 1) for number in range(len(dams)))
     for number, dam in enumerate(dams):
         if len(dam) != len(head):
             with problems:
-                raise InputError("dams-row", f"cases: row {number + 1}", len(dam), count=len(head))
+                raise InputError("row-length", f"cases: row {number + 1}", len(dam), count=len(head))
     problems.tell()
     if len(set(head)) < len(head):
         raise InputError("listed-twice", "cases", shown(head))
@@ -124,7 +126,7 @@ def read_table(path: Path) -> DamTable:
                 units[axis.path] = unit
     problems.tell()
     if not axes:
-        raise InputError("dams-empty", "cases", shown(path.name))
+        raise _no_dams(shown(path.name))
     if len(set(names)) < len(names):
         twice = next(name for name in names if names.count(name) > 1)
         raise InputError("dams-name", f"cases: row {names.index(twice) + 1}", shown(twice), count=names.count(twice))

@@ -23,7 +23,7 @@ FACTOR = "post_seismic_factor"
 
 
 class LevelCheck(Block):
-    """A number of a level beside what is allowed or required."""
+    """Comparison of a number of a level with its limit or requirement."""
 
     name: Annotated[str, Number("Field of `limits`, or post_seismic_factor.")]
     value: Annotated[float | None, Number("The judged number over the records, SI; null where the dam fails.")]
@@ -103,8 +103,8 @@ def run_levels(
     """
     rows, name = [], model
     for level in levels.levels:
-        at = case_at(case, level)
         try:
+            at = case_at(case, level)
             results = run_suite(at, level.motions or motions, model=model, progress=progress, **level.suite())
         except InputError as error:
             error.field = f"levels, {level.return_period:g} years: {error.field}"

@@ -6,6 +6,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -13,10 +14,11 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from heeltoe.base.atomic_files import write_text
+from heeltoe.case.distribution import Distribution
 from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 from heeltoe.result.write import json_text
-from heeltoe.study.plan.file import Distribution, Study
+from heeltoe.study.plan.file import Study
 from heeltoe.study.plan.plan import MOST
 
 STUDY = "study.json"
@@ -42,6 +44,7 @@ class _Motion(_Model):
     traits: dict[str, Finite | None]
     vs30_m_s: Finite | None
     pulse_period_s: Finite | None
+    hazard_share: Finite | None = None
 
 
 class _Hazard(_Model):
@@ -126,6 +129,7 @@ def read_manifest(directory: Path) -> dict[str, Any]:
         Where there is no study, or it is damaged or none of ours.
     """
     path = directory / STUDY
+    damaged = partial(InputError, "source-unreadable", str(path), expected="another directory, or restore the file")
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
         if record["version"] != VERSION:
@@ -138,17 +142,17 @@ def read_manifest(directory: Path) -> dict[str, Any]:
     except ValidationError as error:
         wrong = error.errors(include_url=False)[0]
         place = plain(".".join(map(str, wrong["loc"])), 60)
-        raise InputError("study-unreadable", str(path), reason=f"{place}: {plain(wrong['msg'], 80)}") from None
+        raise damaged(reason=f"{place}: {plain(wrong['msg'], 80)}") from None
     except InputError as error:
         if error.code == "study-version":
             raise
-        raise InputError("study-unreadable", str(path), reason=f"study.{error.field}: {error.code}") from None
+        raise damaged(reason=f"study.{error.field}: {error.code}") from None
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
-        raise InputError("study-unreadable", str(path), reason=type(error).__name__) from None
+        raise damaged(reason=type(error).__name__) from None
     if checksum != _checksum(record):
-        raise InputError("study-damaged", str(path))
+        raise damaged(reason="its checksum is another one")
     for reason in _contradictions(record, study):
-        raise InputError("study-unreadable", str(path), reason=reason)
+        raise damaged(reason=reason)
     return dict(record)
 
 

@@ -1,4 +1,4 @@
-"""Where a study keeps its runs: parts of a table, each written whole as it is done, and what they belong to.
+"""Store of the runs of a study: parts of a table, each written whole as it is done, and the plan they belong to.
 
 ``study.json`` says which study it is, by a fingerprint of all that its results depend on, and
 ``runs/part-N-DIGEST.parquet`` holds a stretch of its runs. A part is there whole or not at all: what was killed, or ran
@@ -22,9 +22,9 @@ import pyarrow.parquet as pq
 
 from heeltoe.base.atomic_files import check_directory, settle, written
 from heeltoe.errors.error import InputError
+from heeltoe.kernel.build import build_info
 from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.outcome import Outcome
-from heeltoe.result.write import build_info
 from heeltoe.study.plan.plan import Pilot, Plan
 from heeltoe.study.run.record import STUDY, VERSION, read_manifest, write_record
 from heeltoe.warnings.notice import Notice
@@ -263,7 +263,7 @@ def _record(plan: Plan, size: int, columns: Mapping[str, str]) -> dict[str, Any]
 
 
 def keep_questions(directory: Path, plan: Plan) -> None:
-    """Put what is asked of the runs, on which they do not hang, in the place of what was asked before."""
+    """Replace the stored questions to the runs, which do not change the runs."""
     record = read_manifest(directory)
     record |= {
         "title": plan.study.title,
@@ -277,7 +277,7 @@ def keep_questions(directory: Path, plan: Plan) -> None:
 
 
 def keep_seconds(directory: Path, seconds: Mapping[str, float]) -> None:
-    """Add to what a study is how long what of its runs took."""
+    """Add the measured seconds of some runs to the record of the study."""
     record = read_manifest(directory)
     before = record.get("seconds", {})
     record["seconds"] = before | {name: round(before.get(name, 0.0) + more, 3) for name, more in seconds.items()}

@@ -18,6 +18,7 @@ from heeltoe.case.read import read_case
 from heeltoe.case.suite import Suite
 from heeltoe.errors.error import InputError
 from heeltoe.models.run import AUTO, check_model, models_of
+from heeltoe.motion.disaggregation import Disaggregation, read_disaggregation
 from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.plan.components import Reading
 from heeltoe.study.plan.file import Event, Study
@@ -31,7 +32,7 @@ _FIELDS = {
     f"motions.{name}": f"suite.{field}"
     for name, field in (
         *(("scale.period", "period"), ("match", "match")),
-        *((name, name) for name in ("vertical", *_READING)),
+        *((name, name) for name in ("vertical", "cross_valley", *_READING)),
     )
 }
 
@@ -110,7 +111,16 @@ def run_suite(
 def _study_of(case: Case, model: str) -> tuple[Study, dict[str, str]]:
     """Return the study that a suite is, and how the case calls its fields."""
     rule, models = case.suite, models_of(case, model)[0]
-    events, paths = suite_events(case.motions, case.base_directory, vertical=rule.vertical, reading=Reading.of(rule))
+    events, paths = suite_events(
+        case.motions,
+        case.base_directory,
+        vertical=rule.vertical,
+        cross_valley=rule.cross_valley,
+        reading=Reading.of(rule),
+    )
+    if rule.disaggregation is not None:
+        shares = read_disaggregation(rule.disaggregation, case.base_directory, "suite.disaggregation")
+        events = [event.model_copy(update={"hazard_share": _share(shares, event)}) for event in events]
     scale = None
     if rule.pga is not None:
         scale = {"measure": "pga", "values": [str(rule.pga)]}
@@ -124,6 +134,7 @@ def _study_of(case: Case, model: str) -> tuple[Study, dict[str, str]]:
             "motions": {
                 "events": [_written(event) for event in events],
                 "vertical": rule.vertical,
+                "cross_valley": rule.cross_valley,
                 "both_signs": rule.both_signs,
                 "scale": scale,
                 "match": rule.match,
@@ -141,6 +152,13 @@ def _study_of(case: Case, model: str) -> tuple[Study, dict[str, str]]:
     names |= {f"motions.events[{place}].vertical": f"{path}.vertical" for place, path in enumerate(paths)}
     names["motions.scale.values"] = "suite.sa" if rule.sa is not None else "suite.pga"
     return study, names | _FIELDS
+
+
+def _share(shares: Disaggregation, event: Event) -> float | None:
+    """Return the share of the hazard from earthquakes like that of an event; None where it is not known which it is."""
+    if event.magnitude is None or event.distance is None:
+        return None
+    return shares.share_of(event.magnitude, event.distance)
 
 
 def _written(event: Event) -> dict[str, Any]:

@@ -26,12 +26,12 @@ from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
 from heeltoe.case.warnings import drawing_text
 from heeltoe.errors.error import InputError, expect
+from heeltoe.kernel.build import build_info
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, CriticalAccelerations, build_block
 from heeltoe.models.cost import Cost
 from heeltoe.models.rigid.walk import walk
 from heeltoe.result.outcome import Outcome
-from heeltoe.result.write import build_info
 
 #: What a pulse does to a block, by the numbers of a map.
 ENDS = ("does not rock", "rocks and stands", "overturns after an impact", "overturns without impact", "no result")
@@ -162,7 +162,7 @@ def overturning_map(
 
 
 def map_cost(count: int) -> Cost:
-    """Return what a map of so many frequencies and amplitudes takes."""
+    """Return the cost of a map of `count` frequencies and amplitudes."""
     return Cost(_OF_PULSE[0] * count**2, _OF_PULSE[1] * count**2)
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from tomllib import TOMLDecodeError, loads
 from typing import Any
 
@@ -17,19 +18,19 @@ from pydantic import ValidationError
 from heeltoe.base.display import Shown
 from heeltoe.base.pandas import dataframe_of_rows
 from heeltoe.case.changes import Change
+from heeltoe.case.distribution import Distribution
 from heeltoe.case.model import Case
 from heeltoe.case.paths import quantity_of
 from heeltoe.case.read import Source, read_case
 from heeltoe.case.sentences import first_error
 from heeltoe.errors.error import InputError, shown
+from heeltoe.kernel.build import build_info
 from heeltoe.models.cost import Cost
 from heeltoe.models.flexible.body.cost import check_cost
 from heeltoe.result.contract import CRACKED, HEADLINES, SLIPS_BY_MODE
 from heeltoe.result.response import Response
-from heeltoe.result.write import build_info
 from heeltoe.study.plan.axes import Axis, even
 from heeltoe.study.plan.crack_columns import column_of
-from heeltoe.study.plan.file import Distribution
 from heeltoe.study.plan.samples import Samples
 from heeltoe.units.parse import DIMENSIONS
 
@@ -38,6 +39,9 @@ MOST = 32
 # So many cases of a table say what all take; seconds to read one, bytes that are kept of one.
 _LOOKED_AT, _READ, _KEPT = 4, 0.01, 1e6
 
+_not_varied = partial(
+    InputError, "wrong-quantity", kind="values of a field, PATH=VALUE,VALUE", example="crack.friction=0.8,1.0,1.2"
+)
 Run = Callable[[Case], Response]
 
 
@@ -100,7 +104,7 @@ class SmallStudy(Table, Shown):
 
     @property
     def model(self) -> str:
-        """Of all runs."""
+        """Model of all runs."""
         return self.responses[0].model
 
     @property
@@ -151,17 +155,19 @@ def parse_axes(texts: Sequence[str], field: str = "--vary") -> tuple[Axis, ...]:
     for text in texts:
         path, _, entry = (part.strip() for part in text.partition("="))
         if not path:
-            raise InputError("vary-form", field, shown(text))
+            raise _not_varied(field, shown(text))
         values = _spread(path, entry, field) if entry.startswith("{") else tuple(map(str.strip, entry.split(",")))
         if not all(values):
-            raise InputError("vary-form", field, shown(text))
+            raise _not_varied(field, shown(text))
         if path in [other.path for other in axes] or len(set(values)) < len(values):
             raise InputError("listed-twice", field, shown(path))
         # As written: the case reads them, as it reads its own file.
         axes.append(Axis(path, None, values, None))
     runs = Samples(axes, "grid", None, 0).count
     if runs > MOST:
-        raise InputError("vary-many", field, runs, most=MOST)
+        raise InputError(
+            "too-many", field, f"{runs} runs for one table", most=f"{MOST}, or write a study file for `heeltoe study`"
+        )
     return tuple(axes)
 
 
@@ -170,7 +176,7 @@ def _spread(path: str, entry: str, field: str) -> tuple[str, ...]:
     try:
         distribution = Distribution.model_validate(loads(f"given = {entry}")["given"])
     except TOMLDecodeError:
-        raise InputError("vary-form", field, shown(f"{path}={entry}")) from None
+        raise _not_varied(field, shown(f"{path}={entry}")) from None
     except ValidationError as error:
         raise first_error(error, Distribution) from None
     quantity = quantity_of(path)

@@ -24,11 +24,11 @@ from heeltoe.case.paths import bounds_of, quantity_of, value_of
 from heeltoe.case.read import Source, read_case
 from heeltoe.case.warnings import drawing_text
 from heeltoe.errors.error import InputError, shown
+from heeltoe.kernel.build import build_info
 from heeltoe.models.cost import Cost
 from heeltoe.models.run import AUTO, check_model, models_of, run, wish_cost
 from heeltoe.result.judge import LIMITS
 from heeltoe.result.response import Response
-from heeltoe.result.write import build_info
 from heeltoe.study.plan.axes import Axis
 from heeltoe.units.parse import DIMENSIONS, parse, parse_acceleration
 
@@ -195,7 +195,9 @@ def _limit_of(until: str) -> tuple[str, float]:
     name, equals, value = (part.strip() for part in until.partition("="))
     name = name.removeprefix("limits.").rstrip("<").strip()
     if not equals or name not in _LENGTHS:
-        raise InputError("solve-until", "--until", shown(until), names=", ".join(_LENGTHS))
+        raise InputError(
+            "not-a-choice", "--until", shown(until), choices=f"NAME = VALUE with one of {', '.join(_LENGTHS)}"
+        )
     allowed = parse(value, "length", "--until")
     if allowed <= 0.0:
         raise InputError("out-of-range", "--until", value, bound="above 0")
@@ -237,7 +239,13 @@ class _Search:
         if between is not None:
             low, high = (self._number(end) for end in between)
             if not low < high:
-                raise InputError("solve-order", "--between", shown(list(map(str, between))))
+                raise InputError(
+                    "wrong-quantity",
+                    "--between",
+                    shown(list(map(str, between))),
+                    kind="a range, LOW,HIGH with the lower end first",
+                    example="0.6,1.2",
+                )
             return low, high
         bounds = dict(bounds_of(self.field)) if "[" not in self.field else {}
         lowest, highest = bounds.get("ge", bounds.get("gt")), bounds.get("le", bounds.get("lt"))

@@ -60,7 +60,7 @@ def check_runs(value: object, field: str) -> int:
     """
     text = str(value).strip()
     if not (text.isascii() and text.isdigit() and _FEWEST <= int(text[:9]) <= _MOST):
-        raise InputError("spread-runs", field, value, fewest=_FEWEST, most=_MOST, usual=RUNS)
+        raise InputError("out-of-range", field, value, bound=f"from {_FEWEST} to {_MOST}, or none for {RUNS}")
     return int(text)
 
 
