@@ -184,7 +184,7 @@ def test_the_page_draws_where_the_scene_says(elastic, tmp_path):
         ("dam.html", {"speed": -1.0}, "out-of-range"),
         ("dam.html", {"window": (0.5, 0.5)}, "animation-window"),
         ("dam.html", {"window": (7.0, None)}, "animation-window"),
-        ("dam.mp4", {"speed": 0.001, "frames_per_second": 120.0}, "animation-frames"),
+        ("dam.mp4", {"speed": 0.001, "frames_per_second": 120.0}, "too-many"),
         ("nowhere/dam.html", {}, "no-directory"),
     ],
 )
@@ -201,7 +201,7 @@ def test_a_run_that_never_started_is_refused(block, tmp_path):
     case, response = block
     with pytest.raises(InputError) as caught:
         animate(case, replace(response, outcome="unstable").with_crack(histories={}), tmp_path / "dam.html")
-    assert caught.value.code == "animation-nothing"
+    assert caught.value.code == "nothing-to-show"
 
 
 def test_a_missing_package_says_how_to_get_it(block, tmp_path, monkeypatch):
@@ -242,7 +242,7 @@ def test_the_command_writes_a_page(tmp_path):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--model", "both"), "use auto, rigid, decoupled, flexible"),
+        (("--model", "both"), "choose auto, rigid, decoupled, flexible"),
         (("--to", "dam.txt"), ".mp4, .gif or .html"),
         (("--to", "nowhere/dam.html"), "make it first"),
         (("--fps", "0"), "out of range"),

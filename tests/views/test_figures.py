@@ -14,11 +14,12 @@ from heeltoe import flexible, read_case, rigid, with_spread
 from heeltoe.base.atomic_files import LISTED
 from heeltoe.errors.error import InputError
 from heeltoe.result.histories import Histories
-from heeltoe.views.figures.all import NAMES, all_figures
+from heeltoe.views.figures.all import all_figures
 from heeltoe.views.figures.crack import contact_pressure, crack_figure, pressure_figure
 from heeltoe.views.figures.dam import mesh_figure, modes_figure
 from heeltoe.views.figures.energy import energy_figure, friction_loss
 from heeltoe.views.figures.histories import response_figure, slip_by_kind, slip_by_mode_figure
+from heeltoe.views.figures.names import NAMES
 from heeltoe.views.figures.panels import draw_ribbon
 from heeltoe.views.figures.path import path_figure
 from heeltoe.views.figures.shaking import until

@@ -122,14 +122,21 @@ def test_tables_in_either_form(both, tmp_path):
 
 
 @pytest.mark.usefixtures("no_figures")
-@pytest.mark.parametrize("stage", ["write_json", "write_table", "save_all", "crack_table", "_publish"])
+@pytest.mark.parametrize(
+    "stage",
+    [
+        "views.files.write.write_json",
+        "views.files.write.write_table",
+        "views.figures.write.save_all",
+        "models.flexible.result.history.crack_table",
+        "base.atomic_files._publish",
+    ],
+)
 def test_a_failure_at_any_stage_leaves_what_was_there(stage, both, block, tmp_path, monkeypatch):
     write_all(block, tmp_path / "old", figures={})
     (tmp_path / "old" / "notes.txt").write_text("mine")
     before = contents(tmp_path)
-    monkeypatch.setattr(
-        f"heeltoe.{'base.atomic_files' if stage == '_publish' else 'views.files.write'}.{stage}", failing
-    )
+    monkeypatch.setattr(f"heeltoe.{stage}", failing)
     for place in ("old", "deep/er"):
         with pytest.raises(InputError, match=r"cannot be written \(No space left on device\)") as refused:
             write_all(both, tmp_path / place)
@@ -142,7 +149,7 @@ def test_an_interrupted_run_leaves_nothing_behind(error, block, tmp_path, monkey
     def interrupted(*_, **__):
         raise error
 
-    monkeypatch.setattr("heeltoe.views.files.write.save_all", interrupted)
+    monkeypatch.setattr("heeltoe.views.figures.write.save_all", interrupted)
     with pytest.raises(error):
         write_all(block, tmp_path / "new" / "place")
     assert contents(tmp_path) == {}
@@ -174,7 +181,7 @@ def test_a_map_of_overturning_goes_beside_a_run(block, tmp_path, monkeypatch):
     assert before.items() - after.items() == {(LISTED, before[LISTED])}
     assert after.keys() - before.keys() == {path.name for path in paths}
     assert len(paths[0].read_text().splitlines()) == 1 + 3 * 3
-    monkeypatch.setattr("heeltoe.views.files.write.save_all", failing)
+    monkeypatch.setattr("heeltoe.views.figures.write.save_all", failing)
     for place in (tmp_path, tmp_path / "new"):
         with pytest.raises(InputError, match="No space left"):
             write_overturning(overturning, place)

@@ -44,11 +44,11 @@ def test_a_figure_is_chosen_by_name_and_written(response, tmp_path):
 
 def test_what_cannot_be_drawn_says_so(response, tmp_path):
     for call, code, words in (
-        (lambda: response.plot("respons"), "unknown-figure", 'did you mean "response"?'),
+        (lambda: response.plot("respons"), "not-a-choice", 'did you mean "response"?'),
         (lambda: response.plot(units="imperial"), "not-a-choice", "si or us"),
         (lambda: response.plot(path="dam.jpeg"), "file-ending", ".png"),
         (lambda: response.plot(path=tmp_path / "none" / "dam.png"), "cannot-write", "No such file"),
-        (lambda: rigid(example("typical-base", "crack.friction=0.2")).plot(), "figure-nothing", "unstable"),
+        (lambda: rigid(example("typical-base", "crack.friction=0.2")).plot(), "nothing-to-show", "unstable"),
     ):
         with pytest.raises(InputError) as refused:
             call()

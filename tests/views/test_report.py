@@ -140,6 +140,21 @@ def test_equations_are_numbered_in_order(document):
     assert numbers == list(range(1, len(numbers) + 1))
 
 
+def test_the_method_describes_what_the_dam_stands_on_and_before(typical_both):
+    """Rock and water with sound where the case has them, else a plane and a mass along the face."""
+
+    def method(*changes):
+        page = html(build_report(read_case(BASE, changes), typical_both))
+        return page.partition("Flexible dam</h3>")[2] or page
+
+    around, plain_dam = method(), method("rock=rigid", "reservoir.compressible=false")
+    for words in ("half-plane in plane strain", "Sound travels in the water"):
+        assert words in around
+        assert words not in plain_dam
+    assert "standing with its crack on a rigid plane" in plain_dam
+    assert "standing with its crack on rock" in around
+
+
 def test_a_run_that_never_started_says_what_failed():
     case = read_case(BASE, ["crack.friction=0.2"])
     response = rigid(case)

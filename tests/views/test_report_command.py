@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 
 import pytest
 from matplotlib.figure import Figure
 
 from shared.command import command, options
-from shared.dams import BASE, FAST
+from shared.dams import BASE, BLOCK, FAST
 from shared.report_reader import Reader, lookup
 
 
@@ -22,6 +24,19 @@ def test_the_command_line_writes_a_report(tmp_path):
     data = json.loads((place / "result.json").read_text())
     assert reader.numbers["residual_slip_m"][0] == data["residual_slip_m"]
     assert "--model rigid --duration 3s --report" in reader.text
+
+
+def test_files_of_a_run_load_no_statistics_and_no_studies(tmp_path):
+    program = (
+        "import sys; from heeltoe.cli.main import main\n"
+        f"sys.argv = ['heeltoe', 'run', {str(BLOCK)!r}, '--out', {str(tmp_path)!r}]\n"
+        "try:\n    main()\nexcept SystemExit:\n    pass\n"
+        "print([name for name in ('scipy.stats', 'heeltoe.mechanics.law_fit', 'heeltoe.study.answers.study_results') "
+        "if name in sys.modules], file=sys.stderr)"
+    )
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=True)
+    assert (tmp_path / "response.png").stat().st_size > 0
+    assert ended.stderr.splitlines()[-1] == "[]"
 
 
 @pytest.mark.slow

@@ -121,4 +121,4 @@ def test_errors_quote_what_was_typed(tmp_path):
     )
     process = command("run", case, "--units", "us")
     assert process.returncode == 2
-    assert "give a section of 1 mm to 10 km" in process.stderr
+    assert "give a value from 1 mm to 10 km" in process.stderr

@@ -35,11 +35,11 @@ def plot(thing: object, name: str | None, path: str | PathLike[str] | None, unit
         raise InputError("file-ending", "path", place, kind="a figure", endings=".png, .svg or .pdf")
     figures = _figures(thing, units)
     if not figures:
-        raise InputError("figure-nothing", "plot", getattr(thing, "outcome", ""))
+        raise InputError("nothing-to-show", "plot", getattr(thing, "outcome", ""))
     wanted = next(iter(figures)) if name is None else name
     if wanted not in figures:
         guess = near(str(wanted), figures)
-        raise InputError("unknown-figure", "plot", shown(name), near=guess, names=", ".join(figures))
+        raise InputError("not-a-choice", "plot", shown(name), choices=f"{', '.join(figures)}{guess}")
     figure = figures[wanted]
     if place is not None:
         try:

@@ -14,7 +14,7 @@ from types import ModuleType
 import numpy as np
 from PIL import Image, ImageColor
 
-from heeltoe.errors.error import InputError
+from heeltoe.errors.error import package
 from heeltoe.views.animation import look
 from heeltoe.views.animation.frames import Scene
 from heeltoe.views.animation.picture import Picture
@@ -42,10 +42,8 @@ def ffmpeg() -> ModuleType:
     InputError
         Where it is not installed.
     """
-    try:
+    with package(".mp4", "imageio-ffmpeg"):
         import imageio_ffmpeg
-    except ImportError:
-        raise InputError("package-missing", ".mp4", "imageio-ffmpeg", install="pip install imageio-ffmpeg") from None
     return imageio_ffmpeg  # type: ignore[no-any-return]
 
 

@@ -81,7 +81,7 @@ def animate(
     place = Path(path)
     check_options(place, exaggerate=exaggerate, frames_per_second=frames_per_second, speed=speed)
     if not response.histories:
-        raise InputError("animation-nothing", "response", response.outcome)
+        raise InputError("nothing-to-show", "response", response.outcome)
     shown = _window(response, *window)
     with written(place, "animation") as fresh:
 
@@ -122,7 +122,7 @@ def check_options(
 
 
 def writing_cost(path: Path, seconds: float, frames_per_second: float, speed: float) -> Cost:
-    """Return what writing so many seconds of an earthquake takes."""
+    """Return the cost of writing an animation of `seconds` of an earthquake."""
     suffix = path.suffix.lower()
     pictures = seconds / speed * frames_per_second
     if suffix == ".html":
@@ -169,5 +169,5 @@ def _moments(first: float, last: float, step: float) -> Floats:
     """Return moments from the first on, at equal distances, that do not go beyond the last [s]."""
     count = int((last - first) / step * (1.0 + 1e-12)) + 1
     if count > _MOST_FRAMES:
-        raise InputError("animation-frames", "animation", f"{count}", most=_MOST_FRAMES)
+        raise InputError("too-many", "animation", f"{count} frames", most=f"{_MOST_FRAMES}: show less, or faster")
     return first + step * np.arange(count, dtype=np.float64)

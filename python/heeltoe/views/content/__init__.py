@@ -1,1 +1,1 @@
-"""What reports and the terminal show: one tree of blocks, and the builders that make it from results."""
+"""Content of reports and the terminal: one tree of blocks, and the builders that make it from results."""

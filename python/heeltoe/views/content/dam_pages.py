@@ -42,7 +42,7 @@ def dam_pages(subject: StudySubject) -> Section | None:
 
 
 def _runs(subject: StudySubject, dams: list[int]) -> dict[int, list[dict[str, object]]]:
-    """Return the runs of some dams with what varies, by the place of the dam."""
+    """Return the runs of some dams with the values that vary, by the place of the dam."""
     fields = list(_fields(subject))
     kept: dict[int, list[dict[str, Any]]] = {dam: [] for dam in dams}
     names = ("sample", "model", "motion", "reversed", "factor", "outcome", RESIDUAL_SLIP.key, *fields)
@@ -89,7 +89,7 @@ def _base(case: Case, field: str) -> Any:
 
 
 def _ranks(subject: StudySubject, dam: int) -> list[str]:
-    """Say for each model which rank a dam has, and by what."""
+    """Say for each model which rank a dam has, and by which number."""
     sentences = []
     for row in subject.results.portfolio or ():
         own = next(entry for entry in row.dams if entry.dam == dam)

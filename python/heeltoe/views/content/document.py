@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from heeltoe.errors.sanitize import plain
-from heeltoe.result.write import build_info
+from heeltoe.kernel.build import build_info
 from heeltoe.views.content.checks import static_checks
 from heeltoe.views.content.evidence import evidence
 from heeltoe.views.content.input import defaults, input_hash, input_section, named, rerun, revisions

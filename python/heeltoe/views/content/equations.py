@@ -85,6 +85,18 @@ EQUATIONS: dict[str, tuple[str, str]] = {
         "q̈ + <i>c</i> q̇ + <i>ω</i>² <i>q</i> = <i>f</i> − <i>γ<sub>x</sub> a</i>(<i>t</i>) − <i>γ<sub>z</sub> "
         "a<sub>v</sub></i>(<i>t</i>) + <i>Φ<sub>c</sub></i><sup>⊤</sup> <i>p</i>",
     ),
+    "rock": (
+        r"M_r dot.double(u) + C_r dot(u) + K_r u = f_r - B^top p, quad C_r = (2 xi_r) / omega_r K_r + "
+        r"C_#text[waves]",
+        "<i>M<sub>r</sub></i> ü + <i>C<sub>r</sub></i> u̇ + <i>K<sub>r</sub> u</i> = <i>f<sub>r</sub></i> − "
+        "<i>B</i><sup>⊤</sup> <i>p</i>, &emsp;<i>C<sub>r</sub></i> = (2<i>ξ<sub>r</sub></i>/<i>ω<sub>r</sub></i>) "
+        "<i>K<sub>r</sub></i> + <i>C</i><sub>waves</sub>",
+    ),
+    "sound": (
+        r"M_w dot.double(phi) + C_w dot(phi) + K_w phi = Q^top (dot(u) + v_g), quad p_w = -rho_w dot(phi)",
+        "<i>M<sub>w</sub></i> φ̈ + <i>C<sub>w</sub></i> φ̇ + <i>K<sub>w</sub> φ</i> = <i>Q</i><sup>⊤</sup> (u̇ + "
+        "<i>v<sub>g</sub></i>), &emsp;<i>p<sub>w</sub></i> = −<i>ρ<sub>w</sub></i> φ̇",
+    ),
     "rayleigh": (
         r"c = a_0 + a_1 omega^2",
         "<i>c</i> = <i>a</i><sub>0</sub> + <i>a</i><sub>1</sub> <i>ω</i>²",

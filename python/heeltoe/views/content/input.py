@@ -11,8 +11,8 @@ import numpy as np
 from heeltoe.case.field_usage import readers
 from heeltoe.case.model import Case
 from heeltoe.errors.sanitize import plain
+from heeltoe.kernel.build import build_info
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.result.write import build_info
 from heeltoe.units.sentences import quantity
 from heeltoe.views.content.checks import entered
 from heeltoe.views.content.subject import Subject

@@ -1,4 +1,4 @@
-"""What an analysis leaves out, in words: what each model is, and what the table of what goes with what says of it."""
+"""Limitations of an analysis, in words: each model, and the features that the table of combinations names."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _JUDGE = (
 
 
 def limitations(subject: Subject) -> Section:
-    """Return the section on what the analysis leaves out."""
+    """Return the section on limitations of the analysis."""
     blocks: list[Block] = [paragraph(Strong("All models. "), glued(_ALL))]
     for run in reversed(subject.runs):
         model = run.response.model

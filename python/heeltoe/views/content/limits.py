@@ -1,4 +1,4 @@
-"""The verdict: results beside what the user allows, and static checks that are not met."""
+"""The verdict: results compared with the user's limits, and static checks that are not met."""
 
 from __future__ import annotations
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from heeltoe.case.crack.crack import Crack
+from heeltoe.case.model import Case
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.rigid.varying import varies
 from heeltoe.units.sentences import listed
@@ -141,7 +142,7 @@ def _loads(writer: _Writer, subject: Subject) -> None:
     if subject.numbers.raw(subject.first.prefix + "static.virtual_mass_kg"):
         if not all(run.response.elastic for run in subject.runs):
             _virtual_mass_of_block(writer, subject)
-        if subject.ran("flexible"):
+        if subject.ran("flexible") and _moves_with_face(subject.case):
             _virtual_mass_along_face(writer, subject)
 
 
@@ -167,6 +168,12 @@ def _virtual_mass_of_block(writer: _Writer, subject: Subject) -> None:
     else:
         writer.say("It turns with the block as it is spread over the face, with $J_w$ about its own centre:")
         writer.show("turning water")
+
+
+def _moves_with_face(case: Case) -> bool:
+    """Whether the water on a side of the elastic dam is a mass that moves with its face."""
+    sides = {"reservoir": case.reservoir, "tailwater": case.tailwater}
+    return any(water is not None and not case.has_sound(side) for side, water in sides.items())
 
 
 def _virtual_mass_along_face(writer: _Writer, subject: Subject) -> None:
@@ -291,14 +298,40 @@ def _nodes(writer: _Writer, cracks: Sequence[Crack]) -> None:
         writer.say("Normal and tangent of a node are those of its piece of the crack, which is not straight.")
 
 
+def _surroundings(writer: _Writer, case: Case) -> None:
+    """Describe the rock and the water with sound, which move as the dam does and take energy from it."""
+    if case.foundation is not None:
+        waves = "$C_waves$ takes the waves that leave" if case.foundation.radiation else "no wave leaves"
+        lowest = case.single_crack_cases[-1].crack
+        joined = (
+            "the part below the lowest crack is bonded to it" if lowest.elevation else "the lowest crack lies on it"
+        )
+        writer.say(
+            f"The rock is a linear elastic half-plane in plane strain; {joined}. All motion is counted from the free "
+            "field, which is the record, so that the dam alone moves the rock: it presses on it with $p$, and the "
+            f"water in the crack with $f_r$. $ξ_r$ is the damping of the material at $ω_r$, and {waves}:"
+        )
+        writer.show("rock")
+    if case.has_compressible_water:
+        writer.say(
+            "Sound travels in the water. Its velocity potential is $φ$; the face pushes it with the velocity of dam "
+            "and ground, and $p_w$ is its pressure on the face, added to that at rest. A part of each wave is lost at "
+            "the floor, and the rest leaves along the reservoir, both by $C_w$; there are no waves on the surface:"
+        )
+        writer.show("sound")
+    if case.foundation is not None or case.has_compressible_water:
+        writer.say("The run keeps the shapes of rock and water that matter up to a highest frequency.")
+
+
 def _flexible(writer: _Writer, subject: Subject) -> None:
     options, concrete = subject.case.flexible, subject.case.concrete
+    ground = "rock" if subject.case.foundation is not None else "a rigid plane"
     bodies = (
         "parts of the dam between its cracks are linear elastic bodies"
         if subject.case.further_cracks
         else "parts above and below the crack are linear elastic bodies"
         if subject.case.crack.elevation
-        else ("dam is a linear elastic body, standing with its crack on a rigid plane,")
+        else f"dam is a linear elastic body, standing with its crack on {ground},"
     )
     writer.say(
         f"The {bodies} in plane {options.plane}, made of eight-node quadrilaterals with consistent mass. Before the "
@@ -306,6 +339,7 @@ def _flexible(writer: _Writer, subject: Subject) -> None:
         "the modes of each part, with $p$ the forces on the nodes of the crack:"
     )
     writer.show("modes")
+    _surroundings(writer, subject.case)
     if options.damping == "modal":
         writer.say(
             f"The lowest modes of the intact dam have the same damping ratio, $ξ$ = {100 * concrete.damping:g} %, "

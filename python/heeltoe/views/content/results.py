@@ -15,6 +15,7 @@ from heeltoe.result.numbers import (
     ElasticCrack,
 )
 from heeltoe.result.response import Response
+from heeltoe.result.verdict import effect_sentence
 from heeltoe.units.sentences import written
 from heeltoe.units.write import NOTHING
 from heeltoe.views.content.drawings import in_rows
@@ -39,7 +40,7 @@ _STARTS = {
 
 
 def results(subject: Subject) -> Section:
-    """Return the section with all numbers and figures of what happens."""
+    """Return the section with all numbers and figures of the results."""
     n, prefix = subject.numbers, subject.first.prefix
     labels = (*labels_of(StaticState, "static."), ("Width of the crack", WIDTH, "length"))
     static = list(subject.known(labels, prefix, "").rows)
@@ -73,6 +74,7 @@ def results(subject: Subject) -> Section:
         blocks += [
             *_signs(subject),
             *_band(subject),
+            *_friction_effect(subject),
             *_cracks(subject),
             *figure("plan", "slip-by-mode", "friction", "asperities"),
             *_tension(subject),
@@ -125,6 +127,12 @@ def _band(subject: Subject) -> list[Block]:
         rows.append((trial.friction.text(subject.units), trial.outcome, *moved, "judged" if trial.judged else ""))
     caption = "The frictions that the crack may have, the best estimate first; the others without evidence."
     return [Table(("", "outcome", "residual slip", "largest opening", ""), tuple(rows), caption, "llrrl")]
+
+
+def _friction_effect(subject: Subject) -> list[Block]:
+    """Return what a little less friction does."""
+    effect = subject.result.friction_effect
+    return [] if effect is None else [paragraph(effect_sentence(effect, subject.units))]
 
 
 def _cracks(subject: Subject) -> list[Block]:
@@ -208,7 +216,7 @@ def _anchors(subject: Subject) -> list[Block]:
 
 
 def _rough(subject: Subject) -> list[Block]:
-    """Return what a rough crack has come to."""
+    """Return the state of the asperities of a rough crack at the end."""
     blocks: list[Block] = []
     for run in subject.runs:
         roughness = run.response.summary.get("roughness")
@@ -219,7 +227,7 @@ def _rough(subject: Subject) -> list[Block]:
 
 
 def _law(subject: Subject) -> list[Block]:
-    """Return what a friction law is, looks like, and has come to, or a rough crack."""
+    """Return the friction law or the rough crack: its kind, its figure, and its state at the end."""
     alone = [cracked for cracked in subject.case.single_crack_cases if cracked.crack.law is not None]
     if not alone:
         return _rough(subject)
@@ -260,8 +268,8 @@ def _where(subject: Subject, elevation_m: float | None) -> str:
 
 
 def _laws_of(response: Response, block: str = "friction_law") -> list[tuple[str, float | None, Any]]:
-    """Return what says what a law or a bond has come to, of each of several cracks or of the only one: the prefix of
-    its keys, the elevation of one of several, and its block."""
+    """Return the final states of laws or bonds, crack by crack: the prefix of its keys, the elevation of one of
+    several, and its block."""
     states = [
         (f"cracks.{place}.", crack.elevation, crack.numbers) if response.several else ("", None, crack.numbers)
         for place, crack in enumerate(response.cracks)

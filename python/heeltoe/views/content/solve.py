@@ -1,4 +1,4 @@
-"""What a field must be for a limit to be just met: the answer in a sentence, and the runs behind it."""
+"""Answer of a solve: the value of a field at which a limit is just met, in a sentence, and the runs behind it."""
 
 from __future__ import annotations
 
@@ -68,7 +68,8 @@ def _value(value: float, scale: Scale) -> str:
 
 
 def _crossing(crossing: Crossing, scale: Scale, units: str) -> str:
-    """Say where the limit is just met, with what error, on which side it holds, and the result of the run there."""
+    """Say at which value the limit is just met, with its error, on which side it holds, and the result of the run
+    there."""
     give = crossing.give_or_take
     text = _value(crossing.value, scale)
     text += ", where the result jumps" if give is None else f" ± {number(scale(give), 2)} {scale.unit}".rstrip()

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 from heeltoe.case.model import Case
 from heeltoe.errors.sanitize import plain
+from heeltoe.kernel.build import build_info
 from heeltoe.models.statics.joints import Joint, Joints
 from heeltoe.models.statics.load_case import LoadCase
-from heeltoe.result.write import build_info
 from heeltoe.units.sentences import quantity
 from heeltoe.views.content.checks import answer_of, load_cases, missed_of, remarks, section_table
 from heeltoe.views.content.drawings import drawing
@@ -46,7 +46,7 @@ MOST_MISSED = 6
 
 @dataclass(frozen=True, eq=False)
 class _Subject:
-    """What the report is about."""
+    """Subject of the report."""
 
     answer: Joints
     figures: Mapping[str, FigureBlock]

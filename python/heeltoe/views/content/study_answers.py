@@ -575,7 +575,7 @@ def measures_compared(subject: StudySubject) -> Section | None:
 
 
 def hangs_on(subject: StudySubject) -> Section | None:
-    """Return the section on what the slip depends on, where the study is made for it."""
+    """Return the section on the sensitivity of the slip, where the study is made for it."""
     method, study = subject.study["method"], subject.results
     if method == "sensitivity":
         blocks = [_sobol(model, numbers) for model, numbers in study.sensitivity().items()]

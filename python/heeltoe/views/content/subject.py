@@ -1,4 +1,4 @@
-"""What a report is about: the case, its result, and the numbers in the result's JSON."""
+"""Subject of a report: the case, its result, and the numbers in the result's JSON."""
 
 from __future__ import annotations
 
@@ -45,12 +45,12 @@ class Run:
 
     @property
     def name(self) -> str:
-        """What a column of it is headed by."""
+        """Head of a column of the run."""
         return NAMES.get(self.response.model, self.response.model)
 
     @property
     def model(self) -> str:
-        """What computed it, in a sentence."""
+        """Model that computed the run, in a sentence."""
         return MODELS.get(self.response.model, f"the {self.response.model} model")
 
 
@@ -104,7 +104,7 @@ class Subject:
 
     @property
     def first(self) -> Run:
-        """Return the run that is judged, and stands for what all have in common: case, motion, static loads."""
+        """Return the run that is judged, and holds everything that the runs share: case, motion, static loads."""
         return self.runs[-1]
 
     @property
@@ -114,12 +114,12 @@ class Subject:
 
     @property
     def per_width(self) -> str:
-        """What forces, energies and masses are per."""
+        """Width to which forces, energies and masses refer."""
         return "per foot of dam" if self.units == "us" else "per metre of dam"
 
     @property
     def title(self) -> str:
-        """What the case is called."""
+        """Title of the case."""
         return plain(self.case.title) or "Untitled case"
 
     def ran(self, model: str) -> bool:
@@ -137,7 +137,7 @@ class Subject:
         return Table(self.head(), tuple(moved), caption, self.align())
 
     def values(self, labels: Labels, prefix: str, caption: str, present: Container[str] | None = None) -> Table:
-        """Return a table of label and number; `prefix` stands before their keys. Those that are `present` alone, where
+        """Return a table of label and number; `prefix` stands before their keys. Only numbers that are `present`, where
         these are given."""
         shown = [(label, key, quantity) for label, key, quantity in labels if present is None or key in present]
         rows = tuple((label, self.numbers(f"{prefix}{key}", quantity)) for label, key, quantity in shown)

@@ -26,6 +26,8 @@ _ABOUT = {
     "distance_m": ("distance", ".3g km", 1e3),
     "vs30_m_s": ("Vs30", ".3g m/s", 1.0),
     "pulse_period_s": ("pulse", ".3g s", 1.0),
+    "hazard_share": ("of the hazard", ".2f", 1.0),
+    "cross_valley_factor": ("with / without across", ".3g", 1.0),
 }
 
 

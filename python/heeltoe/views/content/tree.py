@@ -1,4 +1,4 @@
-"""What a report says, apart from how it looks: one tree of frozen blocks that both renderers walk."""
+"""Content of a report, apart from its looks: one tree of frozen blocks that both renderers walk."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Notes:
-    """A boxed list that nobody shall miss."""
+    """A boxed list that readers must not miss."""
 
     kind: Literal["failure", "warning", "note"]
     title: str

@@ -13,6 +13,7 @@ from pydantic.fields import FieldInfo
 
 from heeltoe.case.combinations import rules_of
 from heeltoe.case.crack.crack import Crack
+from heeltoe.case.distribution import Distribution
 from heeltoe.case.field_usage import READERS, readers
 from heeltoe.case.fields import field_texts
 from heeltoe.case.joints import JOINTS, JOINTS_MEANING, Joints
@@ -22,7 +23,7 @@ from heeltoe.case.paths import constraints, is_list, quantities_of
 from heeltoe.case.plausible import PLAUSIBLE
 from heeltoe.case.sentences import kinds_in
 from heeltoe.case.thesis import THESIS_FIELDS
-from heeltoe.study.plan.file import Distribution, Study
+from heeltoe.study.plan.file import Study
 from heeltoe.units.parse import DIMENSIONS
 from heeltoe.units.sentences import listed
 from heeltoe.views.explain.meaning import Meaning

@@ -18,7 +18,9 @@ KINDS = {
 
 @dataclass(frozen=True)
 class Meaning:
-    """Meaning of a name. Attributes
+    """Meaning of a name.
+
+    Attributes
     ----------
     name
         Path of the field or key, or name of the column; ``[]`` stands for a place in a list, ``*`` for any name.

@@ -24,6 +24,7 @@ OF_A_RUN: dict[str, str] = {
     "warnings[].quantities.*": "A number of the sentence, by its name with its unit.",
     "signs": "Results with the motion as recorded and reversed, where the case gives no sign.",
     "friction_band": "Results with the other frictions of the crack, where the case has `[crack.band]`.",
+    "friction_effect": "The result with 0.1 less friction, where the crack has no band and no law.",
     "sequence": "Results of each motion of a sequence.",
     "cracks": "Results of each of several cracks, from the crest down, with the keys of one.",
     "governing_crack": "Which of several cracks slips most, from the crest down.",

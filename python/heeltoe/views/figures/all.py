@@ -37,36 +37,6 @@ from heeltoe.views.words.response import OF_CRACKS
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
 
-#: Every name that a figure of a result can have, in the order in which they are shown.
-NAMES = (
-    "section",
-    "law",
-    "comparison",
-    "response",
-    "plan",
-    "slip-by-mode",
-    "friction",
-    "asperities",
-    "accelerations",
-    "forces",
-    "bearing",
-    "anchors",
-    "crest",
-    "energy",
-    "path",
-    "spectrum",
-    "crack-level",
-    "slips",
-    "joints",
-    "joint",
-    "crack",
-    "pressure",
-    "water-pressure",
-    "deformed",
-    "tension",
-    "mesh",
-    "modes",
-)
 #: Lift-offs below this [m] have no picture of their own.
 _NO_LIFT = 1e-5
 #: Nor has the motion of a crest that goes with the ground up to this [m].

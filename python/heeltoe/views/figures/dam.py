@@ -31,7 +31,7 @@ _AROUND = [0, 4, 1, 5, 2, 6, 3, 7, 0]
 
 @styled
 def mesh_figure(dam: FlexibleDam, units: str = "si") -> Figure:
-    """Draw the meshes of both parts, the nodes of the crack and the base that is held."""
+    """Draw the meshes of both parts, the nodes of the crack and their base."""
     scale = unit_system(units).scale("length")
     bodies = [body.mesh for body in dam.bodies]
     low, high = extent(dam)
@@ -63,7 +63,10 @@ def mesh_figure(dam: FlexibleDam, units: str = "si") -> Figure:
         upper = bodies[0].nodes
         _frame(axes[1], scale, upper.min(axis=0), upper.max(axis=0))
         axes[1].set_title("above the crack", fontsize=9)
-    base = "rigid plane below the crack" if grounded else "base, held"
+    rocky = dam.rock_error > 0.0
+    base = "base, on rock" if rocky else "base, held"
+    if grounded:
+        base = f"{'rock' if rocky else 'rigid plane'} below the crack"
     handles = [
         Line2D([], [], color=COLOURS["crack"], marker="o", markersize=3, linestyle="", label="nodes of the crack"),
         Patch(facecolor="white", edgecolor="#555555", hatch="////", linewidth=0.0, label=base)
@@ -151,7 +154,7 @@ def _frame(axes: Axes, scale: Scale, low: Floats, high: Floats, room: float = 0.
 
 
 def _hold(axes: Axes, points: Floats, *, rigid: bool) -> None:
-    """Draw what does not move: triangles below the nodes of a base that is held, hatching below a rigid plane."""
+    """Draw what does not move: triangles below the nodes of a base that is held, hatching below a crack at the base."""
     size = max(float(np.ptp(points, axis=0).max()), 1e-9)
     if rigid:
         normal = np.array([points[-1, 1] - points[0, 1], points[0, 0] - points[-1, 0]]) / size

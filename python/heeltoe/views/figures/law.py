@@ -4,19 +4,22 @@ rough crack dilates and wears."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from heeltoe.mechanics.law_curve import LawCurve
-from heeltoe.mechanics.law_fit import LawFits
-from heeltoe.mechanics.shear_tests import ShearTest
 from heeltoe.result.response import Response
 from heeltoe.units.sentences import written
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.panels import largest, panels
 from heeltoe.views.figures.style import COLOURS, LOOKS, align_labels, describe, heading, styled
 from heeltoe.views.figures.time_axis import time_axis
+
+if TYPE_CHECKING:
+    from heeltoe.mechanics.law_fit import LawFits
+    from heeltoe.mechanics.shear_tests import ShearTest
 
 
 @styled

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.base.atomic_files import write_whole
-from heeltoe.errors.error import InputError
+from heeltoe.errors.error import package
 from heeltoe.geometry.axes import in_x_and_z, places
 from heeltoe.models.flexible.body.elastic import principal, stresses
 from heeltoe.models.flexible.result.history import CrackHistory
@@ -156,10 +156,8 @@ class _Crack:
 
 
 def _meshio(directory: Path) -> ModuleType:
-    try:
+    with package(str(directory), "meshio"):
         import meshio
-    except ImportError:
-        raise InputError("package-missing", str(directory), "meshio", install="pip install meshio") from None
     return meshio  # type: ignore[no-any-return]
 
 

@@ -3,38 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import singledispatch
 from pathlib import Path
-from typing import Any
-
-import pyarrow as pa
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING, Any
 
 from heeltoe.base.atomic_files import write_whole
-from heeltoe.case.model import Case
-from heeltoe.mechanics.law_curve import LawCurve
-from heeltoe.mechanics.law_fit import LawFits
-from heeltoe.mechanics.shear_tests import ShearTest
-from heeltoe.models.flexible.result.history import crack_table
-from heeltoe.models.flexible.result.response import FlexibleResponse
-from heeltoe.models.flexible.surroundings.amplification import Amplification
 from heeltoe.result.response import Response
 from heeltoe.result.write import write_json, write_table
-from heeltoe.study.answers.study_results import StudyResults
-from heeltoe.study.small.overturning import OverturningMap
-from heeltoe.study.small.run_table import SmallStudy
-from heeltoe.study.small.solve import Solved
-from heeltoe.views.content.solve import field_scale
-from heeltoe.views.figures.all import NAMES, all_figures
-from heeltoe.views.figures.amplification import amplification_figure
-from heeltoe.views.figures.law import fall_figure, law_figure, law_fit_figure
-from heeltoe.views.figures.runs import overturning_figure, small_figures, solve_figure
-from heeltoe.views.figures.studies.all import study_figures
-from heeltoe.views.figures.write import save_all
+from heeltoe.views.figures.names import NAMES
 from heeltoe.views.files.statics import WORKBOOK, write_run_table
 from heeltoe.views.files.vtk import OWN as VTK_FILES
-from heeltoe.views.files.vtk import write_frames
-from heeltoe.views.files.workbook import fill_workbook
+
+# Not at run time: each result needs the libraries of its own figures, and no others'.
+if TYPE_CHECKING:
+    import pyarrow as pa
+    from matplotlib.figure import Figure
+
+    from heeltoe.case.model import Case
+    from heeltoe.mechanics.law_curve import LawCurve
+    from heeltoe.mechanics.law_fit import LawFits
+    from heeltoe.mechanics.shear_tests import ShearTest
+    from heeltoe.models.flexible.surroundings.amplification import Amplification
+    from heeltoe.study.answers.study_results import StudyResults
+    from heeltoe.study.small.overturning import OverturningMap
+    from heeltoe.study.small.run_table import SmallStudy
+    from heeltoe.study.small.solve import Solved
 
 #: The directory of the VTK files, one of each kind for each frame, of which only what lists them is told.
 VTK = "vtk"
@@ -47,7 +39,12 @@ RESPONSE = ("response.csv", "response.png", "response.svg")
 #: Files of a friction law.
 LAW = ("law.png", "law.svg")
 #: Files of laws that were fitted to shear tests.
-LAW_FIT = ("law-fit.json", "law-fit.toml", "strength.png", "strength.svg", "fall.png", "fall.svg")
+LAW_FIT = (
+    "law-fit.json",
+    "law-fit.toml",
+    *("strength.png", "strength.svg", "fall.png", "fall.svg"),
+    *("report.pdf", "report.html"),
+)
 _TABLES = ("histories", "events", "crack", "table")
 #: The dams of a table by their ranks.
 PORTFOLIO = "portfolio.csv"
@@ -117,10 +114,13 @@ def write_all(
         unknown, or what VTK files need is not installed.
     """
     drawn = figures_of(result, case, units) if figures is None else figures
+    if drawn:
+        from heeltoe.views.figures.write import save_all
 
     def write(fresh: Path) -> None:
         _write(result, fresh, suffix, vtk)
-        save_all(drawn, fresh)
+        if drawn:
+            save_all(drawn, fresh)
         if report:
             report(fresh)
 
@@ -133,6 +133,8 @@ def write_overturning(overturning: OverturningMap, directory: Path) -> list[Path
 
     What a run has left in the directory stays, as does what is not heeltoe's.
     """
+    from heeltoe.views.figures.runs import overturning_figure
+
     figures = {"overturning": overturning_figure(overturning)}
     return _write_few(directory, figures, {"overturning.csv": overturning.to_table()})
 
@@ -140,35 +142,54 @@ def write_overturning(overturning: OverturningMap, directory: Path) -> list[Path
 def write_solved(solved: Solved, directory: Path, units: str = "si") -> list[Path]:
     """Write a field that was solved for as ``solve.json``, ``.csv``, ``.png`` and ``.svg``, all or none, and return
     their paths."""
+    from heeltoe.views.content.solve import field_scale
+    from heeltoe.views.figures.runs import solve_figure
+
     figures = {"solve": solve_figure(solved, field_scale(solved, units), units)}
     return _write_few(directory, figures, {"solve.csv": solved.to_table()}, {"solve.json": solved.to_json()}, SOLVED)
 
 
 def write_amplification(title: str, amplification: Amplification, directory: Path) -> list[Path]:
     """Write the response of a crest as ``response.csv``, ``.png`` and ``.svg``, all or none, and return their paths."""
+    from heeltoe.views.figures.amplification import amplification_figure
+
     figures = {"response": amplification_figure(title, amplification)}
     return _write_few(directory, figures, {"response.csv": amplification.to_table()})
 
 
 def write_law(curves: Mapping[str, LawCurve], directory: Path) -> list[Path]:
     """Write the curves of friction laws by their names as PNG and SVG, all or none, and return their paths."""
+    from heeltoe.views.figures.law import law_figure
+
     return _write_few(directory, {name: law_figure(curve) for name, curve in curves.items()})
 
 
 def write_law_fits(
-    fits: LawFits, tests: Sequence[ShearTest], title: str, directory: Path, units: str = "si"
+    fits: LawFits,
+    tests: Sequence[ShearTest],
+    title: str,
+    directory: Path,
+    units: str = "si",
+    *,
+    report: Callable[[Path, Mapping[str, Figure]], None] | None = None,
 ) -> list[Path]:
-    """Write laws fitted to shear tests as ``law-fit.json``, the block of a case as ``law-fit.toml``, and figures of the
-    strength and of a fall, all or none, and return their paths."""
+    """Write laws fitted to shear tests as ``law-fit.json``, the block of a case as ``law-fit.toml``, figures of the
+    strength and of a fall, and what `report` writes with them, all or none, and return their paths."""
+    from heeltoe.views.figures.law import fall_figure, law_fit_figure
+    from heeltoe.views.figures.write import save_all
+
     drawn = {
         "strength": law_fit_figure(fits, tests, title, units),
         "fall": fall_figure(fits, tests, title, units),
     }
+    figures = {name: figure for name, figure in drawn.items() if figure is not None}
 
     def write(fresh: Path) -> None:
         write_json(fits.to_json(), fresh / LAW_FIT[0])
         (fresh / LAW_FIT[1]).write_text(fits.crack, encoding="utf-8")
-        save_all({name: figure for name, figure in drawn.items() if figure is not None}, fresh)
+        save_all(figures, fresh)
+        if report is not None:
+            report(fresh, figures)
 
     return write_whole(write, directory, LAW_FIT)
 
@@ -181,6 +202,8 @@ def _write_few(
     own: Sequence[str] = (),
 ) -> list[Path]:
     """Write figures, tables and JSON by their names, all or none; files of an earlier run that match `own` go."""
+
+    from heeltoe.views.figures.write import save_all
 
     def write(fresh: Path) -> None:
         for name, data in (results or {}).items():
@@ -219,6 +242,9 @@ def write_study(
         Whether its tables go into ``workbook.xlsx``, too.
     """
 
+    from heeltoe.views.figures.studies.all import study_figures
+    from heeltoe.views.figures.write import save_all
+
     def write(fresh: Path) -> None:
         drawn = study_figures(study, units) if figures or report is not None else {}
         if study.portfolio is not None:
@@ -227,6 +253,8 @@ def write_study(
             (fresh / "figures").mkdir()
             save_all(drawn, fresh / "figures")
         if workbook:
+            from heeltoe.views.files.workbook import fill_workbook
+
             fill_workbook(study, fresh / WORKBOOK)
         if report is not None:
             report(fresh, drawn)
@@ -237,28 +265,30 @@ def write_study(
     return write_whole(write, directory, own)
 
 
-@singledispatch
-def figures_of(result: object, case: Case | None, units: str) -> Mapping[str, Figure]:
+def figures_of(result: Response | SmallStudy, case: Case | None, units: str) -> Mapping[str, Figure]:
     """Return the figures of a result."""
-    raise TypeError(f"there are no figures of a {type(result).__name__}")
+    if isinstance(result, Response):
+        from heeltoe.views.figures.all import all_figures
+
+        return all_figures(case, result, units)
+    from heeltoe.views.figures.runs import small_figures
+
+    return small_figures(result, units)
 
 
-figures_of.register(Response, lambda result, case, units: all_figures(case, result, units))
-figures_of.register(SmallStudy, lambda result, case, units: small_figures(result, units))
-
-
-@singledispatch
-def _write(result: object, directory: Path, suffix: str, vtk: bool) -> None:
+def _write(result: Response | SmallStudy, directory: Path, suffix: str, vtk: bool) -> None:
     """Write JSON and tables of a result."""
-    raise TypeError(f"nothing writes a {type(result).__name__}")
+    if isinstance(result, Response):
+        _write_response(result, directory, suffix, vtk)
+    else:
+        write_run_table(result, directory)
 
 
-@_write.register
-def _(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
+def _write_response(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
     write_json(response.to_json(), directory / "result.json")
     if response.beside is not None:
         (directory / response.beside.model).mkdir()
-        _write(response.beside, directory / response.beside.model, suffix, vtk)
+        _write_response(response.beside, directory / response.beside.model, suffix, vtk)
     if not response.histories:
         return
     write_table(response.to_table(), directory / f"histories{suffix}")
@@ -269,6 +299,9 @@ def _(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
         write_table(other.to_table(), directory / name / f"histories{suffix}")
         if other.event_log:
             write_table(other.events_table(), directory / name / f"events{suffix}")
+    from heeltoe.models.flexible.result.history import crack_table
+    from heeltoe.models.flexible.result.response import FlexibleResponse
+
     if not isinstance(response, FlexibleResponse):
         return
     write_table(crack_table(response.crack), directory / f"crack{suffix}")
@@ -276,9 +309,6 @@ def _(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
         write_table(crack_table(at_crack.crack), directory / name / f"crack{suffix}")
     if vtk:
         (directory / VTK).mkdir()
+        from heeltoe.views.files.vtk import write_frames
+
         write_frames(response.crack, directory / VTK)
-
-
-@_write.register
-def _(grid: SmallStudy, directory: Path, suffix: str, vtk: bool) -> None:
-    write_run_table(grid, directory)

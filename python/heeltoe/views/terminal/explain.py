@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from heeltoe.case.thesis import THESIS_FIELDS
-from heeltoe.result.write import build_info
+from heeltoe.kernel.build import build_info
 from heeltoe.views.explain.find import explain, related
 from heeltoe.views.explain.meaning import KINDS, Meaning
 from heeltoe.views.terminal.render import label_grid, label_lines
@@ -78,7 +78,7 @@ def print_subjects(meanings: Sequence[Meaning], console: Console) -> None:
     for kind, group in groupby(meanings, key=lambda meaning: meaning.kind):
         names = list(group)
         if not kind.startswith("field"):
-            console.print(f"[bold]{KINDS[kind]}[/bold]  {len(names)}, as {escape(names[0].name)}")
+            console.print(f"[bold]{KINDS[kind]}[/bold]  {len(names)}, such as {escape(names[0].name)}")
             continue
         subjects = [name for name in names if "." not in name.name]
         console.print(f"[bold]{KINDS[kind]}[/bold]")

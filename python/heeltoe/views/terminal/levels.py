@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING
 
 from rich.console import Console
 
-from heeltoe.units.sentences import counted
-from heeltoe.units.write import measured
+from heeltoe.views.content.levels import HEAD, check_line, level_row, levels_verdict, too_few
 from heeltoe.views.terminal.render import print_items, print_title, quiet_table, safe
 
 if TYPE_CHECKING:
-    from heeltoe.study.run.levels import LevelCheck, LevelResult, LevelResults
+    from heeltoe.study.run.levels import LevelResults
 
 
 def print_levels(results: LevelResults, console: Console, units: str = "si") -> None:
@@ -21,35 +20,17 @@ def print_levels(results: LevelResults, console: Console, units: str = "si") -> 
         console.print(safe(results.criteria), style="dim")
     console.print()
     table = quiet_table()
-    for heading in ("return period", "records", "judged", "result and limit", "met"):
+    for heading in HEAD:
         table.add_column(heading)
     for level in results.levels:
-        lines = [_line(check, units) for check in level.checks] or ["no limits"]
-        met = "yes" if level.met else "[red]NO[/]"
-        table.add_row(f"{level.return_period_years:,g} years", str(level.records), level.judge, "\n".join(lines), met)
+        *cells, _, met = level_row(level, units)
+        lines = [check_line(check, units) for check in level.checks] or ["no limits"]
+        table.add_row(*cells, "\n".join(lines), met if level.met else f"[red]{met}[/]")
     console.print(table)
-    few = [_too_few(level) for level in results.levels if not level.enough]
+    few = [too_few(level) for level in results.levels if not level.enough]
     if few:
         console.print()
         print_items(few, console)
     console.print()
-    console.print("All levels are met." if results.met else "[bold red]A level is not met.[/]")
-
-
-def _line(check: LevelCheck, units: str) -> str:
-    """Return a number of a level beside its limit."""
-    bound = "at least" if not check.unit else "at most"
-    value, allowed = (_shown(number, check.unit, units) for number in (check.value, check.allowed))
-    return f"{check.label} {value}, {bound} {allowed}{'' if check.met else ': not met'}"
-
-
-def _shown(value: float | None, unit: str, units: str) -> str:
-    if value is None:
-        return "none: the dam fails"
-    return measured(value, unit, units) if unit else f"{value:.3g}"
-
-
-def _too_few(level: LevelResult) -> str:
-    """Say that a suite is too small."""
-    needed = counted(level.records_needed, "earthquake")
-    return f"{level.return_period_years:,g} years: the suite has {level.records}, the criteria ask for {needed}."
+    text = levels_verdict(results)
+    console.print(text if results.met else f"[bold red]{text}[/]")

@@ -13,10 +13,9 @@ from heeltoe.case.model import Case
 from heeltoe.result.contract import LENGTHS
 from heeltoe.result.numbers import BondState, FrictionBand
 from heeltoe.result.response import Response
-from heeltoe.result.verdict import trial_text, verdict
+from heeltoe.result.verdict import effect_sentence, trial_text, verdict
 from heeltoe.units.sentences import written
 from heeltoe.units.write import NOTHING, length
-from heeltoe.views.content.document import run_sections
 from heeltoe.views.content.subject import NAMES, Subject
 from heeltoe.views.terminal.render import Screen, print_title, quiet_table, render, safe
 from heeltoe.views.words.motion import sampling
@@ -34,6 +33,9 @@ def print_response(response: Response, console: Console, units: str = "si", deta
     beside = "" if response.beside is None else f", {response.beside.model} beside it"
     print_title(response.title, f"{response.model} model{beside}", console)
     if details is not None:
+        # Here, as the sections of a report take longer to load than a rigid run takes.
+        from heeltoe.views.content.document import run_sections
+
         numbers = Numbers(response.to_json(), units)
         render(run_sections(Subject(details, response, numbers, figures={})), console)
         times = ", ".join(f"{run.model} {_seconds(run.seconds)}" for run in response.responses)
@@ -50,6 +52,8 @@ def print_response(response: Response, console: Console, units: str = "si", deta
         screen.add(table)
     if response.friction_band is not None:
         screen.add(_band(response.friction_band, units))
+    if response.friction_effect is not None:
+        screen.add(Text(effect_sentence(response.friction_effect, units)))
     screen.add_warnings(_warnings(response, units), _MORE)
 
 

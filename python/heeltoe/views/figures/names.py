@@ -1,0 +1,32 @@
+"""Names of the figures of a result."""
+
+#: Every name that a figure of a result can have, in the order in which they are shown.
+NAMES = (
+    "section",
+    "law",
+    "comparison",
+    "response",
+    "plan",
+    "slip-by-mode",
+    "friction",
+    "asperities",
+    "accelerations",
+    "forces",
+    "bearing",
+    "anchors",
+    "crest",
+    "energy",
+    "path",
+    "spectrum",
+    "crack-level",
+    "slips",
+    "joints",
+    "joint",
+    "crack",
+    "pressure",
+    "water-pressure",
+    "deformed",
+    "tension",
+    "mesh",
+    "modes",
+)
