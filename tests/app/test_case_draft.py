@@ -13,7 +13,8 @@ from heeltoe.app.case.handles import corners_of, handle_data, handles, length_te
 from heeltoe.app.open_case import begin
 from heeltoe.app.sessions import Session, Sessions
 from heeltoe.app.settings import Settings
-from heeltoe.case.read import read_case, read_fields
+from heeltoe.case.fields_file import read_fields
+from heeltoe.case.read import read_case
 from heeltoe.case.toml_writer import case_text
 from heeltoe.errors.error import InputError
 from shared.dams import ALL_EXAMPLES, PLAIN, example

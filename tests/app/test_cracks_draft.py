@@ -13,7 +13,7 @@ from heeltoe.app.open_case import begin, example_path
 from heeltoe.app.sessions import Session
 from heeltoe.app.studies.draft import choices
 from heeltoe.case.crack.law import LAW_FIELDS
-from heeltoe.case.read import read_fields
+from heeltoe.case.fields_file import read_fields
 from heeltoe.mechanics.law_curve import curve_of
 from shared.dams import example
 

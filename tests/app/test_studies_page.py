@@ -84,7 +84,7 @@ def test_what_is_wrong_is_said_at_its_field(studies):
     assert not studies.is_visible("text=out of range")
     studies.select_option("#study-method", "sobol")
     studies.fill("#study-samples", "3")
-    studies.wait_for_selector("[data-field=samples] >> text=give 2 or 4")
+    studies.wait_for_selector("[data-field=samples] >> text=write for example 2 or 4")
     studies.fill("#study-samples", "9999999999")
     studies.wait_for_selector("text=/too many|not a power/")
     studies.click("button:text-is('Fragility')")

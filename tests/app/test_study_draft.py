@@ -212,10 +212,10 @@ def test_unit_and_time_step_are_asked_for_at_once(session):
 
 
 def test_errors_come_back_from_other_processes():
-    error = InputError("study-many", "samples", 3, most=2)
+    error = InputError("too-many", "samples", 3, most=2)
     error.field = "study"
     back = pickle.loads(pickle.dumps(error))
-    assert (str(back), back.args, back.code) == (str(error), error.args, "study-many")
+    assert (str(back), back.args, back.code) == (str(error), error.args, "too-many")
 
 
 def test_what_stands_in_an_empty_form_is_in_the_units_that_are_chosen(session):

@@ -1,4 +1,4 @@
-"""Who may ask: the right name of the server, no other origin, and the token of the address that was printed.
+"""Admission of requests: the right name of the server, no other origin, and the token of the printed address.
 
 It stands before everything else, plain requests and websockets alike."""
 

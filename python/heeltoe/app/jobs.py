@@ -59,7 +59,7 @@ class Job:
 
     @property
     def process_id(self) -> int | None:
-        """Of its process."""
+        """Number of the job's process."""
         return self._process.pid
 
     def payload(self) -> Json:

@@ -89,7 +89,7 @@ def begin(session: Session) -> Json:
 
 def _open(session: Session, name: str) -> None:
     from heeltoe.app.case.draft import start
-    from heeltoe.case.read import read_fields
+    from heeltoe.case.fields_file import read_fields
 
     path = example_path(name)
     if path is None:

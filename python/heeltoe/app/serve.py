@@ -70,7 +70,7 @@ def serve(host: str, port: int | None, *, public: bool, browser: bool, say: Call
 
 
 def _leave() -> None:
-    """End Python where a computation is still under way on a thread: nobody waits for what it finds."""
+    """End Python although a computation may still run on a thread; its result is dropped."""
     if any(thread.name.startswith(WORKER_NAME) for thread in threading.enumerate()):
         sys.stdout.flush()
         sys.stderr.flush()

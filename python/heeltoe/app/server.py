@@ -111,7 +111,7 @@ async def _begin(desk: Desk) -> None:
 
 
 def _teller(socket: WebSocket, session: Session) -> Any:
-    """Return what sends a message to a tab, one at a time; what is said to a tab that has gone is lost.
+    """Return the function that sends a message to a tab, one at a time; messages to a closed tab are lost.
 
     Files that it has sent are called as it calls them, whoever speaks of them."""
     lock = asyncio.Lock()

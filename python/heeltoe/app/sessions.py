@@ -1,4 +1,4 @@
-"""What the server remembers of a tab: its case and its files, for a while."""
+"""Memory of the server for each tab: its case and its files, for a limited time."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ class TooManyError(Exception):
 
 
 class Sessions:
-    """The tabs that the server remembers: so many, so long.
+    """Tabs that the server remembers, limited in number and age.
 
     Parameters
     ----------
@@ -176,7 +176,8 @@ class Sessions:
         return session
 
     def leave(self, session: Session, tell: Tell | None = None) -> None:
-        """Note that a tab is closed, unless it has come back and is told what goes on in another way than `tell`."""
+        """Note that a tab is closed, unless it has come back and receives its messages by another function than
+        `tell`."""
         session.used = monotonic()
         if tell is not None and session.tell is not tell:
             return

@@ -1,4 +1,4 @@
-"""What the server of the app allows, and to whom."""
+"""Permissions and bounds of the app's server."""
 
 from __future__ import annotations
 

@@ -114,7 +114,7 @@ async def corners(desk: Desk, request: Request) -> Json:
 async def open_file(desk: Desk, request: Request) -> Json:
     """Open a case file that was sent, with the files beside it that were sent, too."""
     from heeltoe.app.case.draft import start
-    from heeltoe.case.read import read_fields
+    from heeltoe.case.fields_file import read_fields
 
     session, called = desk.session, _name(request.get("called"))
     path = upload_path(session, text(request, "file"))

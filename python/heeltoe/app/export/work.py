@@ -43,7 +43,7 @@ class Wanted:
 
     @property
     def suffix(self) -> str:
-        """Of tables."""
+        """File suffix of the tables."""
         return ".csv" if self.csv else ".parquet"
 
 

@@ -17,9 +17,9 @@ from heeltoe.errors.error import InputError
 from heeltoe.errors.sanitize import plain
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import husid, velocity_displacement
-from heeltoe.motion.records import read_channels, read_record
 from heeltoe.motion.records.catalog import PREFIX, find
 from heeltoe.motion.records.formats.columns import ASKS_FOR_LAYOUT
+from heeltoe.motion.records.read import read_channels, read_record
 from heeltoe.motion.scenario import synthetic
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.study.plan.components import component_of

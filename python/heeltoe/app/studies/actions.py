@@ -78,7 +78,7 @@ async def _laid(desk: Desk, request: Request) -> Made:
 
     session = desk.session
     if len(session.studies) >= desk.settings.most_studies:
-        raise InputError("study-many", "studies", len(session.studies) + 1, most=desk.settings.most_studies)
+        raise InputError("too-many", "studies", len(session.studies) + 1, most=desk.settings.most_studies)
     fields = await desk.workers.quick(study_of_form, request.get("study"), session)
     number = next(_NUMBERS)
     folder = session.folder / f"study-{number}"

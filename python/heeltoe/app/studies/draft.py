@@ -13,6 +13,7 @@ from heeltoe.app.case.files import sent_files
 from heeltoe.app.desk import BadRequestError
 from heeltoe.app.open_case import models_for
 from heeltoe.base.payload import Json
+from heeltoe.case.distribution import Distribution
 from heeltoe.case.paths import value_of
 from heeltoe.case.suite import SuiteRule
 from heeltoe.errors.error import InputError
@@ -20,7 +21,7 @@ from heeltoe.motion.records.catalog import MADE_TO_ORDER, PREFIX, available
 from heeltoe.motion.scenario import order_of, scenario_parameters
 from heeltoe.motion.targets import STANDARDS
 from heeltoe.study.plan.components import CHANNEL, Component, components_of, grouped
-from heeltoe.study.plan.file import Distribution, Measure, Method, Model, Scale
+from heeltoe.study.plan.file import Measure, Method, Model, Scale
 
 if TYPE_CHECKING:
     from heeltoe.app.case.fields import Field
@@ -109,7 +110,7 @@ def _records(session: Session) -> list[Json]:
 
 
 def _components(session: Session) -> list[Component]:
-    """Return the components of earthquakes in the files that a tab has sent, by what they say."""
+    """Return the components of earthquakes in the files that a tab has sent, as the files name them."""
     return [
         Component(
             name,
@@ -363,7 +364,7 @@ def _whole(text: str) -> int | str:
 def _split(text: str) -> list[str]:
     parts = [part.strip() for part in text.split(",") if part.strip()]
     if len(parts) > MOST_VALUES:
-        raise InputError("study-many", "vary", len(parts), most=MOST_VALUES)
+        raise InputError("too-many", "vary", len(parts), most=MOST_VALUES)
     return parts
 
 
@@ -378,7 +379,7 @@ def _list(form: Mapping[str, object], name: str, limit: int) -> list[Any]:
     if not isinstance(entries, list):
         raise BadRequestError(f"{name} is a list")
     if len(entries) > limit:
-        raise InputError("study-many", name, len(entries), most=limit)
+        raise InputError("too-many", name, len(entries), most=limit)
     return entries
 
 

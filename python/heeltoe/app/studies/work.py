@@ -127,7 +127,7 @@ def _laid(request: StudyRequest, folder: Path, limit: int) -> Plan:
 
     plan = plan_of(lay_study(*request, folder))
     if plan.count > limit:
-        raise InputError("study-many", "study", f"{plan.count:,} runs", most=f"{limit:,}")
+        raise InputError("too-many", "study", f"{plan.count:,} runs", most=f"{limit:,}")
     return plan
 
 

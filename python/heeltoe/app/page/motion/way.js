@@ -39,7 +39,7 @@ export class Way {
     this.pulse = element("div", {}, line("period", "period [s]", "0.5"), ...at("period"), ...at("points"));
     this.reverse = /** @type {HTMLInputElement} */ (element("input", { type: "checkbox", id: `${name}-reverse`, onchange: changed }));
     const peak = line("pga", "scaled to a peak of [g]");
-    this.scale = element("div", {}, peak, ...at("pga"), element("label", {}, this.reverse, " other sign"), element("p", { class: "faint" }, name === "horizontal" ? "Empty: as it is." : "Empty: the scale of the horizontal motion."));
+    this.scale = element("div", {}, peak, ...at("pga"), element("label", {}, this.reverse, " other sign"), element("p", { class: "faint" }, name === "horizontal" ? "Empty: as it is." : "Empty: the scale of the horizontal motion."), ...(name === "horizontal" ? [element("p", { class: "faint", id: "motion-at" }, "The motion of the free surface (outcrop), as recorded: do not deconvolve it to the bottom of a mesh.")] : []));
     this.root = element("fieldset", { "data-way": name }, element("legend", {}, TITLES[name]), this.source, ...at("file"), ...at("channel"), this.made, this.pulse, this.stated, this.scale, ...this.wrong.filter((place) => place.dataset.of === field));
     this.fit();
   }
