@@ -1,4 +1,4 @@
-"""What a cracked concrete gravity dam does in an earthquake."""
+"""Earthquake response of cracked concrete gravity dams: sliding, rocking, uplift and stresses."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ _HOME = {
     "open_study": "study.answers.study_results",
     "overturning_map": "study.small.overturning",
     "read_case": "case.read",
-    "read_channels": "motion.records",
+    "read_channels": "motion.records.read",
     "read_levels": "study.plan.levels",
-    "read_record": "motion.records",
+    "read_record": "motion.records.read",
     "read_shear_tests": "mechanics.shear_tests",
     "read_study": "study.plan.file",
     "response_spectrum": "motion.spectrum",
@@ -81,8 +81,8 @@ if TYPE_CHECKING:
     from heeltoe.models.statics.model import statics as statics
     from heeltoe.motion.ground_motion import GroundMotion as GroundMotion
     from heeltoe.motion.matching import match as match
-    from heeltoe.motion.records import read_channels as read_channels
-    from heeltoe.motion.records import read_record as read_record
+    from heeltoe.motion.records.read import read_channels as read_channels
+    from heeltoe.motion.records.read import read_record as read_record
     from heeltoe.motion.scenario import synthetic as synthetic
     from heeltoe.motion.spectrum import response_spectrum as response_spectrum
     from heeltoe.motion.stochastic import stochastic_motion as stochastic_motion

@@ -426,11 +426,32 @@ def test_a_block_loads_no_statistics_no_meshes_no_tables_and_no_figures():
         "import sys; from heeltoe.cli.main import main\n"
         f"sys.argv = ['heeltoe', 'run', {str(BLOCK)!r}, '--json', '-']\n"
         "try:\n    main()\nexcept SystemExit:\n    pass\n"
+        "from heeltoe.result.numbers import BondState\n"
         "print([name for name in ('scipy', 'skfem', 'matplotlib', 'pandas', 'pint', 'pyarrow', 'jinja2', "
-        "'heeltoe.models.flexible', 'heeltoe.study.plan.file') "
-        "if name in sys.modules], file=sys.stderr)"
+        "'numpy.polynomial', 'rich._emoji_codes', 'heeltoe.models.flexible', 'heeltoe.study.plan.file', "
+        "'heeltoe.views.content.document') if name in sys.modules], '__dataclass_fields__' in vars(BondState), "
+        "file=sys.stderr)"
     )
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=True)
+    assert ended.stderr.splitlines()[-1] == "[] False"
+
+
+@pytest.mark.parametrize(
+    ("words", "opening", "unloaded"),
+    [
+        (["--version"], "heeltoe ", ("numpy", "pydantic", "rich")),
+        (["explain", "crack.friction"], "crack.friction", ("scipy", "matplotlib", "pandas", "pint")),
+    ],
+)
+def test_what_needs_no_numbers_loads_no_libraries_of_numbers(words, opening, unloaded):
+    program = (
+        "import sys; from heeltoe.cli.main import main\n"
+        f"sys.argv = {['heeltoe', *words]!r}\n"
+        "try:\n    main()\nexcept SystemExit:\n    pass\n"
+        f"print([name for name in {unloaded!r} if name in sys.modules], file=sys.stderr)"
+    )
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=True)
+    assert ended.stdout.startswith(opening)
     assert ended.stderr.splitlines()[-1] == "[]"
 
 

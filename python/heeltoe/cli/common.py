@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
 from typer.core import TyperGroup
 
 from heeltoe.base.atomic_files import check_file, write_text
@@ -23,6 +22,8 @@ from heeltoe.result.outcome import NO_RESULT as NO_RESULT
 from heeltoe.units.systems import unit_system
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from heeltoe.case.model import Case
     from heeltoe.models.cost import Cost
     from heeltoe.study.run.run import Progress as StudyProgress
@@ -70,7 +71,7 @@ def _refused() -> Iterator[None]:
 app = typer.Typer(
     cls=Commands,
     name="heeltoe",
-    help="What a cracked concrete gravity dam does in an earthquake.",
+    help="Compute the response of cracked concrete gravity dams to earthquakes.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     add_completion=False,
@@ -141,11 +142,11 @@ def motion_changes(motion: str | None, **fields: str | None) -> list[str]:
     return [f"motion.{name}={value}" for name, value in options.items() if value is not None]
 
 
-def refuse(options: Mapping[str, object], code: str) -> None:
-    """Refuse the first of some options that is there."""
+def refuse(options: Mapping[str, object], owner: str, remedy: str) -> None:
+    """Refuse the first of some options that is there, as it does not belong to `owner`."""
     for option, value in options.items():
         if value:
-            raise InputError(code, option)
+            raise InputError("option-foreign", option, owner=owner, remedy=remedy)
 
 
 def check_written(out: Path | None, *, report: bool, xlsx: bool, others: Mapping[str, bool]) -> None:

@@ -148,7 +148,7 @@ def animate(
     from heeltoe.views.animation.write import check_options, writing_cost
 
     if model not in (AUTO, *MODELS):
-        raise InputError("unknown-model", "--model", model, models=", ".join((AUTO, *MODELS)), near="")
+        raise InputError("not-a-choice", "--model", model, choices=f"{', '.join((AUTO, *MODELS))}")
     if out is not None and to is not None:
         raise InputError("fields-conflict", "--to", other="--out")
     place = out or to or Path(f"{Path(case).stem}.animation.html")

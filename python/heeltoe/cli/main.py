@@ -40,6 +40,8 @@ def main() -> None:
     atexit.register(gc.freeze)
     # No window opens here, whatever a notebook that calls has chosen for itself.
     os.environ["MPLBACKEND"] = "agg"
+    # No plugin of pydantic has a say in how a case is read; looking for one opens a file of every package there is.
+    os.environ["PYDANTIC_DISABLE_PLUGINS"] = "1"
     try:
         with streams():
             app()
@@ -84,7 +86,7 @@ def first_sentence(text: str) -> str:
 
 def _version(shown: bool) -> None:
     if shown:
-        from heeltoe.result.write import build_info
+        from heeltoe.kernel.build import build_info
 
         print(" ".join(f"{name} {version}" for name, version in build_info().items()))
         raise typer.Exit
@@ -125,7 +127,8 @@ def new(
 
 def _rewritten(old: Path, path: Path) -> str:
     """Return the text of a case in today's fields; `path` is where it will stand."""
-    from heeltoe.case.read import read_case, read_fields
+    from heeltoe.case.fields_file import read_fields
+    from heeltoe.case.read import read_case
     from heeltoe.case.toml_writer import case_text
 
     read_case(old)

@@ -166,7 +166,7 @@ def run_suite_command(path: str, case: Case, pga: str | None, suite: Suite, requ
     check_json(request.json)
     place = request.out or (Path(f"{Path(path).stem}-suite") if request.report else None)
     if suite.resume and place is None:
-        raise InputError("suite-resume", "--resume")
+        raise InputError("needs-other", "--resume", other="--out DIR, the directory of the suite")
     motions = [resolved_path(name) for name in suite.motions] or None
     runner = partial(run_suite, case, motions, model=request.model, out=place, resume=suite.resume, **suite.fields(pga))
     output = Output(
@@ -183,17 +183,29 @@ def run_suite_command(path: str, case: Case, pga: str | None, suite: Suite, requ
 
 
 def run_levels_command(case: Case, path: Path, suite: Suite, request: RunOptions) -> None:
-    """Run a suite at each level of earthquake, and show a row for each."""
+    """Run a suite at each level of earthquake, and show a row for each; a report goes into --out."""
     from heeltoe.study.plan.levels import read_levels
     from heeltoe.study.run.levels import run_levels
     from heeltoe.views.terminal.levels import print_levels
 
     check_json(request.json)
+    place = (request.out or Path(f"{path.stem}-report")) if request.report else None
+    if place is not None:
+        from heeltoe.views.report.write import check_packages
+
+        check_packages()
+        check_directory(place, "--out", ("report.pdf", "report.html"))
     levels = read_levels(path)
     motions = [resolved_path(name) for name in suite.motions] or None
     with study_bar() as progress:
         results = run_levels(case, levels, motions, model=request.model, progress=progress)
     units = units_of(case, request.units)
-    finish(results.to_json, request.json, [], lambda screen: print_levels(results, screen, units))
+    written: list[Path] = []
+    if place is not None:
+        from heeltoe.views.content.levels import levels_document
+        from heeltoe.views.report.write import write_document
+
+        written = write_document(levels_document(case, results, units), place)
+    finish(results.to_json, request.json, written, lambda screen: print_levels(results, screen, units))
     if any(check.value is None for level in results.levels for check in level.checks):
         raise typer.Exit(NO_RESULT)

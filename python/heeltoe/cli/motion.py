@@ -81,7 +81,7 @@ def motion(
             words.print(f"{plain(name):40s} {plain(where)}", soft_wrap=True, markup=False)
         return
     if not files:
-        raise InputError("record-missing", "FILE-or-NAME")
+        raise InputError("missing", "FILE-or-NAME", remedy="give a file or a name, or --list")
     check_json(json_)
     from heeltoe.models.cost import reading_cost
 
@@ -214,15 +214,15 @@ def _motions(
 ) -> list[GroundMotion]:
     """Read what is to be looked at: all channels of a file, or of all in a folder, the one wanted, or a motion made to
     order."""
-    from heeltoe.motion.records import read_channels, read_record
     from heeltoe.motion.records.catalog import PREFIX, find
+    from heeltoe.motion.records.read import read_channels, read_record
     from heeltoe.motion.scenario import synthetic
 
     given = {"--unit": unit, "--time-step": time_step, "--channel": channel, "--layout": layout, "--factor": factor}
     if file.startswith(PREFIX):
         for option, value in given.items():
             if value is not None:
-                raise InputError("synthetic-option", option)
+                raise InputError("option-foreign", option, owner="a synthetic motion", remedy="")
         return [synthetic(file, field="FILE-or-NAME")]
     step = None if time_step is None else parse(time_step, "duration", "--time-step")
     if layout not in (None, "rows", "columns"):

@@ -42,16 +42,25 @@ class RunOptions:
         check_units(self.units)
         check_written(self.out, report=self.report, xlsx=self.xlsx, others={})
         if self.vtk and self.out is None and not self.report:
-            raise InputError("vtk-without-out", "--vtk")
+            raise InputError("needs-other", "--vtk", other="--out DIR")
         if self.vary:
-            refuse({"--vtk": self.vtk, "--spread": self.spread is not None, "--report": self.report}, "vary-option")
+            refuse(
+                {"--vtk": self.vtk, "--spread": self.spread is not None, "--report": self.report},
+                "a table of runs",
+                " or --vary",
+            )
 
     def check_elastic(self, case: Case) -> None:
         """Refuse what shows elastic parts where there are none."""
         from heeltoe.models.run import models_of
 
         if self.vtk and "flexible" not in models_of(case, self.model)[0]:
-            raise InputError("vtk-rigid", "--vtk")
+            raise InputError(
+                "option-foreign",
+                "--vtk",
+                owner="a rigid block, which has no elastic parts",
+                remedy=", or use --model flexible or both",
+            )
 
     def runs(self) -> int | Literal["cheap"] | None:
         """Return the requested number of runs with the shaking varied; a report has the cheap ones by default."""

@@ -140,7 +140,8 @@ def run(
     details: Details = False,
 ) -> None:
     """Run a case and print what the dam does."""
-    from heeltoe.case.read import read_case, read_fields
+    from heeltoe.case.fields_file import read_fields
+    from heeltoe.case.read import read_case
 
     suite = Suite(motions or [], sa, match, target, judge, vertical, resume)
     request = RunOptions(model, spread, json_, out, units, csv, vtk, vary, report, details, xlsx)
@@ -159,15 +160,15 @@ def run(
     }
     if levels is not None:
         of_one_suite = {name: value for name, value in suite.options().items() if name != "--motions"}
-        others = {"--pga": pga, "--sa": sa, "--out": out, "--report": report, "--xlsx": xlsx}
-        refuse(of_one_run | others | of_one_suite, "levels-option")
+        others = {"--pga": pga, "--sa": sa, "--xlsx": xlsx, "--out": None if report else out}
+        refuse(of_one_run | others | of_one_suite, "a suite for each level", "; the file of the levels has it")
         run_levels_command(read_case(case, changes), levels, suite, request)
         return
     if motions or "motions" in read_fields(Path(case)):
-        refuse(of_one_run, "suite-option")
+        refuse(of_one_run, "a suite of records", " or --motions")
         run_suite_command(case, read_case(case, changes), pga, suite, request)
         return
-    refuse(suite.options(), "suite-needs")
+    refuse(suite.options(), "a run of one motion", ", or add --motions FOLDER")
     changes += motion_changes(motion, pga=pga, duration=duration)
     if sa is not None:
         if pga is not None:

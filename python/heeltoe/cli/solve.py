@@ -62,7 +62,13 @@ def solve(
         check_directory(out, "--out", SOLVED)
     ends = None if between is None else [part.strip() for part in between.split(",")]
     if ends is not None and len(ends) != 2:
-        raise InputError("solve-order", "--between", shown(between))
+        raise InputError(
+            "wrong-quantity",
+            "--between",
+            shown(between),
+            kind="a range, LOW,HIGH with the lower end first",
+            example="0.6,1.2",
+        )
     say_cost(search_cost(loaded, model))
     with status() as say:
         solution = solve_case(

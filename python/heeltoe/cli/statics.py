@@ -136,7 +136,9 @@ class _Options:
         check_written(self.out, report=self.report, xlsx=self.xlsx, others={"--every-section": self.every_section})
         if self.vary:
             options = {"--report": self.report, "--sheet": self.sheet}
-            refuse({**options, "--every-section": self.every_section, "--xlsx": self.xlsx}, "vary-option")
+            refuse(
+                {**options, "--every-section": self.every_section, "--xlsx": self.xlsx}, "a table of runs", " or --vary"
+            )
 
     def after(self) -> After:
         """Return where the slip of the post-seismic case comes from."""

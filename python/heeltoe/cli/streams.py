@@ -12,10 +12,12 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
-
-from rich.console import Console
+from typing import TYPE_CHECKING
 
 from heeltoe.errors.error import InputError
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 #: Consoles that say to be narrower than this say nothing of use.
 _NARROWEST, _USUAL = 20, 80
@@ -34,7 +36,9 @@ _NOT_WRITTEN = (
 
 def console(*, stderr: bool = False) -> Console:
     """Return where words go."""
-    console = Console(stderr=stderr, highlight=False)
+    from rich.console import Console
+
+    console = Console(stderr=stderr, highlight=False, emoji=False)
     if console.width < _NARROWEST:
         console.width = _USUAL
     return console
