@@ -302,7 +302,7 @@ def table(judged: list[Judged]) -> Iterator[Row]:
 
 
 def print_numbers(judged: list[Judged]) -> None:
-    """Print of each number with a bound how many dams keep it, as a table of docs/flexible-choices.md."""
+    """Print of each number with a bound how many dams keep it, as a table of docs/validation/flexible-choices.md."""
     keys = list(dict.fromkeys(key for dam in judged for key in dam.numbers))
     for key in keys:
         numbers = [dam.numbers[key] for dam in judged if key in dam.numbers]

@@ -50,10 +50,7 @@ class Runs:
 
     def energy(self) -> Iterator[Row]:
         """Say what the ledgers of all runs so far leave open, and what contact has made out of nothing."""
-        remark = (
-            "in steps in which a slipping node turns round, friction works on the mean of both velocities, the first "
-            "of which may be the wrong way"
-        )
+        remark = "a slipping node that turns round"
         yield Row(
             "worst ledger, unexplained over turnover", 0.0, self._residual, 1e-9, relative=False, kind="condition"
         )

@@ -49,41 +49,34 @@ class Source:
 
 
 #: Why slips and rotations of the thesis may be others.
-UNTOLD = "the thesis does not tell its penalty, mesh and step, and its penalties make energy at every blow"
+UNTOLD = "its penalty, mesh and step"
 #: What is another in the prototype.
-BONDED = (
-    "it lets go of a bonded crack where our dam starts at rest, and how short its steps are for a stiff dam is not on "
-    "record"
-)
+BONDED = "it releases a bonded crack; its step"
 
 SLIP = Source(
     "thesis",
     0.07,
-    "the thesis' slips are good for 7 %: so much its unpublished version of the record takes off the exact rigid "
-    "block's (table-7.6-taft)",
+    "its version of the record (table-7.6-taft)",
 )
 SMALL_SLIP = Source(
     "thesis", 0.10, "good for 10 %: the version of the record (7 %, table-7.6-taft) and a slip of two digits"
 )
-ROTATION = Source("thesis", 0.07, "peaks of the thesis are good for the 7 % of its version of the record at the best")
+ROTATION = Source("thesis", 0.07, "its version of the record")
 HIGH = Source(
     "thesis",
     0.11,
-    "good for 11 %: 7 % for the version of the record, up to 8 % that 1 % more or less shaking changes in a dam that "
-    "strikes",
+    "7 % for its version of the record, up to 8 % for the effect of 1 % of the shaking on a dam that strikes",
 )
 PROTOTYPE = Source(
     "prototype",
     0.045,
-    "the prototype, with 4 elements across as here, is good for 4.5 %: it has 210 and 218 to 228 mm for one and the "
-    "same dam (20 GPa, friction 1.2)",
+    "it has 210 and 218 to 228 mm for one dam (20 GPa, friction 1.2)",
 )
 PROTOTYPE_ROTATION = Source("prototype", 0.05, "a peak of the prototype, good for 5 % as its slips are")
 PROTOTYPE_HIGH = Source(
     "prototype",
     0.08,
-    "the prototype, with 4 elements across as here, is good for the 8 % that 1 % more or less shaking changes in a dam "
-    "that strikes",
+    "the effect of 1 % of the shaking on a dam that strikes",
 )
 
 

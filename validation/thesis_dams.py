@@ -12,8 +12,8 @@ from heeltoe.case.read import read_case
 from heeltoe.errors.error import InputError
 from heeltoe.models.run import rigid
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.motion.records import read_record
 from heeltoe.motion.records.catalog import find
+from heeltoe.motion.records.read import read_record
 from heeltoe.result.response import Response
 from validation.row import Row, Skipped
 from validation.sources import ENDS_WITH_MOTION, TYPICAL_SECTION

@@ -96,10 +96,9 @@ def sawtooth(rise: float, friction: float, push: float) -> Case:
 def kinked_crack() -> Iterator[Row]:
     """Cracks that are not straight: a block climbs a sawtooth as a slope; a step without friction bears by itself.
 
-    A block of 8 m x 3 m and 1000 GPa on teeth of 1 m slides where the push exceeds g tan(phi + i), and goes uphill as a
-    point on a slope does; the rise of the push makes it spring by the elasticity of block and teeth. Below a dam of
-    110 m a step of 6 m without friction gives the water's push by the pressures normal to its pieces alone. Teeth whose
-    friction weakens with the slip are climbed as a slope with that law is.
+    A block of 8 m x 3 m and 1000 GPa on teeth of 1 m slides where the push exceeds g tan(phi + i), and climbs as a
+    point on a slope does. Below a dam of 110 m a step of 6 m without friction bears the water's push by the pressures
+    normal to its pieces alone.
     """
     for degrees, friction in ((10.0, 0.3), (20.0, 0.2)):
         rise = math.radians(degrees)
@@ -178,9 +177,8 @@ def several_cracks() -> Iterator[Row]:
     """An elastic dam cracked at two levels: stiff slabs are two rigid blocks; with its base bonded the neck is alone.
 
     Slabs of 1 m on 2 m and 16 m wide with 20 000 GPa, under 0.5 g for 0.25 s: friction 0.3 below and 0.2 above, and
-    with either crack bonded; a friction law of the other is that of a block alone, and an anchor through both presses
-    both. The typical dam of 100 m has cracks at its base and at 90 m, 20 GPa and all modes, and
-    five pulses: its base is bonded by a pressure that draws its faces together, which contact gives back.
+    with either crack bonded. The typical dam of 100 m has cracks at its base and at 90 m, 20 GPa and all modes, and
+    five pulses; its base is bonded by a pressure that draws its faces together.
     """
     for base, upper, kind in ((0.3, 0.2, "both slide"), (0.3, 5.0, "upper bonded"), (5.0, 0.2, "base bonded")):
         case = _slabs({"friction": base}, {"friction": upper})

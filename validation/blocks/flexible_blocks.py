@@ -78,11 +78,10 @@ def elastic_sliding() -> Iterator[Row]:
 def elastic_rocking() -> Iterator[Row]:
     """Block 1 x 4 m let go at half its slenderness, friction 1 (as section 6.5.2 of Zhu): first impact, peaks.
 
-    The blow of a rigid block, without restitution, acts at the corner it comes down on, and leaves Housner's ratio of
-    the velocity. An elastic face comes down with all of its nodes at once, and the blow is spread over it. About a base
-    of width B and height H a blow at the distance c from the middle leaves (k - c B / 2) / (k + c B / 2), k = B^2 / 12
-    + H^2 / 3: with c = B / 2 that is Housner's ratio; c = B / 6 is that of a blow which, like the velocities of the
-    nodes, grows straight from one corner to the other. The peaks go with its square. Steps of 0.05 ms.
+    The blow of a rigid block without restitution acts at a corner and leaves Housner's ratio of the velocity. An
+    elastic face comes down with all of its nodes at once. About a base of width B and height H a blow at the distance c
+    from the middle leaves (k - c B / 2) / (k + c B / 2), k = B^2 / 12 + H^2 / 3: c = B / 2 is Housner's ratio,
+    c = B / 6 a blow that grows straight from one corner to the other. The peaks go with its square. Steps of 0.05 ms.
     """
     slenderness = np.arctan(0.25)
     low, high = (0.5 * _left(1.0, 4.0, arm) ** 2 for arm in (1.0 / 2.0, 1.0 / 6.0))
@@ -117,10 +116,9 @@ def elastic_rocking() -> Iterator[Row]:
 def contactors() -> Iterator[Row]:
     """A leaning block that slides past the end of another (as section 6.5.3 of Zhu): five kinds of contactors.
 
-    Both are 8 m wide and 4 m high, the upper leans 4.6 m downstream, so that its weight acts 6.3 m from its heel;
-    friction 0.1, 20 GPa, two elements across, steps of 0.1 ms. A push of 0.4 g slides it 1.2 m downstream: the sharp
-    corner of the lower block then carries it between two of its nodes, and no node of the upper face stands there. Or
-    2.2 m upstream: it then stands on its own sharp corner, between two nodes of the lower face.
+    Both are 8 m wide and 4 m high, the upper leans 4.6 m downstream; friction 0.1, 20 GPa, two elements across, steps
+    of 0.1 ms. A push of 0.4 g slides it 1.2 m downstream, where the sharp corner of the lower block carries it between
+    two of its nodes, or 2.2 m upstream, where it stands on its own corner between two nodes of the lower face.
     """
     corners = [(0.0, 0.0), (8.0, 0.0), (8.0, 4.0), (12.6, 8.0), (4.6, 8.0), (0.0, 4.0)]
     runs = Runs()

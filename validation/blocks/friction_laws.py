@@ -157,10 +157,9 @@ _REDUCED: dict[str, dict[str, Any]] = {
 def laws_to_coulomb() -> Iterator[Row]:
     """Every law with numbers that make it Coulomb's, 0.4, under three sines; a program of small steps under their own.
 
-    The block 20 x 1 m only slides. The reference of the first rows is the exact walk with a constant coefficient, which
-    shares no step with the integration. The program of small steps gives the mass an impulse of friction in each of its
-    steps, up to what the law bears at the way and the speed before it; the reference is what its error of first order
-    comes to, from two lengths of the step, as these go to nothing.
+    The block 20 x 1 m only slides. The reference of the first rows is the exact walk with a constant coefficient. The
+    program of small steps gives the mass an impulse of friction in each step; its first-order error is extrapolated
+    from two lengths of the step.
     """
     motion = {
         "points": [[f"{t!r} s", f"{a!r} g"] for t, a in zip(*(column.tolist() for column in _sines()), strict=True)]
@@ -219,9 +218,9 @@ def _small_steps(bears: _Bears, parts: int) -> float:
 def sequence() -> Iterator[Row]:
     """Three rectangular pulses, one after the other: the slip of each is Newmark's; then with drains that slip closes.
 
-    The block 20 x 1 m of the last rows has water before it and below it, and its drains are 0.1 m wide: in the second
-    motion the uplift is that of what the first has left of them. The reference is the same motion alone, on a block
-    with the efficiency that is left from the beginning.
+    The block 20 x 1 m of the last rows has water before it and below it, and its drains are 0.1 m wide; the second
+    motion finds the drains that the first has left. The reference is the same motion alone, on a block with that
+    efficiency from the beginning.
     """
     pulses = ((0.8, 0.1), (0.5, 0.25), (0.6, 0.2))
     first, *others = ({"points": _pulse(size, length)["points"]} for size, length in pulses)

@@ -363,10 +363,10 @@ def notched_beam() -> Iterator[Row]:
     Pijaudier-Cabot.
 
     Depth and thickness 50 mm, span 125 mm, E 37 GPa, f_t 3.9 MPa, G_f 143.2 J/m2. The largest force of the cycles was
-    1114 N, the least that was the largest of its cycle 933 N. Concrete softens steeply at first and slowly later; the
-    joint of heeltoe softens along one straight line, or along two, the first of which has 40 % of the energy. Up to a
-    mouth opening of 0.2 mm the beam itself took as much work as such a joint of 87 J/m2 does, less than what is stated
-    for its concrete; with that energy the largest force lies in the middle of what was measured.
+    1114 N, the least of their largest forces 933 N. The joint of heeltoe softens along one straight line, or along two,
+    the first of which has 40 % of the energy. Up to a mouth opening of 0.2 mm the beam itself took as much work as a
+    joint of 87 J/m2 does, less than the stated energy of its concrete; with that energy the largest force lies in the
+    middle of the measured ones.
     """
     mouth, least, most = np.array(MEASURED).T
     middle, spread = 0.5 * (MEASURED_PEAK + MEASURED_LEAST_PEAK), 0.5 * (MEASURED_PEAK - MEASURED_LEAST_PEAK)
@@ -381,7 +381,7 @@ def notched_beam() -> Iterator[Row]:
             middle,
             float(force.max()),
             spread / middle,
-            kind="book",
+            kind="measured",
             remark=why,
             explained=explained,
             digits=3,
@@ -389,11 +389,11 @@ def notched_beam() -> Iterator[Row]:
         if first == 1.0:
             wanted = float(np.interp(0.004, mouth, 0.5 * (least + most))) / 0.004
             slope = float(np.interp(0.004, opening, force)) / 0.004
-            yield Row("force per mouth opening at first [N/mm]", wanted, slope, 0.2, kind="book", digits=2)
+            yield Row("force per mouth opening at first [N/mm]", wanted, slope, 0.2, kind="measured", digits=2)
         elif energy == TAKEN_ENERGY:
             openings = np.linspace(0.0, mouth[-1], 1001)
             measured, ours = (
                 float(np.trapezoid(np.interp(openings, *curve), openings))
                 for curve in (((0.0, *mouth), (0.0, *(0.5 * (least + most)))), (opening, force))
             )
-            yield Row("its work on the mouth up to 0.2 mm [N mm]", measured, ours, 0.02, kind="book", digits=2)
+            yield Row("its work on the mouth up to 0.2 mm [N mm]", measured, ours, 0.02, kind="measured", digits=2)

@@ -127,8 +127,7 @@ def two_blocks() -> Iterator[Row]:
     Slabs of 20 m x 0.5 m, as heavy as each other, under 0.8 g for 0.3 s. With friction 0.3 below and 0.1 above both
     slide: the upper one as Newmark's block of 0.1, the lower one as that of 2 x 0.3 - 0.1, on which it stops first.
     The slender ones are 4 m x 6 m under 2.4 m x 6 m, 0.2 m downstream of its middle, under one sine wave of 1 s;
-    Siconos 4.4.0 by Moreau and Jean's stepping, with steps of 0.025 ms (`two_blocks` in benchmarks/peer_siconos.py);
-    slips are compared to 0.2 mm, about what it moves by from 0.1 ms to these.
+    Siconos 4.4.0 has steps of 0.025 ms (`two_blocks` in benchmarks/peer_siconos.py), and slips are compared to 0.2 mm.
     """
     for base, upper, what in ((0.3, 0.9, "upper crack bonded"), (0.9, 0.2, "base bonded"), (0.3, 0.1, "both slide")):
         response = _stack(base, upper)
