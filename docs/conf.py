@@ -18,7 +18,7 @@ from gallery import write_gallery  # noqa: E402
 from reference import write_reference  # noqa: E402
 from sphinx.application import Sphinx  # noqa: E402
 
-from heeltoe.result.write import build_info  # noqa: E402
+from heeltoe.kernel.build import build_info  # noqa: E402
 
 # The finite elements log each of their steps.
 logging.getLogger("skfem").setLevel(logging.WARNING)

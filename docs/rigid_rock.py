@@ -1,4 +1,4 @@
-"""Print the tables of docs/rigid-rock.md: what rigid rock and water without sound leave out of the slip of made dams.
+"""Print the tables of docs/validation/rigid-rock.md: effects of rock and sound on the slip of made dams.
 
 python docs/rigid_rock.py [FIRST] [END]    # dams FIRST to END of 100; all without, ten minutes on one core
 """

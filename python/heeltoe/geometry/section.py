@@ -147,11 +147,11 @@ def outline(corners: Sequence[tuple[float, float]], field: str = "section.polygo
         Where the corners are too few, or the outline crosses or touches itself.
     """
     if len(set(corners)) < 3:
-        raise InputError("polygon-corners", field, f"{len(set(corners))}")
+        raise InputError("too-few", field, f"{len(set(corners))} different corners", least="3")
     spread = max(max(axis) - min(axis) for axis in zip(*corners, strict=True))
     farthest = max(max(map(abs, corner)) for corner in corners)
     if not _SMALLEST <= spread <= _LARGEST or farthest > 1e3 * _LARGEST:
-        raise InputError("section-size", field, f"{spread:g} m")
+        raise InputError("out-of-range", field, f"{spread:g} m", bound="from 1 mm to 10 km, the size of a dam")
     whole = shapely.Polygon(corners)
     if not whole.is_valid or whole.area <= ON_LINE * whole.length**2:
         raise InputError("polygon-crossing", field, shown([list(corner) for corner in corners]))
@@ -179,7 +179,12 @@ def cut(whole: shapely.Polygon, elevation: float, inclination: float = 0.0) -> C
     slack = on_line(whole)
     elevation = elevation if elevation > slack else 0.0
     if outside(whole, elevation):
-        raise InputError("crack-outside", "crack.elevation", f"{elevation:g} m", height=f"{crest - base:g} m")
+        raise InputError(
+            "out-of-range",
+            "crack.elevation",
+            f"{elevation:g} m",
+            bound=f"from 0 m to below the crest at {crest - base:g} m",
+        )
     level = base + elevation
     if inclination:
         corners = _cut_inclined(whole, level, inclination, slack)
