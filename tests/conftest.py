@@ -209,7 +209,7 @@ def koyna(koyna_both) -> heeltoe.Response:
 def no_figures(monkeypatch):
     """Leave out figures, which take most of the time, where words and numbers alone are looked at."""
     monkeypatch.setattr("heeltoe.views.content.drawings.drawings", lambda figures, cracks=None: {})
-    monkeypatch.setattr("heeltoe.views.files.write.save_all", lambda figures, directory: [])
+    monkeypatch.setattr("heeltoe.views.figures.write.save_all", lambda figures, directory: [])
 
 
 @pytest.fixture

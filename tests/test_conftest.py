@@ -38,7 +38,7 @@ def test_the_last_lines_name_what_no_test_raises(tmp_path):
     assert lines[-2].startswith("FAILED catalogue: ")
     named = [line for line in lines if line.startswith("FAILED catalogue: ")]
     assert lines[-1 - len(named) : -1] == named
-    assert "FAILED catalogue: error case-file-encoding" in named
+    assert "FAILED catalogue: error case-file-syntax" in named
     assert not [line for line in named if line.endswith(" source-missing")]
     assert pytest_run(tmp_path, "-k", "one")[0] == 0
 

@@ -82,7 +82,7 @@ def test_a_name_that_is_not_there_gets_the_one_that_was_meant(case, response):
         _ = rigid(case.with_("crack.friction=0.2")).residual_slip_m
     with pytest.raises(InputError, match='did you mean "flexible"') as refused:
         heeltoe.run(case, "flexibel")
-    assert refused.value.code == "unknown-model"
+    assert refused.value.code == "not-a-choice"
 
 
 def test_python_adds_no_second_guess():

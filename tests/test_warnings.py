@@ -8,6 +8,7 @@ from string import Formatter
 
 import pytest
 
+from heeltoe.case.warnings import unusual
 from heeltoe.units.sentences import UNITS
 from heeltoe.warnings.notice import CATALOGUE, Notice
 
@@ -69,6 +70,6 @@ def test_json_has_quantities_in_si_and_the_place():
         "time_s": 0.29,
         "quantities": {"gap_s": 0.31},
     }
-    both = Notice("silt-with-water", densities_kg_m3=(1350.0, 1900.0)).to_json()
+    both = unusual("silt", "{densities_kg_m3:g kg/m^3}", densities_kg_m3=(1350.0, 1900.0)).to_json()
     assert both["quantities"] == {"densities_kg_m3": [1350.0, 1900.0]}
     assert Notice("energy-open", residual=1e-3).to_json()["field"] is None

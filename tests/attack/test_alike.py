@@ -153,7 +153,7 @@ LAWS: dict[str, tuple[Law, tuple[str, ...], float]] = {
 
 def attack(law: str, seeds: range, place: Path, record_property: Any) -> None:
     change, models, close = LAWS[law]
-    strikes = Attack(f"the same otherwise: {law}")
+    strikes = Attack(f"equal cases in another form: {law}")
     for seed in seeds:
         draw = random.Random(seed)
         model, fields = random_case(draw)

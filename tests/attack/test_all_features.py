@@ -1,5 +1,5 @@
 """Random cases over every field and feature, and every pair of features: an answer that does not contradict itself, or
-one sentence. ``make attack`` tries many more, see docs/attack.md."""
+one sentence. ``make attack`` tries many more, see docs/validation/attack.md."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ import pytest
 import heeltoe
 from heeltoe import InputError, read_case, run
 from heeltoe.base.atomic_files import write_text
-from heeltoe.case.read import read_fields
+from heeltoe.case.fields_file import read_fields
 from heeltoe.cli import main as command
 from heeltoe.kernel import _kernel
 from heeltoe.models.flexible.body.reduced import build_flexible_dam

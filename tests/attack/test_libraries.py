@@ -89,9 +89,9 @@ def _dams(place: Path) -> list[str | Path]:
 
 #: Each call that reads, what it may raise, and a command that comes to it.
 CALLS: dict[str, tuple[str, tuple[BaseException, ...], Prepared]] = {
-    "case in TOML": ("heeltoe.case.read.tomllib.loads", OWN["TOML"], lambda place: ["run", BLOCK]),
-    "case in JSON": ("heeltoe.case.read.json.loads", OWN["JSON"], _case),
-    "case": ("heeltoe.case.read.read_bounded", OWN["file"], _case),
+    "case in TOML": ("heeltoe.case.fields_file.tomllib.loads", OWN["TOML"], lambda place: ["run", BLOCK]),
+    "case in JSON": ("heeltoe.case.fields_file.json.loads", OWN["JSON"], _case),
+    "case": ("heeltoe.case.fields_file.read_bounded", OWN["file"], _case),
     "table of dams": ("heeltoe.base.input_files.csv.reader", OWN["CSV"], _dams),
     "zip": ("zipfile.ZipFile", ANY, _packed("record.zip")),
     "file in a zip": ("zipfile.ZipExtFile.read", ANY, _packed("record.zip")),

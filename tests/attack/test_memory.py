@@ -78,7 +78,7 @@ def random_load(draw: random.Random) -> tuple[Fields, float | None]:
 
 
 def attack(seeds: range, record_property: Any) -> None:
-    loads, strikes = [random_load(random.Random(seed)) for seed in seeds], Attack("memory beside what is said of it")
+    loads, strikes = [random_load(random.Random(seed)) for seed in seeds], Attack("memory beside its estimate")
     dry = {name: loads[0][0][name] for name in ("section", "concrete", "crack", "motion", "analysis")}
     # The libraries that water with sound and rock call lie in files, too.
     around = {"reservoir": {"depth": "15 m", "compressible": True}, "rock": {"modulus": "20 GPa"}}

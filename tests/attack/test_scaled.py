@@ -32,7 +32,7 @@ NUMBERS = (
     "opening_downstream_m",
 )
 
-MOVES = ("block-still-moves", "dam-still-moves")
+MOVES = ("still-moves",)
 
 
 def dam(

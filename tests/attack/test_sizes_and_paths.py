@@ -11,7 +11,7 @@ from heeltoe.cli.common import resolved_path
 from heeltoe.errors.sanitize import plain
 from heeltoe.models.flexible.mesh.file import _read
 from heeltoe.motion.processing import taper
-from heeltoe.motion.records import read_text
+from heeltoe.motion.records.read import read_text
 from shared.cases import dam, refusal
 from shared.command import command, process
 from shared.dams import BLOCK, EXAMPLES, example
@@ -26,7 +26,7 @@ def test_a_case_without_end(tmp_path):
 def test_more_moments_than_there_is_room_for():
     with pytest.raises(InputError) as refused:
         rigid(example("block"), output_step=1e-9)
-    assert refused.value.code == "output-many"
+    assert refused.value.code == "too-many"
 
 
 def test_more_events_than_can_be_counted():
@@ -38,7 +38,7 @@ def test_a_home_of_nobody_is_a_name():
 
 
 @pytest.mark.parametrize(
-    ("text", "code"), [("*Node\n *INCLUDE, INPUT=/dev/zero\n", "mesh-include"), (None, "too-large")]
+    ("text", "code"), [("*Node\n *INCLUDE, INPUT=/dev/zero\n", "source-unreadable"), (None, "too-large")]
 )
 def test_meshes_that_lead_elsewhere_or_never_end(tmp_path, text, code):
     pytest.importorskip("meshio")

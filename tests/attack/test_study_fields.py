@@ -10,7 +10,8 @@ from typing import Any
 
 import pytest
 
-from heeltoe.study.plan.file import Distribution, Study
+from heeltoe.case.distribution import Distribution
+from heeltoe.study.plan.file import Study
 from shared.attacked import Attack
 from shared.every_field import Fields, leaves
 from shared.hostile import values

@@ -1,6 +1,10 @@
-"""Thirty questions of a newcomer: where is this computed, and which test shows it? The theory pages answer each one."""
+"""Forty questions of a newcomer. The theory pages answer thirty: where is this computed, and which test shows it? The
+names of files answer the other ten."""
 
 from __future__ import annotations
+
+import ast
+import re
 
 import pytest
 
@@ -145,3 +149,36 @@ def test_the_theory_answers(question):
     assert code[1] in functions(code[0])
     assert test[1] in proofs(test[0])
     assert (code, test) in [row[1:] for row in equation_rows()]
+
+
+#: A question, and the file and the name in it that answer it; a word of the question stands in the name of the file.
+NAMED = {
+    "Where does uplift change while the crack opens?": (
+        "python/heeltoe/models/flexible/body/uplift_and_anchors.py::following_water"
+    ),
+    "Where does the report get its slip, as all other numbers?": "python/heeltoe/result/numbers.py::CrackNumbers",
+    "Which outcome counts as failed?": "python/heeltoe/result/outcome.py::Outcome",
+    "Where are results compared with the limits of the case?": "python/heeltoe/result/limits.py::check_limits",
+    "When does a dam come to rest?": "python/heeltoe/result/rest.py::rests_from",
+    "Where is the sentence of the verdict made?": "python/heeltoe/result/verdict.py::verdict",
+    "Which surroundings, rock and water, are assumed where a case gives none?": (
+        "python/heeltoe/case/surroundings.py::surroundings_of"
+    ),
+    "Where are the criteria of FERC and USACE?": "python/heeltoe/models/statics/criteria.py::CRITERIA",
+    "Where is the fragility curve fitted?": "python/heeltoe/study/answers/fragility.py::curve",
+    "Who does the matching of a record to a spectrum?": "python/heeltoe/motion/matching.py::match",
+}
+
+
+def test_there_are_ten_more():
+    assert len(NAMED) == 10
+
+
+@pytest.mark.parametrize("question", NAMED)
+def test_a_file_whose_name_says_so_answers(question):
+    path, _, name = NAMED[question].partition("::")
+    stem = (ROOT / path).stem
+    assert set(stem.split("_")) & set(re.findall("[a-z]+", question.lower())), stem
+    tops = ast.parse((ROOT / path).read_text(encoding="utf-8")).body
+    named = [getattr(top, "name", None) or getattr(getattr(top, "target", None), "id", None) for top in tops]
+    assert name in named

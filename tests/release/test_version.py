@@ -8,7 +8,7 @@ import tomllib
 import pytest
 
 import heeltoe
-from heeltoe.result.write import build_info
+from heeltoe.kernel.build import build_info
 from shared.command import command
 from shared.dams import ROOT
 

@@ -15,21 +15,18 @@ CASES, SEED = int(os.environ.get("HEELTOE_ATTACK_CASES", "100")), int(os.environ
 _TEXT = """# Attacks
 
 `make attack` tries to break heeltoe, with random cases from a seed (`CASES`, `SEED`), and writes this page; with
-`ADD=1` it adds what other seeds come to. `make test-slow` tries a short form. Version {version}, seeds {seeds}.
+`ADD=1` it adds the counts of other seeds. `make test-slow` tries a short form. Version {version}, seeds {seeds}.
 
-| what | tried | accepted | refused | no result | defects |
+| attack | tried | accepted | refused | no result | defects |
 | --- | ---: | ---: | ---: | ---: | ---: |
 {rows}
 
-*Accepted* is an answer that holds what {judge} asks of it: no NaN, no contradiction of
-outcome, verdict, limits and numbers, an exit code that fits. *Refused* is a sentence for each field that is wrong, exit
-code 2, and no file written or changed. *No result* is a run whose outcome gives the reason, exit code 3. Anything
-else is a defect: a traceback, a run that computes longer than its limit, a file that is left behind, a letter that
-controls a terminal. Pairs of features are also compared with the table of [what goes with
-what](generated/combinations.md).
-
-The cases are in {generator}; a defect names the seed that makes its case. For twins and laws,
-*accepted* is a comparison that agrees.
+*Accepted* is an answer that passes {judge}: no NaN, no contradiction of outcome, verdict,
+limits and numbers, an exit code that fits; for twins and laws, a comparison that agrees. *Refused* is a sentence for
+each wrong field, exit code 2, and no file written or changed. *No result* is a run whose outcome gives the reason, exit
+code 3. All else is a defect: a traceback, a run beyond its limit of time, a file left behind, a letter that controls a
+terminal. Pairs of features are also compared with the table of [combinations](../generated/combinations.md). The cases
+are in {generator}; a defect names its seed.
 """
 
 
@@ -37,7 +34,8 @@ def write_page(path: Path, rows: Iterable[tuple[str, Mapping[str, int]]], *, add
     """Write what came of all attacks; rows of one name are added up, with `add` to those that stand there."""
     sums, seeds = _read_page(path) if add else ({}, [])
     for what, counts in rows:
-        sums.setdefault(str(what), Counter()).update(counts)
+        # The attacks of one kind make one row: "laws: size of a block" and "places to read, case".
+        sums.setdefault(re.split("[:,]", str(what))[0], Counter()).update(counts)
     total: Counter[str] = sum(sums.values(), Counter())
     lines = [_row(what, counts) for what, counts in [*sorted(sums.items()), ("all", total)]]
     text = _TEXT.format(

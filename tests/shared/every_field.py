@@ -303,6 +303,7 @@ HELPED |= {
     "suite.match": (SUITE, "en1998:0.3g,B"),
     "suite.both_signs": (SUITE, False),
     "suite.vertical": (SUITE, True),
+    "suite.disaggregation": (SUITE, "Mag_Dist-0.csv"),
     "suite.unit": (SUITE, "g"),
     "suite.time_step": (SUITE, "0.01 s"),
     "suite.layout": (SUITE, "rows"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from heeltoe.motion.records import read_text, read_text_channels
+from heeltoe.motion.records.read import read_text, read_text_channels
 from heeltoe.motion.records.to_motion import Options
 
 G = 9.80665

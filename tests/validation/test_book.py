@@ -77,8 +77,15 @@ def test_drift_is_told():
 def test_a_row_outside_stands_out():
     page = pages.page("impulse", [store.row_texts(Row("slip", 100.0, 140.0, 0.07, remark="print", spread=(1.0, 2.0)))])
     assert "**outside**" in page
-    assert "| slip [1] |" in page
-    assert "1. print" in page
+    assert "| slip | 100 | 140 |" in page
+    assert "Reference: closed form, 7 %: print." in page
+
+
+def test_references_of_several_kinds_have_notes():
+    rows = [Row("slip", 100.0, 104.0, 0.07, remark="print", kind=kind) for kind in ("thesis", "book")]
+    page = pages.page("impulse", [store.row_texts(row) for row in rows])
+    assert "| slip [2] |" in page
+    assert "1. thesis, 7 %: print\n2. book, 7 %: print" in page
 
 
 def test_one_page_is_made_anew(tmp_path, capsys):
