@@ -25,7 +25,7 @@ help:
 	@echo "make test       the tests: kernels, every number of the physics, each figure, page and command once; 6 minutes"
 	@echo "make test-slow  longer validation, which a change must pass too; 20 minutes"
 	@echo "make test-all   both, and products: every figure of every example, every field under every model; an hour"
-	@echo "make attack     tries to break it, for hours; writes docs/attack.md (CASES=2000 SEED=7 ADD=1 for fewer, others, added)"
+	@echo "make attack     tries to break it, for hours; writes docs/validation/attack.md (CASES=2000 SEED=7 ADD=1 for fewer, others, added)"
 	@echo "make test-pythons  the tests under every Python of 3.11 to 3.13 that is installed"
 	@echo "make audit      known weaknesses of all that is installed or built from; needs a network"
 	@echo "make browser    install the browser that the tests of the app need; Debian's, needs a network"
@@ -91,7 +91,7 @@ SEED ?= 34
 ATTACKS ?= tests/attack
 
 attack: check $(VENV)/.built
-	HEELTOE_ATTACK_CASES=$(CASES) HEELTOE_ATTACK_SEED=$(SEED) HEELTOE_ATTACK_PAGE=docs/attack.md HEELTOE_ATTACK_ADD=$(ADD) \
+	HEELTOE_ATTACK_CASES=$(CASES) HEELTOE_ATTACK_SEED=$(SEED) HEELTOE_ATTACK_PAGE=docs/validation/attack.md HEELTOE_ATTACK_ADD=$(ADD) \
 	  $(BIN)/pytest -q $(ATTACKS) -n 2 --dist worksteal
 	@$(ELAPSED)
 

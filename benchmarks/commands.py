@@ -25,11 +25,15 @@ REPETITIONS = 3
 #: What is done, and the words of the command; paths are from the root of the version that is run.
 COMMANDS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("help", ("--help",)),
+    ("version", ("--version",)),
+    ("meaning of a name", ("explain", "crack.friction")),
+    ("static checks", ("statics", "examples/typical-base.toml", "--json", "-")),
     ("rigid dam", ("run", "examples/typical-base.toml", "--model", "rigid", "--json", "-")),
     ("elastic dam, crack at its base", ("run", "examples/typical-base.toml", "--json", "-")),
     ("elastic dam, crack at a height", ("run", "examples/typical-height.toml", "--json", "-")),
     ("elastic dam, two cracks", ("run", "examples/two-cracks.toml", "--json", "-")),
     ("elastic dam on rock, water with sound", ("run", "examples/on-rock.toml", "--json", "-")),
+    ("report of a rigid dam", ("run", "examples/typical-base.toml", "--model", "rigid", "--report", "--out")),
     ("report of the demo", ("run", "examples/typical-base.toml", "--report", "--out")),
 )
 

@@ -1,5 +1,5 @@
 """What a friction law, rotations of any size and uplift that follows the opening cost a rigid dam, beside a constant
-coefficient; `--page` writes the tables of results.md into docs/real-cracks.md."""
+coefficient; `--page` writes the table of results.md into docs/real-cracks.md."""
 
 from __future__ import annotations
 
@@ -27,12 +27,6 @@ BEGINS, ENDS = "<!-- costs: python benchmarks/friction_laws.py --page -->\n", "<
 WEAKENING = {"name": "slip weakening", "peak_friction": 1.1, "residual_friction": 0.9, "slip": "20 mm"}
 BOND = {"name": "cohesion", "cohesion": "0.3 MPa", "residual_friction": 0.9}
 ROUGH = {"asperity_height": "20 mm", "wave_length": "200 mm"}
-#: What stands between the tables of the page.
-CHANGE = """
-
-Where rotation or uplift change something as the dam moves, in multiples of a run in which nothing does:
-
-"""
 #: The row with which the others are compared; how often all are run in turn, and how often each is then.
 CONSTANT, TURNS, CALLS = "constant, 0.9", 15, 50
 LAWS: dict[str, dict[str, Any]] = {
@@ -138,9 +132,10 @@ def report() -> str:
 def page(text: str, results: str) -> str:
     """Return a page with the costs that results have."""
     measured = rows(results, TITLE)
-    tables = [table(head, [[row[name] for name in head] for row in measured if head[0] in row]) for head in HEADS]
+    head = HEADS[0]
+    laws = table(head, [[row[name] for name in head] for row in measured if head[0] in row])
     before, rest = text.split(BEGINS)
-    return f"{before}{BEGINS}\n{CHANGE.join(tables)}\n\n{ENDS}{rest.split(ENDS)[1]}"
+    return f"{before}{BEGINS}\n{laws}\n\n{ENDS}{rest.split(ENDS)[1]}"
 
 
 if __name__ == "__main__":

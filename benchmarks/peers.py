@@ -25,18 +25,18 @@ PAGE = HERE.parent / "docs" / "validation" / "independent-codes.md"
 COLUMNS = ("problem", "program", "version", "settings", "step", "error", "heeltoe")
 Line = dict[str, str]
 
-_HEAD = """<!-- Made by `make peers` and `make book`; what is changed by hand here fails the tests. -->
+_HEAD = """<!-- Made by `make peers` and `make book`; not edited by hand. -->
 
 # Independent codes
 
-Programs that were written by others and know nothing of heeltoe, each on problems that both can solve and whose exact
-answer is known, or what the program itself comes to with ever smaller steps. Anyone can run them:
+Independent programs, each on problems that it and heeltoe can solve and whose exact answer is known, or the program's
+own answer with ever smaller steps:
 
-    make peers                 # installs those that the package registry has; all of them
+    make peers                 # installs those of the package registry; all of them
     make peers PEER=MuJoCo     # one of them
 
-What is not installed is named and its numbers stay as they were. Their times, beside ours at no larger error, are in
-[results.md](../../benchmarks/results.md). Settings are those that serve each program best on this very problem.
+Numbers of programs that are not installed stay unchanged. Their times, beside ours at no larger error, are in
+[results.md](../../benchmarks/results.md). Settings are the best of each program for this very problem.
 """
 
 
@@ -88,13 +88,12 @@ PROBLEMS = {
     "two blocks": "Two rigid blocks, one on the other, 4 m by 6 m under 2.4 m by 6 m, by one sine wave of the ground "
     "of 1 s: both rock; both slide and rock; both rock and bounce. No exact answer is known: errors are the largest "
     "differences of any slip or gap, at any moment, from Siconos' own with steps of 0.025 ms, where the largest of "
-    "them is 327, 242 and 322 mm. Of its solvers projected Gauss-Seidel is the one that lets blocks stand.",
+    "them is 327, 242 and 322 mm. Among its solvers only projected Gauss-Seidel lets blocks stand.",
     "rocking": "A block of 1 m by 4 m let go at half its slenderness, at rotations of any size, each blow with "
     "Housner's ratio. The exact moments of the blows are integrals of its energy. Errors are the largest "
     "relative ones of them.",
 }
 
-_NO_DAM = "uplift, virtual water, masses that differ along and across: none of a dam's loads"
 _REGISTRY = "`pip install -r requirements-bench.lock`"
 
 PEERS = (
@@ -109,10 +108,9 @@ PEERS = (
         (
             "a coefficient of restitution as a number: `solref` sets the rebound by the damping of the contact, 0.13 "
             "at its critical default, 0.75 at a tenth of it, 1 without",
-            "friction that holds without creep by default: 0.4 mm/s at half of what it can hold, and next to nothing "
+            "friction that holds without creep by default: 0.4 mm/s at half of its capacity, and next to nothing "
             "(0.003 mm in 5 s) with an elliptic cone, `noslip_iterations` and a free body",
             "events: its error falls with the step, and not below the softness of the contact",
-            _NO_DAM,
         ),
     ),
     Peer(
@@ -128,7 +126,6 @@ PEERS = (
             "restitution of 1 a ball does not bounce at steps of 1 ms and less",
             "contact solved to rounding: sequential impulses stop after a number of sweeps",
             "vertical gaps below its margin of contact: it keeps bodies apart by a slop",
-            _NO_DAM,
         ),
     ),
     Peer(
@@ -144,7 +141,6 @@ PEERS = (
             "rocking, uplift of a corner, impact",
             "vertical motion; friction that differs at rest and in motion, or a yield acceleration that changes with "
             "slip: the functions and tables that it documents raise TypeError",
-            _NO_DAM,
         ),
     ),
     Peer(
@@ -171,10 +167,9 @@ PEERS = (
         "peer_siconos.py",
         {"an elastic block": peers_solve.siconos, "two blocks": peers_solve.siconos_blocks},
         (
-            "finite elements of plane bodies: it is handed the matrices of this project's mesh",
-            "contact of nodes that travel along another face, without being told of each new place",
+            "finite elements of plane bodies: it takes the matrices of this project's mesh",
+            "contact of nodes that travel along another face, unless each new place is given",
             "installation by pip: no package registry of Python has it",
-            _NO_DAM,
         ),
     ),
     Peer(
@@ -195,7 +190,7 @@ PEERS = (
 
 def page(lines: list[Line]) -> str:
     """Return the page of the book."""
-    parts = [_HEAD, "## Who solves what\n"]
+    parts = [_HEAD, "## Problems by program\n"]
     heads = ["program", *PROBLEMS]
     parts.append(
         _table(heads, [[peer.name, *("●" if item in peer.solve else "" for item in PROBLEMS)] for peer in PEERS])
