@@ -94,6 +94,8 @@ def results(tmp_path_factory, study):
             ),
             "rigid",
         ).to_json(),
+        # Only the model that is chosen has a run with less friction.
+        "less friction": run(example("typical-base", *FAST).with_("concrete.modulus=none", "rock=none")).to_json(),
         "aftershocks": run(example("aftershocks", *FAST), "rigid").to_json(),
         "decoupled": run(koyna, "decoupled").to_json(),
         "spread": with_spread(block, read_case(HEIGHT, FAST), 2).to_json(),
