@@ -70,7 +70,7 @@ def main(first: int, end: int) -> None:
         lifts += response.outcome == "lifts across"
         across = response.cross_valley
         without = across.without_cross_valley if response.ok and across is not None else None
-        # What hardly slides has no ratio.
+        # A dam that hardly slides has no ratio.
         if without is not None and without.factor is not None and abs(without.residual_slip_m or 0.0) > _LEAST_SLIP:
             ratios[place] = without.factor
         print(f"{first + place}: {response.outcome}, {ratios[place]:.3f}", file=sys.stderr, flush=True)

@@ -71,7 +71,7 @@ def main(first: int, end: int) -> None:
         both = case.with_("reservoir.compressible=true", f"rock.modulus={values[3] * values[2]:.4g} GPa")
         runs = [heeltoe.flexible(one) for one in (case, both)]
         without, with_both = (run.residual_slip_m if run.ok else np.nan for run in runs)
-        # What hardly slides has no ratio.
+        # A dam that hardly slides has no ratio.
         ratios[place] = with_both / without if without > _LEAST_SLIP else np.nan
         print(f"{first + place}: {without:.4f} m, {with_both:.4f} m", file=sys.stderr, flush=True)
     print("| dams | number | slide less far, % | 16 % | 25 % | median | 75 % | 84 % | most |")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-#: What a number is compared with: a test in a laboratory; mathematics; what the thesis, or a book, prints; an
+#: Kinds of references: a test in a laboratory; mathematics; what the thesis, or a book, prints; an
 #: independent program made for this; what a public program prints; another model or another run of ours; a condition
 #: that a result must meet.
 Kind = Literal["measured", "closed form", "thesis", "book", "prototype", "program", "own run", "condition"]

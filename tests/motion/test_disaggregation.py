@@ -21,15 +21,15 @@ BRANCHES = (
     ((1.2e-2, 4e-4, 1e-6), (6.1e-3, 9.3e-5, 0.0), (2.2e-3, 8.8e-5, 7e-6)),
 )
 EDGES = "mag_bin_edges=[5.0, 6.0, 7.0, 8.0], dist_bin_edges=[0.0, 25.0, 50.0, 100.0]"
-#: Of the mean rates of both branches, weights 0.6 and 0.4: the sum, shares, mean magnitude and distance, made of
-#: to_rates of openquake.hazardlib.calc.mean_rates, OpenQuake 3.26.2.
+#: Numbers of the mean rates of both branches, weights 0.6 and 0.4: the sum, shares, mean magnitude and distance, made
+#: of to_rates of openquake.hazardlib.calc.mean_rates, OpenQuake 3.26.2.
 RATE, MEAN = 0.00041628742630473765, (6.136483030542213, 12.979886105293508)
 SHARES = (
     (0.4960773470366579, 0.013742679807917083, 1.9217500925373656e-05),
     (0.3413502467243329, 0.002488234042452904, 0.0),
     (0.14367243172555652, 0.0024720808642240554, 0.00017776229793316586),
 )
-#: Of the first branch alone.
+#: Numbers of the first branch alone.
 FIRST_RATE, FIRST_SHARE = 0.00041404205662814173, 0.3749633888665657
 
 

@@ -73,7 +73,7 @@ def case_schema() -> dict[str, object]:
     properties: dict[str, Any] = {}
     for name, field in schema["properties"].items():
         properties |= {CRACKS: cracks, JOINTS: joints, name: field} if name == "crack" else {name: field}
-    # What reading puts in the place of a distribution and of a file.
+    # Values that reading puts in the place of a distribution and of a file.
     drawn = Distribution.model_json_schema()["properties"]
     schema["$defs"]["Band"]["properties"] |= {name: drawn[name] for name in drawn if name != "count"}
     schema["$defs"]["Crack"]["properties"]["fit"] = {"type": "string", "minLength": 1, "description": FIT_MEANING}

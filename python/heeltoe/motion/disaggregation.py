@@ -69,7 +69,7 @@ def read_disaggregation(text: str, directory: Path, field: str) -> Disaggregatio
     directory
         Where relative paths start.
     field
-        Of the case, for errors.
+        Field of the case, for errors.
 
     Raises
     ------

@@ -10,9 +10,9 @@ from heeltoe.case.crack.crack import FRICTION
 from heeltoe.case.fields_file import read_fields
 from heeltoe.errors.error import InputError, shown
 
-#: What a crack may take from such a file.
+#: Fields that a crack may take from such a file.
 _GIVEN = (*FRICTION, "band")
-#: What the field means.
+#: Meaning of the field.
 FIT_MEANING = "File that `heeltoe law fit` has written, law-fit.toml: friction and its band, in place of both."
 _A_FIT = "law-fit.toml, which `heeltoe law fit TESTS.csv --out FOLDER` writes"
 
@@ -24,7 +24,7 @@ def with_fit_read(fields: Mapping[str, object], directory: Path | None) -> Mappi
     Parameters
     ----------
     fields
-        Of a case, its cracks as blocks.
+        Fields of a case, its cracks as blocks.
     directory
         Where the path of the file starts; None where none is to be read.
 

@@ -65,7 +65,7 @@ READERS: tuple[ModuleType, ...] = (
 )
 
 _NO_OPTIONS = Options()
-# What a file of an archive may be beside a record: a readme, a picture, the velocity, or the record uncorrected.
+# Errors of a file of an archive that is no record: a readme, a picture, the velocity, or the record uncorrected.
 _NO_RECORD = {"record-format", "record-format-later", "record-binary", "record-empty", "record-not-acceleration"}
 
 
@@ -109,7 +109,7 @@ def read_record(
         Factor of the values where the header has one: that one, or 1 where they contain it; of several files one of the
         words "multiply", "divide" and "contain".
     several
-        Whether what is said here is meant for several files: it holds where this one does not state it.
+        Whether these options are meant for several files: they hold where this one does not state them.
 
     Returns
     -------
@@ -173,7 +173,7 @@ def read_text_channels(data: bytes, name: str, options: Options = _NO_OPTIONS) -
 
 # Velocities and displacements by PEER, which need not be opened.
 _NO_ACCELERATIONS = {".vt2", ".dt2"}
-# Of a file, where a format says what it is.
+# Bytes of a file in which a format names itself.
 _OPENING = 30_000
 
 

@@ -184,13 +184,13 @@ def check_asked(names: Sequence[str], directory: Path, reading: Reading) -> None
     InputError
         For the field of a study.
     """
-    for said in fields(reading):
-        value = getattr(reading, said.name)
-        without = replace(reading, **{said.name: None})
+    for option in fields(reading):
+        value = getattr(reading, option.name)
+        without = replace(reading, **{option.name: None})
         if value is not None and not any(_asks(name, directory, without) for name in names):
             raise InputError(
                 "option-foreign",
-                f"motions.{said.name}",
+                f"motions.{option.name}",
                 shown(value),
                 owner="records that state this themselves",
                 remedy="",

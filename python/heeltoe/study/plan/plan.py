@@ -545,7 +545,7 @@ def _motions(study: Study, case: Case) -> tuple[tuple[Shake, ...], tuple[str, ..
             check_across(case, model)
     shakes, events = shakes_of(study.motions, case, study.directory)
     if study.suite is not None and study.motions.cross_valley:
-        # What the other component changes is known by a run without it.
+        # A run without the other component shows its effect.
         shakes += tuple(replace(shake, name=alone(shake.name), cross=None) for shake in shakes)
     return shakes, events
 

@@ -28,8 +28,8 @@ def law_fit_document(
         (Strong(fit.law) if fit.chosen else fit.law, "; ".join(numbers_of(fit.parameters, units)), fit.why)
         for fit in fits.fits
     ]
-    said = [fall_sentence(fall) for fall in fits.falls] + [note.text(units) for note in fits.notes]
-    notes = [Notes("note", "The tests", tuple((text,) for text in said))] if said else []
+    texts = [fall_sentence(fall) for fall in fits.falls] + [note.text(units) for note in fits.notes]
+    notes = [Notes("note", "The tests", tuple((text,) for text in texts))] if texts else []
     captions = {"strength": "Strengths of the tests, the laws, and the band of further tests.", "fall": "The fall."}
     return Document(
         title=plain(title),

@@ -77,7 +77,7 @@ impl Forces {
     pub(super) fn stops_within(&self, speed: f64, left: f64) -> Option<f64> {
         let [[fx, jx], [fy, jy]] = self.push;
         let [rub, rub_slope] = self.rub;
-        // What friction exceeds the force by falls no faster than this; sqrt(u . M u) falls by it, over the mass.
+        // The excess of friction over the force falls no faster than this; sqrt(u . M u) falls by it, over the mass.
         let spare = rub - (fx * fx + fy * fy).sqrt();
         if spare <= 0.0 {
             return None;
