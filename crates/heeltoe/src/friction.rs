@@ -18,7 +18,7 @@ use crate::table::{named, numbers};
 
 mod series;
 
-pub(crate) use series::{INVERSE, TERMS};
+pub(crate) use series::{Terms, Unfolding, INVERSE, TERMS};
 
 named! {
     /// What the coefficient of friction goes by.
@@ -184,6 +184,11 @@ impl Law {
                 Shape::Speed => peak == residual,
                 Shape::Barton | Shape::Lift => false,
             }
+    }
+
+    /// The larger coefficient of friction, of a law that does not go by the normal stress.
+    pub(crate) fn most(&self) -> f64 {
+        self.numbers.peak.max(self.numbers.residual)
     }
 
     /// Cohesion of the whole bond (Pa).

@@ -6,7 +6,7 @@
 
 use super::block::{HEEL, SLIP, TOE};
 use super::mode::Mode;
-use super::reaction::{Felt, Reaction, Reactions, ACCELERATION, CONE};
+use super::reaction::{Felt, Reaction, Reactions, ReactionsOf, ACCELERATION, CONE};
 use super::shaking::Piece;
 
 // The next three are relative to the size of the terms that make up a quantity, see [`Reaction`]. They are thus
@@ -38,6 +38,13 @@ impl Modes for Reactions {
     #[inline(always)]
     fn of(&self, mode: Mode) -> &Reaction {
         Reactions::of(self, mode)
+    }
+}
+
+impl Modes for ReactionsOf<'_> {
+    #[inline(always)]
+    fn of(&self, mode: Mode) -> &Reaction {
+        ReactionsOf::of(self, mode)
     }
 }
 

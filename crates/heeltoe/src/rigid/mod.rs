@@ -5,7 +5,7 @@
 //!
 //! `w'' = b + A (T, N_h, N_t)`.
 //!
-//! [`stack`] has two such blocks, one on the other; [`plane`] a block that slides across the valley, too.
+//! [`stack`] has two such blocks, one on the other; [`plane`] a block that moves across the valley, too.
 
 mod block;
 mod choice;

@@ -7,6 +7,8 @@
 //! Both are linear in the loads, hence affine in the ground acceleration: they are worked out once per block, and a piece
 //! of the record costs a handful of multiplications.
 
+use std::cell::OnceCell;
+
 use super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
 use super::mode::{Mode, Slip};
 use super::shaking::Piece;
@@ -267,6 +269,26 @@ impl Reactions {
     #[inline]
     pub(super) fn of(&self, mode: Mode) -> &Reaction {
         &self.0[mode.index()]
+    }
+}
+
+/// The reactions of one block, of each mode once it is asked for: most blocks never lift.
+pub(super) struct ReactionsOf<'a> {
+    block: &'a Block,
+    known: [OnceCell<Reaction>; Mode::COUNT],
+}
+
+impl<'a> ReactionsOf<'a> {
+    pub(super) fn new(block: &'a Block) -> Self {
+        ReactionsOf {
+            block,
+            known: Default::default(),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn of(&self, mode: Mode) -> &Reaction {
+        self.known[mode.index()].get_or_init(|| Reaction::new(self.block, mode))
     }
 }
 

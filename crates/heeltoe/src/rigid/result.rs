@@ -22,7 +22,7 @@ named! {
         Cycling = "cycling",
         /// The block lies on its side.
         Overturned = "overturned",
-        /// A corner lifts while the ground shakes across the valley, which nothing here follows.
+        /// A corner lifts while the ground shakes across the valley and friction or uplift goes by a law.
         LiftsAcross = "lifts across",
     }
 }

@@ -8,6 +8,9 @@ use super::block::Affine;
 /// So many samples, one after the other, are looked at together where nothing depends on a single one.
 const STRETCH: usize = 32;
 
+/// Of the way to a limit, so much is clear of it.
+const INSIDE: f64 = 1.0 - 1e-9;
+
 /// Accelerations of the ground at common moments; a moment that is there twice is a jump.
 #[derive(Clone, Debug)]
 pub struct Shaking<'a> {
@@ -98,11 +101,37 @@ impl<'a> Shaking<'a> {
 
     /// The first sample from `k` on at which the smallest of `limits` is negative, or the number of samples.
     pub(super) fn first_below(&self, limits: &[Affine; 4], k: usize) -> usize {
-        self.first_beyond(
-            k,
-            |ranges| limits.iter().all(|limit| limit.least(ranges) >= 0.0),
-            |ground| limits.iter().all(|limit| limit.at(ground) >= 0.0),
-        )
+        let within = |ground| limits.iter().all(|limit| limit.at(ground) >= 0.0);
+        if self.vertical.is_some() {
+            let all_within = |ranges| limits.iter().all(|limit| limit.least(ranges) >= 0.0);
+            return self.first_beyond(k, all_within, within);
+        }
+        let [least, most] = clear_of(limits);
+        self.first_outside(k, |a| least < a && a < most, |a| within([a, 0.0]))
+    }
+
+    /// The same as [`Self::first_beyond`] on a ground without vertical accelerations; what is `clear` of the limits is within
+    /// them, and quicker to see.
+    fn first_outside(
+        &self,
+        mut k: usize,
+        clear: impl Fn(f64) -> bool,
+        within: impl Fn(f64) -> bool,
+    ) -> usize {
+        let (n, scale) = (self.time.len(), self.scale[0]);
+        while k < n {
+            let end = n.min(k - k % STRETCH + STRETCH);
+            if !self.stretches[k / STRETCH][0].iter().all(|a| clear(a * scale)) {
+                for (j, a) in self.horizontal[k..end].iter().enumerate() {
+                    let a = a * scale;
+                    if !clear(a) && !within(a) {
+                        return k + j;
+                    }
+                }
+            }
+            k = end;
+        }
+        n
     }
 
     /// The first sample from `k` on that is not `within` some limits, or the number of samples; `all_within` says it of
@@ -155,6 +184,24 @@ impl<'a> Shaking<'a> {
         let up = self.vertical.map_or(0.0, |v| v[k] * self.scale[1]);
         [self.horizontal[k] * self.scale[0], up]
     }
+}
+
+/// Horizontal accelerations between which none of the limits is negative, whatever the rounding.
+fn clear_of(limits: &[Affine; 4]) -> Range {
+    let mut range = [f64::NEG_INFINITY, f64::INFINITY];
+    for limit in limits {
+        if limit.constant <= 0.0 {
+            return [0.0; 2];
+        }
+        let inside = INSIDE * limit.constant / limit.horizontal.abs();
+        if limit.horizontal >= 0.0 {
+            range[0] = range[0].max(-inside);
+        }
+        if limit.horizontal <= 0.0 {
+            range[1] = range[1].min(inside);
+        }
+    }
+    range
 }
 
 fn range(series: &[f64]) -> Range {

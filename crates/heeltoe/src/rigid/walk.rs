@@ -13,7 +13,7 @@
 use std::borrow::Cow;
 
 use super::block::{Block, Vector, HEEL, SLIP, TOE};
-use super::impact::{impact, jam, Impact};
+use super::impact::{impact, jam, Impact, Sideways};
 use super::mode::Mode;
 use super::result::{Event, EventKind, Moment, Outcome, Run, Summary};
 use super::shaking::Piece;
@@ -142,6 +142,17 @@ impl<'a> Walk<'a> {
         gap <= 0.0 || gap <= self.near() && velocity <= self.settle
     }
 
+    /// Close the gaps that are nearer than rounding, so that their corners strike together, and say which.
+    pub(super) fn land(&mut self) -> [bool; 2] {
+        [HEEL, TOE].map(|gap| {
+            let touches = self.touches(self.summary.position[gap], self.summary.velocity[gap]);
+            if touches {
+                self.summary.position[gap] = 0.0;
+            }
+            touches
+        })
+    }
+
     /// Whether any moments are wanted.
     pub(super) fn observed(&self) -> bool {
         !self.wanted.times.is_empty()
@@ -162,6 +173,11 @@ impl<'a> Walk<'a> {
         if self.wanted.events {
             self.events.push(event);
         }
+    }
+
+    /// Whether no event is wanted and no moment: the summary alone.
+    pub(super) fn summarises(&self) -> bool {
+        !self.wanted.events && !self.observed()
     }
 
     /// Whether somebody has stopped the run.
@@ -294,8 +310,12 @@ pub(super) trait Exactly<'a, const N: usize, const G: usize>:
     /// Go from event to event to the end of a piece that begins at `time`; false where the run cannot continue.
     #[inline(always)]
     fn cross(&mut self, whole: &Piece<G>, time: f64) -> bool {
-        let mut local = 0.0;
-        let mut cause = None;
+        self.cross_from(whole, time, 0.0, None)
+    }
+
+    /// The same from so far into the piece on, after what ended the way there.
+    #[inline(always)]
+    fn cross_from(&mut self, whole: &Piece<G>, time: f64, mut local: f64, mut cause: Option<Ended>) -> bool {
         loop {
             let piece = whole.rest(local);
             self.set_time(time + local);
@@ -331,6 +351,19 @@ pub(super) trait Single<'a> {
     /// Which corners lie: neither their gap nor its velocity is other than zero.
     fn closed(&self) -> [bool; 2];
 
+    /// Its motion across the valley, if it has any.
+    fn sideways(&self) -> Option<Sideways> {
+        None
+    }
+
+    /// Take over the velocity across the valley after an impact.
+    fn set_sideways(&mut self, _velocity: f64) {}
+
+    /// Come to rest against a neighbour across the valley, if that is what closes this gap.
+    fn stop_aside(&mut self, _gap: usize) -> Option<Impact> {
+        None
+    }
+
     /// The block with the compliance of this moment.
     fn block(&self) -> Cow<'_, Block>;
 
@@ -348,6 +381,9 @@ pub(super) trait Single<'a> {
 
     /// Let the corner of this gap strike, with the other if that is as near; `None` is a paradox.
     fn strike(&mut self, gap: usize) -> Option<(EventKind, Impact)> {
+        if let Some(blow) = self.stop_aside(gap) {
+            return Some((EventKind::SideStrikes, blow));
+        }
         let touching = self.land(gap);
         let velocity = self.velocity();
         let strikes = [
@@ -363,7 +399,7 @@ pub(super) trait Single<'a> {
             }
         }
         let settle = walk.settle;
-        let blow = impact(&self.block(), &velocity, touching, settle)?;
+        let blow = impact(&self.block(), &velocity, self.sideways(), touching, settle)?;
         self.apply(&blow);
         let kind = match strikes {
             [true, true] => EventKind::BothStrike,
@@ -378,13 +414,14 @@ pub(super) trait Single<'a> {
 
     /// Let friction jam where that is asked for, or where the slip is too slow to matter.
     fn jam(&mut self) -> Option<Impact> {
-        let velocity = self.velocity();
+        let (velocity, sideways) = (self.velocity(), self.sideways());
         let walk = self.walk();
-        let crawls = velocity[SLIP].abs() < CRAWL * walk.settle;
+        let slip = sideways.map_or(velocity[SLIP].abs(), |aside| velocity[SLIP].hypot(aside.velocity));
+        let crawls = slip < CRAWL * walk.settle;
         if !walk.options.jam && !crawls {
             return None;
         }
-        let stop = jam(&self.block(), &velocity, self.closed())?;
+        let stop = jam(&self.block(), &velocity, sideways, self.closed())?;
         self.apply(&stop);
         self.walk().summary.jams += u64::from(!crawls);
         Some(stop)
@@ -393,6 +430,7 @@ pub(super) trait Single<'a> {
     /// Take over what an impact has done.
     fn apply(&mut self, blow: &Impact) {
         self.set_velocity(&blow.velocity);
+        self.set_sideways(blow.across[0]);
         let summary = &mut self.walk().summary;
         summary.ledger.strike(blow.energy_lost);
         summary.energy_limited += u64::from(blow.energy_limited);

@@ -6,7 +6,7 @@ use super::super::block::{Block, Vector, HEEL, SLIP, TOE};
 use super::super::choice::{accelerations, select, Moving};
 use super::super::course::Course;
 use super::super::mode::Mode;
-use super::super::reaction::{Felt, Reactions};
+use super::super::reaction::{Felt, ReactionsOf};
 use super::super::result::{Outcome, Run, Wear};
 use super::super::shaking::{Piece, Shaking};
 use super::super::walk::{Ended, Exactly, Options, Single, Walk, Wanted};
@@ -15,13 +15,30 @@ use crate::friction::Worn;
 /// A block that is carried exactly; its state is in the summary.
 pub(super) struct Exact<'a> {
     pub(super) walk: Walk<'a>,
-    pub(super) reactions: &'a Reactions,
+    pub(super) reactions: &'a ReactionsOf<'a>,
     /// What is felt in the present mode on the present piece.
     pub(super) felt: Felt,
     /// Which corners lie at its start.
     pub(super) touching: [bool; 2],
     /// What the crack has been through, where it is kept.
     pub(super) wear: Option<Wear>,
+}
+
+/// Where the block is when something may happen to it: how far behind which sample, and what ended the way there.
+pub(super) struct Halt {
+    pub k: usize,
+    pub local: f64,
+    pub cause: Option<Ended>,
+}
+
+impl Halt {
+    pub(super) fn at(k: usize) -> Self {
+        Halt {
+            k,
+            local: 0.0,
+            cause: None,
+        }
+    }
 }
 
 /// Run one block through one motion.
@@ -64,7 +81,7 @@ fn walk(
     wear: Option<Wear>,
 ) -> Run {
     let block = &block.under(block.inertia_force(shaking.peaks()));
-    let reactions = Reactions::new(block);
+    let reactions = ReactionsOf::new(block);
     let from = start.unwrap_or([[0.0; 3]; 2]);
     let mut exact = Exact {
         walk: Walk::new(block, shaking.time[0], from, options, wanted),
@@ -83,7 +100,7 @@ fn walk(
 
 /// Go on from a sample with a block whose friction has come to a constant; its crack slips, and lifts, as before.
 pub(in super::super) fn go_on(walk: Walk, shaking: &Shaking, from: usize, wear: Option<Wear>) -> Run {
-    let reactions = Reactions::new(walk.block);
+    let reactions = ReactionsOf::new(walk.block);
     let mut exact = Exact {
         walk,
         reactions: &reactions,
@@ -111,13 +128,19 @@ impl Exact<'_> {
         let mut k = from;
         // Whether the present mode was chosen by the state as it is now.
         let mut settled = false;
+        let glides = self.walk.summarises() && self.wear.is_none();
         while k + 1 < n {
+            let (mut local, mut cause): (f64, Option<Ended>) = (0.0, None);
             if settled {
-                k = match self.walk.mode {
-                    Mode::Rest => self.rest_until(shaking, k),
-                    Mode::Slide(_) if !self.walk.observed() => self.slide_until(shaking, k),
-                    _ => k,
+                let halt = if glides {
+                    self.glide(shaking, k)
+                } else {
+                    Some(Halt::at(self.pass(shaking, k)))
                 };
+                let Some(halt) = halt else {
+                    return;
+                };
+                Halt { k, local, cause } = halt;
                 if k + 1 >= n {
                     break;
                 }
@@ -133,7 +156,7 @@ impl Exact<'_> {
             if self.walk.stopped() {
                 return;
             }
-            if !self.cross(&whole, start) {
+            if !self.cross_from(&whole, start, local, cause) {
                 return;
             }
             settled = true;
@@ -205,14 +228,7 @@ impl<'a> Single<'a> for Exact<'a> {
 
     /// Both gaps may have closed: corners nearer than rounding strike together.
     fn land(&mut self, _gap: usize) -> [bool; 2] {
-        let velocity = self.walk.summary.velocity;
-        [HEEL, TOE].map(|gap| {
-            let touches = self.walk.touches(self.walk.summary.position[gap], velocity[gap]);
-            if touches {
-                self.walk.summary.position[gap] = 0.0;
-            }
-            touches
-        })
+        self.walk.land()
     }
 
     fn set_velocity(&mut self, velocity: &Vector) {

@@ -1,9 +1,8 @@
 //! A motion in the plane on a stretch of time: velocities and speed as polynomials, and where they do what.
 
 use super::super::ledger::Work;
+use super::polynomial::{Polynomial, TERMS};
 
-/// Coefficients of a velocity: order [`super::series::ORDER`], and what a start adds to it.
-pub(super) const TERMS: usize = 16;
 /// One over each number.
 pub(super) const INVERSE: [f64; TERMS + 2] = {
     let mut inverse = [f64::INFINITY; TERMS + 2];
@@ -18,8 +17,8 @@ pub(super) const INVERSE: [f64; TERMS + 2] = {
 /// Along, across and the speed: polynomials of the velocity and of its size.
 pub(super) type Terms = [[f64; 3]; TERMS];
 
-/// The parts of a stretch into which a bound that does not decide is cut at most.
-const CUTS: u32 = 60;
+/// Coefficients of one number.
+pub(super) type Series = [f64; TERMS];
 
 /// How the block moves for `length` seconds.
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +29,8 @@ pub(super) struct Flight {
     pub length: f64,
     /// Velocity along and across, and its size (m/s).
     pub terms: Terms,
+    /// Friction per mass (m/s2), where it goes by a law.
+    pub friction: Option<Series>,
 }
 
 /// Integrals of along, across and the speed from the start of a flight: ways, and moments of them about its start.
@@ -84,7 +85,36 @@ impl Flight {
             begin: 0.0,
             length: 0.0,
             terms,
+            friction: None,
         }
+    }
+
+    /// Friction per mass after a time, where it goes by a law.
+    pub(super) fn friction(&self, t: f64) -> Option<f64> {
+        let t = self.begin + t;
+        self.friction
+            .map(|terms| terms.iter().rev().fold(0.0, |sum, term| sum * t + term))
+    }
+
+    /// Work of that friction per mass up to a time: the integral of its product with the speed.
+    pub(super) fn rubbed(&self, friction: &Series, t: f64) -> f64 {
+        let power = |n: usize| -> f64 {
+            (n.saturating_sub(TERMS - 1)..=n.min(TERMS - 1))
+                .map(|k| friction[k] * self.terms[n - k][2])
+                .sum()
+        };
+        let up_to = |t: f64| {
+            t * (0..2 * TERMS - 1)
+                .rev()
+                .fold(0.0, |sum, n| sum * t + power(n) / (n + 1) as f64)
+        };
+        up_to(self.begin + t) - up_to(self.begin)
+    }
+
+    /// The moment up to `end` at which the path is so long, if it comes to that.
+    pub(super) fn walks(&self, path: f64, end: f64) -> Option<f64> {
+        let left = |t: f64| path - self.ways(t).way[2];
+        (left(end) <= 0.0).then(|| falls(left, 0.0, end))
     }
 
     /// Velocities along and across, and the speed, after a time.
@@ -94,7 +124,7 @@ impl Flight {
     }
 
     /// Acceleration along or across after a time.
-    fn acceleration(&self, i: usize, t: f64) -> f64 {
+    pub(super) fn acceleration(&self, i: usize, t: f64) -> f64 {
         let t = self.begin + t;
         let mut sum = 0.0;
         for k in (1..TERMS).rev() {
@@ -159,34 +189,12 @@ impl Flight {
         None
     }
 
-    /// The first moment up to `end` at which `f0 + f1 t + c a` is no longer positive, a the acceleration along.
-    pub(super) fn first_fall(&self, [f0, f1]: [f64; 2], c: f64, end: f64) -> Option<f64> {
-        let at = |t: f64| f0 + f1 * t + c * self.acceleration(0, t);
-        // Largest change per second.
-        let last = self.begin + end;
-        let mut steepest = 0.0;
-        for k in (2..TERMS).rev() {
-            steepest = steepest * last + (k * (k - 1)) as f64 * self.terms[k][0].abs();
-        }
-        positive_until(&at, f1.abs() + c.abs() * steepest, [0.0, end], CUTS)
+    /// `f0 + f1 t + c a`, a the acceleration along.
+    pub(super) fn pressed(&self, [f0, f1]: [f64; 2], c: f64) -> Polynomial {
+        let acceleration = (1..TERMS).map(|k| k as f64 * self.terms[k][0]);
+        let moved = Polynomial::new(acceleration).times(c).after(self.begin);
+        moved.plus([f0, f1])
     }
-}
-
-/// The first moment between two at which a function of no more than this slope falls to zero.
-fn positive_until(at: &impl Fn(f64) -> f64, steepest: f64, [from, to]: [f64; 2], cuts: u32) -> Option<f64> {
-    let [a, b] = [at(from), at(to)];
-    if a <= 0.0 {
-        return Some(from);
-    }
-    if a + b > steepest * (to - from) {
-        return None;
-    }
-    let middle = 0.5 * (from + to);
-    if cuts == 0 || middle <= from || middle >= to {
-        return (b <= 0.0).then_some(to);
-    }
-    positive_until(at, steepest, [from, middle], cuts - 1)
-        .or_else(|| positive_until(at, steepest, [middle, to], cuts - 1))
 }
 
 /// Where a function changes its sign between two moments, if it has another one at the second.

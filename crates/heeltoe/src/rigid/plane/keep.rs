@@ -1,12 +1,18 @@
 //! What is kept of a stretch: the new state, the books, extremes, the moments asked for.
 
-use super::super::block::SLIP;
+use super::super::block::{HEEL, SLIP, TOE};
+use super::super::impact::Impact;
 use super::super::ledger::Work;
 use super::super::mode::{Mode, Slip};
-use super::super::result::{EventKind, Moment};
-use super::super::walk::Blow;
+use super::super::result::Moment;
+use super::aloft::{Lifted, SPEED};
 use super::flight::Flight;
-use super::walk::{Going, Here, Plane, SIDES};
+use super::polynomial::Polynomial;
+use super::rubbing::ACROSS;
+use super::walk::{Going, Here, Plane};
+
+/// A path that comes so near to a corner of its law, in proportion, is there.
+const SNAP: f64 = 1e-13;
 
 impl Plane<'_> {
     /// Impulse that the neighbour takes.
@@ -32,7 +38,16 @@ impl Plane<'_> {
             // Where a neighbour holds the block the force into it does no work.
             s.ledger.apply(ways.work(i, force.map(|f| f * mass)));
         }
-        s.ledger.rub(ways.work(2, here.forces.rub.map(|f| -f * mass)));
+        s.ledger.rub(match &flight.friction {
+            None => ways.work(2, here.forces.rub.map(|f| -f * mass)),
+            Some(friction) => {
+                let work = mass * flight.rubbed(friction, step);
+                Work {
+                    net: -work,
+                    size: work.abs(),
+                }
+            }
+        });
         let c = &mut self.crossing;
         let moved = [
             (
@@ -60,41 +75,136 @@ impl Plane<'_> {
         }
         s.slip_by_mode[kind] += ways.way[0];
         c.path += ways.way[2];
+        if let Some(rubbing) = &mut self.rubbing {
+            let corner = rubbing.law.corner(rubbing.worn);
+            let path = rubbing.worn.path + ways.way[2];
+            // The next step begins beyond the corner, whatever the rounding.
+            rubbing.worn.path = if path >= corner - SNAP * corner {
+                corner
+            } else {
+                path
+            };
+        }
     }
 
-    /// Come to rest: friction takes what is left of the motion.
+    /// The slip stops: friction takes what is left of its motion.
     pub(super) fn stand(&mut self) {
-        let left = self.kinetic_energy();
-        let s = &mut self.walk.summary;
-        s.ledger.rub(Work {
-            net: -left,
-            size: left,
-        });
-        s.velocity[SLIP] = 0.0;
+        let before = self.kinetic_energy();
+        self.walk.summary.velocity[SLIP] = 0.0;
         self.crossing.velocity = 0.0;
+        let left = before - self.kinetic_energy();
+        self.walk.summary.ledger.rub(Work {
+            net: -left,
+            size: left.abs(),
+        });
     }
 
-    /// Come to rest against the neighbour of this gap, across the valley.
-    pub(super) fn strike(&mut self, gap: usize) -> Blow<1> {
-        let which = usize::from(gap != SIDES[0].0);
+    /// Come to rest against the neighbour on this side, across the valley.
+    pub(super) fn strike_side(&mut self, side: f64) -> Impact {
         let mass = self.across.mass;
         let c = &mut self.crossing;
         let speed = c.velocity;
         let lost = 0.5 * mass * speed * speed;
-        c.position = SIDES[which].1 * self.across.gap[which];
-        c.range = [
-            c.range[0].max(-self.across.gap[1]),
-            c.range[1].min(self.across.gap[0]),
-        ];
+        let [left, right] = self.across.gap;
+        c.position = if side > 0.0 { left } else { -right };
+        c.range = [c.range[0].max(-right), c.range[1].min(left)];
         c.velocity = 0.0;
         c.side_impulse += mass * speed.abs();
         c.side_strikes += 1;
         self.walk.summary.ledger.strike(lost);
-        Blow {
-            kinds: [Some(EventKind::SideStrikes)],
-            impulse: [[0.0; 3]],
-            energy_lost: [lost],
+        Impact {
+            velocity: self.walk.summary.velocity,
+            impulse: [0.0; 3],
+            across: [0.0; 2],
+            energy_lost: lost,
+            energy_limited: false,
         }
+    }
+
+    /// Take over the end of a step off one corner or both.
+    pub(super) fn move_lifted(&mut self, here: &Here, lifted: &Lifted, step: f64) {
+        let block = self.walk.block;
+        let (ground, rate) = ([here.ground[0], here.ground[1]], [here.rate[0], here.rate[1]]);
+        let mass = self.across.mass;
+        let rates = [SLIP, HEEL, TOE, ACROSS, SPEED].map(|i| lifted.rate(i));
+        let before = self.place();
+        let work = |[f0, f1]: [f64; 2], rate: &Polynomial| {
+            let [way, moment] = rate.integrals(step);
+            Work {
+                net: f0 * way + f1 * moment,
+                size: (f0 * way).abs() + (f1 * moment).abs(),
+            }
+        };
+        let s = &mut self.walk.summary;
+        for i in [SLIP, HEEL, TOE] {
+            let load = &block.generalised_force[i];
+            s.ledger
+                .apply(work([load.at(ground), load.slope(rate)], &rates[i]));
+            s.position[i] += rates[i].integrals(step)[0];
+            s.velocity[i] = rates[i].at(step);
+        }
+        for gap in [HEEL, TOE] {
+            s.position[gap] = s.position[gap].max(0.0);
+        }
+        let push = here.forces.push[1].map(|f| f * mass);
+        s.ledger.apply(work(push, &rates[ACROSS]));
+        s.ledger.rub(work([1.0, 0.0], &lifted.rubs()));
+        s.slip_by_mode[lifted.mode.kind()] += s.position[SLIP] - before[SLIP];
+        let c = &mut self.crossing;
+        c.position += rates[ACROSS].integrals(step)[0];
+        c.velocity = rates[ACROSS].at(step);
+        c.path += rates[SPEED].integrals(step)[0];
+        self.fastest = self.fastest.max(rates[SPEED].at(step));
+        let end = self.place();
+        self.widen(end);
+        self.turning_points(before, &rates, step);
+    }
+
+    /// Slip, gaps, and the place across.
+    fn place(&self) -> [f64; 4] {
+        let [slip, heel, toe] = self.walk.summary.position;
+        [slip, heel, toe, self.crossing.position]
+    }
+
+    /// Take a place into the extremes.
+    fn widen(&mut self, [slip, heel, toe, across]: [f64; 4]) {
+        let at = [slip, heel, toe];
+        let turn = self.walk.block.rotation(&at);
+        self.walk.summary.widen(&at, turn);
+        let range = &mut self.crossing.range;
+        *range = [range[0].min(across), range[1].max(across)];
+    }
+
+    /// Extremes on a step, where a velocity changes its sign.
+    fn turning_points(&mut self, before: [f64; 4], rates: &[Polynomial; 5], step: f64) {
+        let places = [SLIP, HEEL, TOE, ACROSS].map(|i| Polynomial::place(before[i], &rates[i]));
+        let turning = rates[TOE].less(&rates[HEEL]);
+        for rate in [&rates[SLIP], &rates[HEEL], &rates[TOE], &rates[ACROSS], &turning] {
+            for t in rate.turns(step) {
+                self.widen(places.each_ref().map(|place| place.at(t)));
+            }
+        }
+    }
+
+    /// The block of a step off one corner or both after some time.
+    fn moment_lifted(&self, lifted: &Lifted, t: f64) -> (Moment, [f64; 3]) {
+        let t = t.min(lifted.length);
+        let rates = [SLIP, HEEL, TOE, ACROSS].map(|i| lifted.rate(i));
+        let at = |i: usize| Polynomial::place(self.place()[i], &rates[i]).at(t);
+        let force = |i: usize| lifted.pull(i).at(t);
+        let mode = match lifted.mode {
+            Mode::SlideRock(corner, _) if rates[SLIP].at(t) < 0.0 => Mode::SlideRock(corner, Slip::Upstream),
+            Mode::SlideRock(corner, _) => Mode::SlideRock(corner, Slip::Downstream),
+            mode => mode,
+        };
+        let moment = Moment {
+            mode,
+            position: [at(SLIP), at(HEEL).max(0.0), at(TOE).max(0.0)],
+            velocity: [SLIP, HEEL, TOE].map(|i| rates[i].at(t)),
+            acceleration: [SLIP, HEEL, TOE].map(|i| rates[i].rate().at(t)),
+            reaction: [SLIP, HEEL, TOE].map(force),
+        };
+        (moment, [at(ACROSS), rates[ACROSS].at(t), force(ACROSS)])
     }
 
     /// Keep the block at every wanted moment before `until`; `since` is when the present step began.
@@ -103,19 +213,30 @@ impl Plane<'_> {
             let t = time - since;
             let (moment, crossing) = self.moment(here, going, t.max(0.0));
             self.crossing.kept.push(crossing);
+            if let Some(rubbing) = &self.rubbing {
+                let more = match going {
+                    Going::Rests { .. } | Going::Lifted(_) => 0.0,
+                    Going::Moves { flight, .. } => flight.ways(t.clamp(0.0, flight.length)).way[2],
+                };
+                let bonded = f64::from(u8::from(rubbing.worn.bonded));
+                self.kept.push([rubbing.worn.path + more, bonded]);
+            }
             self.walk.keep(moment);
         }
     }
 
     /// The block after some time of a step, and the place, velocity and friction across the valley.
     fn moment(&self, here: &Here, going: &Going, t: f64) -> (Moment, [f64; 3]) {
+        if let Going::Lifted(lifted) = going {
+            return self.moment_lifted(lifted, t);
+        }
         let (mut moment, mut position, mut velocity) =
             (self.at_rest(), self.crossing.position, self.crossing.velocity);
         let mass = self.across.mass;
         let rub = mass * (here.forces.rub[0] + here.forces.rub[1] * t);
         let push = here.forces.push.map(|[f, j]| mass * (f + j * t));
         let (friction, across, acceleration) = match going {
-            Going::Rests { .. } => {
+            Going::Rests { .. } | Going::Lifted(_) => {
                 let across = if self.side == 0.0 { -push[1] } else { 0.0 };
                 (-push[0], across, 0.0)
             }
@@ -124,6 +245,7 @@ impl Plane<'_> {
                 let [u, v, _] = flight.velocities(t);
                 let way = flight.ways(t).way;
                 let speed = u.hypot(v);
+                let rub = flight.friction(t).map_or(rub, |friction| mass * friction);
                 let [along, across] = [u, v].map(|u| if speed > 0.0 { -rub * u / speed } else { 0.0 });
                 moment.mode = Mode::Slide(if u < 0.0 { Slip::Upstream } else { Slip::Downstream });
                 moment.position[SLIP] += way[0];

@@ -2,7 +2,9 @@
 //!
 //! Order by order, with `s = |u|`: `s' = u' . e`, `e s = u`, `(k + 1) M u_(k+1) = F_k - (T e)_k`.
 
-use super::flight::{value, Flight, Terms, INVERSE, TERMS};
+use super::flight::{value, Flight, Terms, INVERSE};
+use super::polynomial::TERMS;
+use super::rub::Rubbing;
 
 /// Order of the series.
 pub(super) const ORDER: usize = TERMS - 1;
@@ -17,19 +19,23 @@ const FAR: f64 = 0.01;
 const LEAST: f64 = 1e-6;
 /// Part of the speed, in its first direction, that a step keeps: the friction of a block that all but turns back
 /// changes its sign in a moment of which the terms of the series say nothing.
-const KEPT: f64 = 0.1;
+pub(super) const KEPT: f64 = 0.1;
 /// Factor on a step that fails its bound.
-const SHORTER: f64 = 0.6;
+pub(super) const SHORTER: f64 = 0.6;
 
 /// Forces per mass across the valley: on a piece, each as its value and its change per second.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Forces {
+pub(super) struct Forces<'a> {
     /// Mass along the stream over that across the valley.
     pub mass: f64,
     /// Without friction, along and across (m/s2).
     pub push: [[f64; 2]; 2],
-    /// Largest friction of a block that slides (m/s2).
+    /// Largest friction of a block that slides (m/s2); by a law, at its present speed and path.
     pub rub: [f64; 2],
+    /// No less than that at any speed and path.
+    pub most: [f64; 2],
+    /// The law of friction, where it goes by one.
+    pub law: Option<Rubbing<'a>>,
     /// Bound of a block at rest (m/s2).
     pub hold: [f64; 2],
 }
@@ -51,7 +57,7 @@ impl Bounds {
     }
 }
 
-impl Forces {
+impl Forces<'_> {
     /// The same from `t` seconds later on.
     #[inline]
     pub(super) fn after(&self, t: f64) -> Self {
@@ -60,6 +66,8 @@ impl Forces {
             push: self.push.map(later),
             rub: later(self.rub),
             hold: later(self.hold),
+            most: later(self.most),
+            law: self.law.map(|law| law.after(t)),
             ..*self
         }
     }
@@ -68,13 +76,16 @@ impl Forces {
     #[inline]
     pub(super) fn fastest(&self, t: f64) -> [f64; 2] {
         let most = |[value, slope]: [f64; 2]| value.abs().max((value + slope * t).abs());
-        let rub = most(self.rub);
+        let rub = most(self.most);
         [(most(self.push[0]) + rub) / self.mass, most(self.push[1]) + rub]
     }
 
     /// How long a block of this speed goes on at most before friction stops it; none where it may not do so at once, or
     /// not in `left` seconds.
     pub(super) fn stops_within(&self, speed: f64, left: f64) -> Option<f64> {
+        if self.law.is_some() {
+            return None;
+        }
         let [[fx, jx], [fy, jy]] = self.push;
         let [rub, rub_slope] = self.rub;
         // The excess of friction over the force falls no faster than this; sqrt(u . M u) falls by it, over the mass.
@@ -102,6 +113,7 @@ pub(super) fn go_on(forces: &Forces, u: [f64; 2], left: f64, stops: Option<f64>,
     // k u_k.
     let mut growth = [[0.0; 2]; TERMS];
     let [rub, rub_slope] = forces.rub;
+    let mut by_law = forces.law.and_then(|law| law.unfold(first));
     for k in 0..TERMS {
         if k > 0 {
             // Two sums each, of every second term, as an addition waits for the one before.
@@ -121,14 +133,20 @@ pub(super) fn go_on(forces: &Forces, u: [f64; 2], left: f64, stops: Option<f64>,
                 direction[k][i] = (terms[k][i] - speed * d0[i] - turned[0][i] - turned[1][i]) * inverse;
             }
         }
+        if let Some(law) = &mut by_law {
+            law.next(k, terms[k][2]);
+        }
         if k == ORDER {
             break;
         }
         for i in 0..2 {
-            let mut force = -rub * direction[k][i];
-            if k > 0 {
-                force -= rub_slope * direction[k - 1][i];
-            }
+            let mut force = if let Some(law) = &by_law {
+                -law.times(k, d0[i], |j| direction[j][i])
+            } else if k > 0 {
+                -rub * direction[k][i] - rub_slope * direction[k - 1][i]
+            } else {
+                -rub * direction[k][i]
+            };
             if k < 2 {
                 force += forces.push[i][k];
             }
@@ -160,6 +178,7 @@ pub(super) fn go_on(forces: &Forces, u: [f64; 2], left: f64, stops: Option<f64>,
         begin: 0.0,
         length,
         terms,
+        friction: by_law.map(|law| law.terms),
     }
 }
 

@@ -6,11 +6,13 @@
 //! a small velocity would be as short as that velocity, as the direction relaxes at the rate T / (m |u|); the series of
 //! the onset is asymptotic and goes far beyond.
 
-use super::flight::{value, Flight, TERMS};
+use super::flight::{value, Flight, Series};
+use super::polynomial::TERMS;
+use super::rub::Rub;
 use super::series::{reach, Bounds, Forces};
 
 /// Order of the series of an onset.
-const ONSET: usize = 13;
+pub(super) const ONSET: usize = 13;
 /// A block slower than this is at rest (m/s): its way to where it stops is less than the size of an atom.
 pub(super) const REST: f64 = 1e-9;
 /// Part of its first acceleration that a block keeps on one step.
@@ -133,6 +135,28 @@ impl Angle {
     fn sine(&self, k: usize) -> f64 {
         (1..k).map(|j| self.rho[j] * self.c[k - j]).sum()
     }
+
+    /// Term k of what pushes along e and across it less friction by a law, where rho of this order is left out.
+    fn forces(&self, law: &Rub, k: usize, [along, across]: [f64; 2]) -> [f64; 2] {
+        let sine = |j: usize| {
+            if j == k {
+                self.sine(j)
+            } else {
+                self.sine(j) + self.rho[j]
+            }
+        };
+        [
+            along - law.times(k, self.c[0], |j| self.c[j]),
+            across - law.times(k, 0.0, sine),
+        ]
+    }
+}
+
+/// Friction by a law of a block at rest, with its first term.
+fn law_from_rest(forces: &Forces) -> Option<Rub> {
+    let mut law = forces.law?.unfold(0.0)?;
+    law.next(0, 0.0);
+    Some(law)
 }
 
 /// The start of a block whose force exceeds friction at once.
@@ -142,16 +166,21 @@ fn jump(forces: &Forces, left: f64, fastest: f64) -> Option<Flight> {
     let [rub, rub_slope] = forces.rub;
     let (mut angle, mut alpha) = (Angle::new(), [0.0; ONSET + 1]);
     alpha[0] = a;
+    let mut by_law = law_from_rest(forces);
     for k in 1..=ONSET {
         angle.raise(k);
         let term = |f: &[f64; 2]| if k == 1 { f[1] } else { 0.0 };
-        let f = term(&along) - rub * angle.c[k] - rub_slope * angle.c[k - 1];
+        let mut f = term(&along) - rub * angle.c[k] - rub_slope * angle.c[k - 1];
         let before = if k > 1 {
             angle.sine(k - 1) + angle.rho[k - 1]
         } else {
             0.0
         };
-        let g = term(&across) - rub * angle.sine(k) - rub_slope * before;
+        let mut g = term(&across) - rub * angle.sine(k) - rub_slope * before;
+        if let Some(law) = &mut by_law {
+            law.next(k, (0..k).map(|j| alpha[j] * angle.r[k - 1 - j]).sum());
+            [f, g] = angle.forces(law, k, [term(&along), term(&across)]);
+        }
         let known: f64 = (1..k).map(|j| alpha[j] * angle.rho[k - j]).sum();
         // n (m00 alpha + m01 (a rho + known)) = f, n (m01 alpha + m11 (a rho + known)) = g - T rho.
         let n = (k + 1) as f64;
@@ -161,7 +190,8 @@ fn jump(forces: &Forces, left: f64, fastest: f64) -> Option<Flight> {
         alpha[k] = (p * corner - m01 * a * q) / determinant;
         angle.rho[k] = (m00 * q - m01 * p) / determinant;
     }
-    Some(flight(1, &alpha, &angle, e, [left, 0.0], fastest))
+    let friction = by_law.map(|law| law.terms);
+    Some(flight(1, &alpha, &angle, e, [left, 0.0], (fastest, friction)))
 }
 
 /// The start of a block whose force just equals friction, and exceeds it from now on. `since` seconds of it are over.
@@ -175,26 +205,32 @@ fn onset(forces: &Forces, left: f64, since: f64, fastest: f64) -> Option<Flight>
     let e = [fx / size, fy / size];
     let ([m00, m01, m11], [along, across]) = turned(forces, e);
     let (mut angle, mut alpha) = (Angle::new(), [0.0; ONSET + 1]);
+    let mut by_law = law_from_rest(forces);
     for k in 1..=ONSET {
         angle.raise(k);
         let term = |f: &[f64; 2]| if k == 1 { f[1] } else { 0.0 };
         let n = (k + 1) as f64;
-        let f = term(&along) - rub * angle.c[k] - rub_slope * angle.c[k - 1];
+        let mut f = term(&along) - rub * angle.c[k] - rub_slope * angle.c[k - 1];
+        let before = if k > 1 {
+            angle.sine(k - 1) + angle.rho[k - 1]
+        } else {
+            0.0
+        };
+        let mut g = term(&across) - rub * angle.sine(k) - rub_slope * before;
+        if let Some(law) = &mut by_law {
+            law.next(k, (0..k - 1).map(|j| alpha[j] * angle.r[k - 2 - j]).sum());
+            [f, g] = angle.forces(law, k, [term(&along), term(&across)]);
+        }
         // Of the last alpha rho has no part, as it begins with zero.
         let beta: f64 = (0..k - 1).map(|j| alpha[j] * angle.rho[k - 1 - j]).sum();
         alpha[k - 1] = (f / n - m01 * beta) / m00;
         if k == 1 && alpha[0] <= 0.0 {
             return None;
         }
-        let before = if k > 1 {
-            angle.sine(k - 1) + angle.rho[k - 1]
-        } else {
-            0.0
-        };
-        let g = term(&across) - rub * angle.sine(k) - rub_slope * before;
         angle.rho[k] = (g - n * (m01 * alpha[k - 1] + m11 * beta)) / rub;
     }
-    Some(flight(2, &alpha, &angle, e, [left, since], fastest))
+    let friction = by_law.map(|law| law.terms);
+    Some(flight(2, &alpha, &angle, e, [left, since], (fastest, friction)))
 }
 
 /// The velocities of `t^power (alpha e + alpha rho n)`.
@@ -204,7 +240,7 @@ fn flight(
     angle: &Angle,
     [c, s]: [f64; 2],
     [left, since]: [f64; 2],
-    fastest: f64,
+    (fastest, friction): (f64, Option<Series>),
 ) -> Flight {
     let mut terms = [[0.0; 3]; TERMS];
     // The onset knows one term less of alpha than of rho.
@@ -234,5 +270,6 @@ fn flight(
         begin: since,
         length: (length - since).clamp(0.0, left),
         terms,
+        friction,
     }
 }

@@ -2,7 +2,8 @@
 //! there.
 
 use super::super::event;
-use super::flight::{Flight, TERMS};
+use super::flight::Flight;
+use super::polynomial::TERMS;
 use super::series::Forces;
 
 /// How a block goes on with the velocity `u` along the stream in the direction `way`, for `left` seconds at most, and
@@ -25,6 +26,7 @@ pub(super) fn go_on(forces: &Forces, u: f64, way: f64, left: f64) -> (Flight, bo
         begin: 0.0,
         length: stop.unwrap_or(left),
         terms,
+        friction: None,
     };
     (flight, stop.is_some())
 }

@@ -1,18 +1,23 @@
 //! From event to event in the plane of the crack.
 
-use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
-use super::super::choice::{select, Moving, TIE};
+use super::super::block::{Affine, Block, Vector, SLIP, TOE};
+use super::super::choice::{select, Moving, TIE, VIOLATION};
 use super::super::event;
 use super::super::exact;
-use super::super::mode::{Mode, Slip};
+use super::super::mode::Mode;
 use super::super::reaction::{Felt, Reactions};
-use super::super::result::{Crossing, Outcome, Run};
+use super::super::result::{Crossing, Outcome, Run, Wear};
 use super::super::shaking::{Piece, Shaking};
-use super::super::walk::{Blow, Carried, Cause, Ended, Exactly, Options, Walk, Wanted};
+use super::super::varying::{self, Surface, TurningBlock, TurningShaking};
+use super::super::walk::{Carried, Cause, Exactly, Options, Walk, Wanted};
+use super::aloft::{rises, Lifted};
 use super::flight::Flight;
+use super::rub::Rubbing;
 use super::series::{self, Bounds, Forces};
 use super::start::{self, REST};
 use super::straight;
+use crate::error::Error;
+use crate::friction::Strength;
 
 /// The gaps to the neighbours, beside those of heel and toe.
 pub(super) const SIDES: [(usize, f64); 2] = [(TOE + 1, 1.0), (TOE + 2, -1.0)];
@@ -58,8 +63,10 @@ pub(super) struct Plane<'a> {
     pub walk: Walk<'a>,
     pub across: Across,
     pub crossing: Crossing,
+    /// Of a block that does not move across.
+    pub reactions: Reactions,
     /// Coefficients of friction of a block that rests and of one that slides.
-    friction: [f64; 2],
+    pub friction: [f64; 2],
     /// Mass along the stream.
     pub mass: f64,
     /// Force along the stream.
@@ -72,7 +79,15 @@ pub(super) struct Plane<'a> {
     /// Its largest speed so far.
     pub fastest: f64,
     /// How the block goes on.
-    going: Going,
+    pub going: Going,
+    /// The law of friction, where it goes by one; its normal force is that of the moment.
+    pub rubbing: Option<Rubbing<'a>>,
+    /// Of each moment that is kept: path, and whether the bond is whole.
+    pub kept: Vec<[f64; 2]>,
+    /// Whether friction or uplift goes by a law, which is not followed off a corner.
+    varies: bool,
+    /// Whether it lifts all the same.
+    lost: bool,
 }
 
 impl Across {
@@ -81,16 +96,22 @@ impl Across {
     /// # Errors
     /// Where the samples are not as many, the mass is not positive, a gap is negative, or friction would change the
     /// normal force of a block that slides, as the water above an inclined crack does.
-    pub fn check(&self, block: &Block, shaking: &CrossShaking) -> Result<(), &'static str> {
+    pub fn check(&self, block: &Block, shaking: &CrossShaking) -> Result<(), Error> {
         if shaking.cross.len() != shaking.level.time.len() {
-            return Err("a motion needs as many accelerations across the valley as times");
+            return Err(Error::Motion(
+                "a motion needs as many accelerations across the valley as times",
+            ));
         }
         let gaps = self.gap.iter().all(|gap| *gap >= 0.0);
         if self.mass.is_nan() || self.mass <= 0.0 || !gaps {
-            return Err("the mass across the valley must be positive and its gaps not negative");
+            return Err(Error::Blocks(
+                "the mass across the valley must be positive and its gaps not negative",
+            ));
         }
         if block.couples() {
-            return Err("water on an inclined crack couples the motion along it with that across it");
+            return Err(Error::Blocks(
+                "water on an inclined crack couples the motion along it with that across it",
+            ));
         }
         Ok(())
     }
@@ -107,21 +128,57 @@ pub fn simulate(
     options: Options,
     wanted: Wanted,
 ) -> Run {
+    walk(block, across, shaking, None, start, options, wanted)
+}
+
+/// The same for a block whose friction goes by a law, or whose uplift goes by how far the crack is open, which is not as
+/// long as it slides. Nothing else of `turning` may vary.
+pub fn simulate_varying(
+    block: &Block,
+    across: &Across,
+    shaking: &CrossShaking,
+    varying: (&TurningBlock, Option<&Surface>),
+    start: Option<[Vector; 2]>,
+    options: Options,
+    wanted: Wanted,
+) -> Run {
+    walk(block, across, shaking, Some(varying), start, options, wanted)
+}
+
+fn walk(
+    block: &Block,
+    across: &Across,
+    shaking: &CrossShaking,
+    varying: Option<(&TurningBlock, Option<&Surface>)>,
+    start: Option<[Vector; 2]>,
+    options: Options,
+    wanted: Wanted,
+) -> Run {
     let level = shaking.level;
-    let still = shaking.cross.iter().all(|a| *a == 0.0) && across.start == [0.0; 2];
+    let surface = varying.and_then(|(_, surface)| surface);
+    let been = surface.map_or(0.0, |surface| surface.worn.path);
+    let still = shaking.cross.iter().all(|a| *a == 0.0) && across.start[1] == 0.0;
     let held = across.gap == [0.0; 2];
     if still || held {
-        let run = exact::simulate_with_path(block, level, start, options, wanted);
+        let run = match varying {
+            None => exact::simulate_with_path(block, level, start, options, wanted),
+            Some((turning, surface)) => {
+                let level = TurningShaking::straight(level);
+                varying::simulate(block, turning, surface, &level, start, options, wanted)
+            }
+        };
         let end = run.summary.end_time - level.time[0];
         let crossing = Crossing {
-            kept: vec![[0.0; 3]; run.moments.len()],
+            kept: vec![[across.start[0], 0.0, 0.0]; run.moments.len()],
             time_at_side: if held { end } else { 0.0 },
-            path: run.worn.as_ref().map_or(0.0, |worn| worn.end.path),
+            position: across.start[0],
+            range: [across.start[0]; 2],
+            path: run.worn.as_ref().map_or(0.0, |worn| worn.end.path) - been,
             ..Crossing::default()
         };
         return Run {
             crossing: Some(crossing),
-            worn: None,
+            worn: run.worn.filter(|_| varying.is_some()),
             ..run
         };
     }
@@ -138,6 +195,7 @@ pub fn simulate(
             range: [across.start[0]; 2],
             ..Crossing::default()
         },
+        reactions: Reactions::new(block),
         friction: [block.friction_static, block.friction_kinetic],
         mass,
         push,
@@ -146,19 +204,37 @@ pub fn simulate(
         side: 0.0,
         fastest: 0.0,
         going: Going::rest(0.0),
+        rubbing: surface.map(|surface| Rubbing {
+            law: surface.law,
+            worn: surface.worn,
+            width: block.width,
+            mass: across.mass,
+            normal: [0.0; 2],
+        }),
+        kept: Vec::new(),
+        varies: varying.is_some(),
+        lost: false,
     };
-    let lies = [HEEL, TOE]
-        .iter()
-        .all(|i| from[0][*i] == 0.0 && from[1][*i] == 0.0);
     plane.walk.summary.ledger.start = plane.kinetic_energy();
-    if start.is_none() && !rests(block) {
-        plane.walk.summary.outcome = Outcome::Unstable;
-    } else if lies {
-        plane.run(shaking);
+    let rests = if plane.rubbing.is_some() {
+        plane.rests_by_law()
     } else {
-        plane.walk.summary.outcome = Outcome::LiftsAcross;
+        rests(block)
+    };
+    if start.is_none() && !rests {
+        plane.walk.summary.outcome = Outcome::Unstable;
+    } else {
+        plane.run(shaking);
     }
     plane.end()
+}
+
+/// The same forces without those across the valley.
+fn along_alone<'a>(forces: &Forces<'a>) -> Forces<'a> {
+    Forces {
+        push: [forces.push[0], [0.0; 2]],
+        ..*forces
+    }
 }
 
 /// Whether the static loads leave the block where it is.
@@ -173,12 +249,13 @@ fn rests(block: &Block) -> bool {
     select(&reactions, Mode::Rest, &moving, &mut Felt::default()) == Some(Mode::Rest)
 }
 
-/// The next stretch: a motion, or a time of rest. It is made and used up in one place, and moves nowhere.
+/// The next stretch: a motion on both corners, a time of rest, or a motion off one of them. It is made and used up in one place, and moves nowhere.
 #[allow(clippy::large_enum_variant)]
 #[derive(Clone, Copy)]
 pub(super) enum Going {
     Rests { length: f64, lifts: bool },
     Moves { flight: Flight, stops: bool },
+    Lifted(Lifted),
 }
 
 impl Going {
@@ -186,25 +263,56 @@ impl Going {
         Going::Rests { length, lifts: false }
     }
 
-    fn moves(&self) -> bool {
+    pub(super) fn moves(&self) -> bool {
         matches!(self, Going::Moves { .. })
     }
 }
 
 /// The ground on a piece, from where the block is.
-pub(super) struct Here {
+pub(super) struct Here<'a> {
     pub left: f64,
-    pub forces: Forces,
+    /// Accelerations of the ground along, up, across, and their change per second.
+    pub ground: [f64; 3],
+    pub rate: [f64; 3],
+    pub forces: Forces<'a>,
     /// The normal forces without an acceleration along the stream.
     pub normal: [[f64; 2]; 2],
 }
 
-impl Plane<'_> {
-    fn end(self) -> Run {
+impl<'a> Plane<'a> {
+    fn end(mut self) -> Run {
+        if self.lost {
+            self.walk.summary.outcome = Outcome::LiftsAcross;
+        }
         let energy = self.kinetic_energy();
+        let worn = self.rubbing.map(|rubbing| Wear {
+            kept: self.kept,
+            end: rubbing.worn,
+            error: 0.0,
+            integrated: 0.0,
+        });
         Run {
             crossing: Some(self.crossing),
+            worn,
             ..self.walk.end(energy, Vec::new())
+        }
+    }
+
+    /// Whether the static loads leave a block where it is whose friction goes by a law.
+    fn rests_by_law(&self) -> bool {
+        let here = self.here(&Piece::still(1.0));
+        let [push, _] = here.forces.push;
+        here.normal.iter().all(|normal| normal[0] >= 0.0) && push[0].abs() <= here.forces.hold[0]
+    }
+
+    /// What friction bears under this normal force, at rest and at this speed.
+    fn strength(&self, normal: f64, speed: f64) -> Strength {
+        match &self.rubbing {
+            None => Strength {
+                coefficient: self.friction,
+                ..Strength::default()
+            },
+            Some(rubbing) => rubbing.strength(normal, speed),
         }
     }
 
@@ -219,7 +327,7 @@ impl Plane<'_> {
         let n = level.time.len();
         let mut k = 0;
         while k + 1 < n {
-            if self.velocity() == [0.0; 2] {
+            if self.velocity() == [0.0; 2] && self.lying() == [true; 2] {
                 k = self.rest_until(shaking, k);
                 if k + 1 >= n {
                     break;
@@ -274,7 +382,8 @@ impl Plane<'_> {
     /// Whether a block at rest is clear of every limit under this ground.
     fn clears(&self, ground: [f64; 2], cross: f64) -> bool {
         let [heel, toe] = [0, 1].map(|i| self.normal[i].at(ground));
-        let hold = self.friction[0] * (heel + toe);
+        let strength = self.strength(heel + toe, 0.0);
+        let hold = strength.coefficient[0] * (heel + toe) + strength.constant[0];
         let (along, across) = (self.push.at(ground), self.across.mass * cross);
         let least = CLEAR * (heel + toe);
         heel > least && toe > least && along * along + across * across < (1.0 - CLEAR) * hold * hold
@@ -291,7 +400,11 @@ impl Plane<'_> {
         let here = self.here(&piece);
         // Nothing is left of the piece: a block that moves does so with what it feels.
         let velocity = self.velocity();
-        let going = if velocity == [0.0; 2] {
+        let going = if self.lying() != [true; 2] {
+            let drifts = || self.lifted(Mode::Drift, &here);
+            let lifted = self.lifted(self.walk.mode, &here).or_else(drifts);
+            lifted.map_or(Going::rest(0.0), Going::Lifted)
+        } else if velocity == [0.0; 2] {
             Going::rest(0.0)
         } else {
             let flight = Flight::moment(velocity);
@@ -301,32 +414,62 @@ impl Plane<'_> {
     }
 
     /// Velocities along and across.
-    fn velocity(&self) -> [f64; 2] {
+    pub(super) fn velocity(&self) -> [f64; 2] {
         [self.walk.summary.velocity[SLIP], self.crossing.velocity]
     }
 
-    fn here(&self, piece: &Piece<3>) -> Here {
+    pub(super) fn here(&self, piece: &Piece<3>) -> Here<'a> {
         let ([along, up, cross], [along_rate, up_rate, cross_rate]) = (piece.ground, piece.rate);
         let on = |force: &Affine| [force.at([along, up]), force.slope([along_rate, up_rate])];
         let normal = self.normal.each_ref().map(on);
         let whole = [0, 1].map(|k| normal[0][k] + normal[1][k]);
         let per = |force: [f64; 2], scale: f64| force.map(|f| f * scale);
         let mass = self.across.mass;
-        let [hold, rub] = self.friction.map(|mu| per(whole, mu / mass));
+        let [u, v] = self.velocity();
+        let strength = self.strength(whole[0], u.hypot(v));
+        let [hold, rub] = [0, 1].map(|k| {
+            let [value, slope] = per(whole, strength.coefficient[k] / mass);
+            [value + strength.constant[k] / mass, slope]
+        });
+        let law = self.rubbing.map(|rubbing| Rubbing {
+            normal: whole,
+            ..rubbing
+        });
         Here {
             left: piece.left,
+            ground: piece.ground,
+            rate: piece.rate,
             forces: Forces {
                 mass: self.mass / mass,
                 push: [per(on(&self.push), 1.0 / mass), [-cross, -cross_rate]],
                 rub,
                 hold,
+                most: law.map_or(rub, |law| law.most()),
+                law,
             },
             normal,
         }
     }
 
-    /// How the block goes on.
-    fn choose_way(&mut self, here: &Here) -> Going {
+    /// How the block goes on: on both corners where both are pressed, off one of them else. None is a Painlevé paradox, or
+    /// a block that lifts and whose friction or uplift goes by a law.
+    pub(super) fn go(&mut self, here: &Here<'a>) -> Option<Going> {
+        if self.lying() == [true; 2] {
+            let going = self.choose_way(here);
+            if self.presses(here, &going) {
+                return Some(going);
+            }
+        }
+        if self.varies {
+            self.lost = true;
+            return None;
+        }
+        self.side = self.held(here);
+        self.lift(here).map(Going::Lifted)
+    }
+
+    /// How a block goes on that lies on both corners.
+    pub(super) fn choose_way(&mut self, here: &Here<'a>) -> Going {
         self.side = self.held(here);
         let u = self.velocity();
         let straight = self.side != 0.0 || here.forces.push[1] == [0.0; 2] && u[1] == 0.0;
@@ -345,7 +488,7 @@ impl Plane<'_> {
     }
 
     /// Which neighbour the block lies against and is pushed into, if any.
-    fn held(&self, here: &Here) -> f64 {
+    pub(super) fn held(&self, here: &Here) -> f64 {
         let [push, slope] = here.forces.push[1];
         let y = self.crossing.position;
         for (gap, side) in self.across.gap.into_iter().zip([1.0, -1.0]) {
@@ -358,7 +501,7 @@ impl Plane<'_> {
     }
 
     /// How long the neighbour goes on to hold it.
-    fn held_for(&self, here: &Here) -> f64 {
+    pub(super) fn held_for(&self, here: &Here) -> f64 {
         let [push, slope] = here.forces.push[1].map(|f| f * self.side);
         if self.side != 0.0 && push + slope * here.left < 0.0 {
             event::linear(push, slope, here.left)
@@ -400,7 +543,14 @@ impl Plane<'_> {
                 spare = 0.0;
             }
             if spare < 0.0 || spare == 0.0 && change * here.left < -TIE * (hold + push.abs()) {
-                return self.slide_straight(here, 0.0, way);
+                if here.forces.law.is_none() {
+                    return self.slide_straight(here, 0.0, way);
+                }
+                let left = self.held_for(here);
+                if let Some(flight) = start::begin(&along_alone(&here.forces), left, self.fastest) {
+                    return Going::Moves { flight, stops: false };
+                }
+                continue;
             }
             if spare + change * length < 0.0 {
                 length = length.min(event::linear(spare, change, length));
@@ -414,7 +564,7 @@ impl Plane<'_> {
         let mut until = length;
         let mut lifts = false;
         for [value, slope] in here.normal {
-            if value + slope * until < 0.0 {
+            if value + slope * until < -VIOLATION * self.walk.block.force_scale && slope < 0.0 {
                 until = event::linear(value, slope, until);
                 lifts = true;
             }
@@ -422,18 +572,50 @@ impl Plane<'_> {
         Going::Rests { length: until, lifts }
     }
 
+    /// Whether both corners are pressed as it goes on so.
+    pub(super) fn presses(&self, here: &Here, going: &Going) -> bool {
+        let least = TIE * self.walk.block.force_scale;
+        let pairs = here.normal.into_iter().zip(self.per_acceleration);
+        match going {
+            Going::Rests { .. } => here
+                .normal
+                .into_iter()
+                .all(|mut n| rises(&mut n, here.left, least)),
+            Going::Moves { flight, .. } => {
+                let along = flight.acceleration(0, 0.0);
+                pairs.into_iter().all(|(normal, per)| {
+                    normal[0] + per * along > least
+                        || rises(&mut flight.pressed(normal, per).start(), here.left, least)
+                })
+            }
+            Going::Lifted(_) => false,
+        }
+    }
+
     fn slide_straight(&self, here: &Here, u: f64, way: f64) -> Going {
+        if here.forces.law.is_some() {
+            let bounds = Bounds::new(self.fastest.max(u.abs()), self.crossing.path);
+            let flight = series::go_on(
+                &along_alone(&here.forces),
+                [u, 0.0],
+                self.held_for(here),
+                None,
+                bounds,
+            );
+            return Going::Moves { flight, stops: false };
+        }
         let (flight, stops) = straight::go_on(&here.forces, u, way, self.held_for(here));
         Going::Moves { flight, stops }
     }
 
     /// Move to the next event or to the end of a stretch, and keep what there is to keep; returns the time that took, and
     /// what ended it.
-    fn go_on(&mut self, here: &Here, going: &Going, time: f64) -> (f64, Option<Cause>) {
+    pub(super) fn go_on(&mut self, here: &Here, going: &Going, time: f64) -> (f64, Option<Cause>) {
         let (step, cause) = match going {
             Going::Rests { length, lifts: true } => (*length, Some(Cause::Normal)),
             Going::Rests { length, .. } => (*length, None),
             Going::Moves { flight, .. } => self.first_event(here, flight),
+            Going::Lifted(lifted) => return self.go_on_lifted(here, lifted, time),
         };
         if self.walk.observed() {
             // The end of a step belongs to what comes after it.
@@ -465,7 +647,11 @@ impl Plane<'_> {
             if value > most && value + slope * step > most {
                 continue;
             }
-            if let Some(t) = flight.first_fall(normal, per, step) {
+            let pressed = flight.pressed(normal, per);
+            // Where it begins at zero it rises.
+            let rises = pressed.start()[0] <= 0.0;
+            let pressed = if rises { pressed.without_start() } else { pressed };
+            if let Some(t) = pressed.falls(step) {
                 (step, cause) = (t, Some(Cause::Normal));
             }
         }
@@ -479,69 +665,12 @@ impl Plane<'_> {
                 (step, cause) = (t, Some(Cause::Gap(number)));
             }
         }
-        (step, cause)
-    }
-}
-
-impl<'a> Carried<'a, 1> for Plane<'a> {
-    type Piece = Piece<3>;
-
-    fn walks(&mut self) -> &mut [Walk<'a>; 1] {
-        std::array::from_mut(&mut self.walk)
-    }
-
-    fn velocities(&self) -> [Vector; 1] {
-        [self.walk.summary.velocity]
-    }
-
-    fn find_modes(&mut self, piece: &Piece<3>) -> Option<[Mode; 1]> {
-        self.going = self.choose_way(&self.here(piece));
-        let moved = self.velocity() != [0.0; 2];
-        Some([match (&self.going, self.walk.mode) {
-            (Going::Rests { .. }, _) => Mode::Rest,
-            // To turn on the way is no event.
-            (_, Mode::Slide(way)) if moved => Mode::Slide(way),
-            (Going::Moves { flight, .. }, _) if flight.velocities(flight.length)[0] < 0.0 => {
-                Mode::Slide(Slip::Upstream)
-            }
-            _ => Mode::Slide(Slip::Downstream),
-        }])
-    }
-
-    fn enter(&mut self) {}
-
-    fn collide(&mut self, gap: usize) -> Option<Blow<1>> {
-        Some(self.strike(gap))
-    }
-
-    fn seize(&mut self) -> Option<Blow<1>> {
-        None
-    }
-}
-
-impl<'a> Exactly<'a, 1, 3> for Plane<'a> {
-    fn advance(&mut self, piece: &Piece<3>, time: f64) -> (f64, Option<Ended>) {
-        let (mut here, mut going, mut local) = (self.here(piece), self.going, 0.0);
-        loop {
-            let (step, cause) = self.go_on(&here, &going, time + local);
-            if cause == Some(Cause::Normal) {
-                self.give_up(Outcome::LiftsAcross);
-            }
-            let ended = step >= here.left;
-            let stands = local + step <= local;
-            local += step;
-            if cause.is_some() {
-                return (local, cause.map(|cause| (0, cause)));
-            }
-            if ended {
-                return (piece.left, None);
-            }
-            here = self.here(&piece.rest(local));
-            let moves = going.moves();
-            going = self.choose_way(&here);
-            if stands || going.moves() != moves {
-                return (local, Some((0, Cause::Cone)));
+        if let Some(rubbing) = &self.rubbing {
+            let reach = rubbing.law.corner(rubbing.worn) - rubbing.worn.path;
+            if let Some(t) = flight.walks(reach, step).filter(|t| *t < step) {
+                (step, cause) = (t, None);
             }
         }
+        (step, cause)
     }
 }

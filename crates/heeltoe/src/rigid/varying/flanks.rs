@@ -169,7 +169,7 @@ impl Varying<'_> {
         };
         self.stand_on(behind);
         let velocity = self.velocity();
-        let blow = impact(&self.block(), &velocity, touching, self.walk.settle);
+        let blow = impact(&self.block(), &velocity, None, touching, self.walk.settle);
         if blow.is_none_or(|blow| blow.velocity[SLIP] < 0.0) {
             self.stand_on(before);
         }

@@ -39,6 +39,14 @@ impl<'a> TurningShaking<'a> {
         Ok(TurningShaking { level, turning })
     }
 
+    /// A ground that never turns.
+    pub(in super::super) fn straight(level: &Shaking<'a>) -> Self {
+        TurningShaking {
+            level: level.clone(),
+            turning: None,
+        }
+    }
+
     /// Whether it never turns.
     pub(super) fn is_level(&self) -> bool {
         self.turning.is_none()
