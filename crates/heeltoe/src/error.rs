@@ -16,14 +16,24 @@ use std::fmt;
 pub enum Error {
     /// A ground motion.
     Motion(&'static str),
-    /// Blocks that stand on each other.
+    /// A block, or blocks that stand on each other.
     Blocks(&'static str),
+    /// An elastic part: its matrices, its modes or its stresses.
+    Body(&'static str),
+    /// Parts and cracks that do not make a dam.
+    Dam(&'static str),
+    /// Water before the dam or in its cracks.
+    Water(&'static str),
 }
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Error::Motion(why) | Error::Blocks(why) => f.write_str(why),
+            Error::Motion(why)
+            | Error::Blocks(why)
+            | Error::Body(why)
+            | Error::Dam(why)
+            | Error::Water(why) => f.write_str(why),
         }
     }
 }

@@ -11,14 +11,18 @@
 
 use super::simd::Group;
 use super::simd::LANES;
+use crate::error::Error;
 /// Groups are worked on in bundles of so many, so that their sums run side by side.
 pub(super) const BUNDLE: usize = 4;
 /// The numbers of one body in its modes; they do not change during a run, and many runs may share them.
+#[derive(Debug)]
 pub struct ReducedBody {
     /// Number of modes, without those that fill up the last group.
     pub(super) modes: usize,
     /// Number of nodes on the crack.
     pub(super) nodes: usize,
+    /// Components of the motion of each: along the crack and across it, or one across the valley.
+    pub(super) directions: usize,
     /// Number of dashpots, see [`super::dampers`].
     pub(super) dampers: usize,
     /// Number of rows of the water on its wet faces, see [`super::reservoir`].
@@ -63,6 +67,8 @@ pub struct Modes<'a> {
     pub shapes: &'a [f64],
     /// Where the crack nodes are at the start: along the crack, then across it (m).
     pub position: &'a [f64],
+    /// Components of the motion of each node: two, or one of a body that moves across the valley.
+    pub directions: usize,
     /// Dashpots that couple the modes, `dashpots x modes`, row by row.
     pub dampers: &'a [f64],
     /// A sign for each.
@@ -74,11 +80,16 @@ pub struct Modes<'a> {
 }
 
 impl Modes<'_> {
-    fn agree(&self) -> Result<(), &'static str> {
+    fn agree(&self) -> Result<(), Error> {
         let count = self.omega_squared.len();
         let columns = self.position.len();
-        if count == 0 || columns < 4 || !columns.is_multiple_of(2) {
-            return Err("a body needs modes and two crack nodes or more");
+        let directions = self.directions;
+        if count == 0
+            || ![1, 2].contains(&directions)
+            || columns < 2 * directions
+            || !columns.is_multiple_of(directions)
+        {
+            return Err(Error::Body("a body needs modes and two crack nodes or more"));
         }
         let each = [self.load, self.start]
             .into_iter()
@@ -88,7 +99,9 @@ impl Modes<'_> {
             && self.wet.len().is_multiple_of(count)
             && [0, count * count].contains(&self.boundary.len());
         if each.into_iter().any(|v| v.len() != count) || self.shapes.len() != count * columns || !whole {
-            return Err("the arrays of a body must agree in the number of modes and of crack nodes");
+            return Err(Error::Body(
+                "the arrays of a body must agree in the number of modes and of crack nodes",
+            ));
         }
         Ok(())
     }
@@ -99,7 +112,7 @@ impl ReducedBody {
     ///
     /// # Errors
     /// No modes, less than two crack nodes, or arrays that do not agree in their number.
-    pub fn new(modes: &Modes) -> Result<Self, &'static str> {
+    pub fn new(modes: &Modes) -> Result<Self, Error> {
         modes.agree()?;
         let columns = modes.position.len();
         let count = modes.omega_squared.len();
@@ -125,7 +138,8 @@ impl ReducedBody {
         }
         Ok(ReducedBody {
             modes: count,
-            nodes: columns / 2,
+            nodes: columns / modes.directions,
+            directions: modes.directions,
             dampers,
             wet,
             tied,
@@ -151,6 +165,11 @@ impl ReducedBody {
     /// Number of nodes on the crack.
     pub fn nodes(&self) -> usize {
         self.nodes
+    }
+
+    /// Number of components of the motion of each.
+    pub fn directions(&self) -> usize {
+        self.directions
     }
 
     /// Number of dashpots that couple its modes.
@@ -206,7 +225,7 @@ impl ReducedBody {
 
     /// Number of components of motion on the crack.
     pub(super) fn columns(&self) -> usize {
-        2 * self.nodes
+        self.directions * self.nodes
     }
 
     /// Number of components of motion on the crack and of rows that tie the modes.

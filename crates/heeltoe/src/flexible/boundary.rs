@@ -318,6 +318,7 @@ mod tests {
             start: &none,
             shapes: &shapes,
             position: &none[..columns],
+            directions: 2,
             dampers: &[],
             damper_signs: &[],
             wet: &[],

@@ -172,6 +172,37 @@ impl Contacts {
         }
     }
 
+    /// The same across the valley, of bodies whose nodes move that way alone.
+    pub(super) fn relative_across<'f>(&self, of: impl Fn(usize) -> Faces<'f>, motion: &mut [f64]) {
+        for (pair, motion) in self.pairs.iter().zip(motion) {
+            let sum = |all: &[f64], nodes: &[(usize, f64); 2]| -> f64 {
+                let moving = nodes.iter().filter(|(_, weight)| *weight != 0.0);
+                moving.map(|(node, weight)| weight * all[*node]).sum()
+            };
+            *motion = pair.as_ref().map_or(0.0, |pair| {
+                let faces = of(pair.crack);
+                sum(faces.upper, &pair.upper) + sum(faces.lower, &pair.lower)
+            });
+        }
+    }
+
+    /// Put forces across the valley on the crack nodes of such bodies.
+    pub(super) fn spread_across<T>(
+        &self,
+        forces: &[f64],
+        parts: &mut [T],
+        of: impl Fn(&mut T) -> &mut Vec<f64>,
+    ) {
+        parts.iter_mut().for_each(|part| of(part).fill(0.0));
+        for (pair, force) in self.pairs.iter().zip(forces) {
+            for (part, nodes) in pair.iter().flat_map(Pair::parts) {
+                for (node, weight) in nodes.iter().filter(|(_, weight)| *weight != 0.0) {
+                    of(&mut parts[part])[*node] += weight * force;
+                }
+            }
+        }
+    }
+
     /// Put the forces that the contacts exert on the crack nodes of all parts, up on the upper face and down on the lower
     /// one; `of` says where a part has them.
     pub(super) fn spread<T>(&self, forces: &[f64], parts: &mut [T], of: impl Fn(&mut T) -> &mut Vec<f64>) {

@@ -1,10 +1,12 @@
 //! How the crack answers to forces in a step: `u = W p` through both faces, and `G` where contacts are closed.
 
+use super::across::Across;
 use super::contact::Contacts;
-use super::coulomb::{ContactOperator, Problem};
+use super::coulomb::{ContactOperator, Problem, Report, Solver};
 use super::coupling::Blocks;
 use super::linear::LinearDam;
 use super::simd::Lanes;
+use super::status::Status;
 
 /// How the crack answers in a step, by what its faces do.
 pub(super) struct FacesOperator<'s, 'a> {
@@ -12,6 +14,26 @@ pub(super) struct FacesOperator<'s, 'a> {
     pub(super) blocks: &'s mut Blocks,
     pub(super) linear: &'s mut LinearDam<'a>,
     pub(super) softness: f64,
+}
+
+impl FacesOperator<'_, '_> {
+    /// Solve the contact problem of a step together with that across the valley, and move the nodes there.
+    pub(super) fn solve_across<W: Lanes>(
+        &mut self,
+        problem: &mut Problem,
+        solver: &mut Solver,
+        across: &mut Across,
+    ) -> Report {
+        let status = &solver.status;
+        self.fill(problem, |contact| status[contact] != Status::Absent);
+        let moved = across.moved;
+        let (disc, rows) = across.problem();
+        let solution = (&mut solver.p[..], &mut solver.u[..]);
+        let report = disc.solve::<W>(problem, rows, &mut solver.status, solution, moved);
+        self.velocities::<W>(problem, &solver.p, &mut solver.u);
+        across.finish::<W>(self.contacts);
+        report
+    }
 }
 
 impl ContactOperator for FacesOperator<'_, '_> {

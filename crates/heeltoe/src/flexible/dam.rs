@@ -6,6 +6,7 @@ use super::envelope::Stressed;
 use super::inside::RisingWater;
 use super::reservoir::Reservoir;
 use super::still::Still;
+use crate::error::Error;
 use crate::stop::Stop;
 
 /// Parts and the cracks between them: crack k is between the parts k and k + 1, the lowest one may be on a rigid plane.
@@ -43,19 +44,23 @@ impl Dam {
     ///
     /// # Errors
     /// Says what is not.
-    pub fn check(&self) -> Result<(), &'static str> {
+    pub fn check(&self) -> Result<(), Error> {
         let [first, rest @ ..] = &self.bodies[..] else {
-            return Err("a dam needs a part");
+            return Err(Error::Dam("a dam needs a part"));
         };
         if !(rest.len()..=self.bodies.len()).contains(&self.cracks.len()) || self.cracks.is_empty() {
-            return Err("a dam needs a crack below each part, but for the lowest one, which may have one");
+            return Err(Error::Dam(
+                "a dam needs a crack below each part, but for the lowest one, which may have one",
+            ));
         }
         let rows = |body: &ReducedBody| (body.dampers, body.wet);
         if rest.iter().any(|body| rows(body) != rows(first)) {
-            return Err("all parts need a row for each dashpot and each mode of the water");
+            return Err(Error::Dam(
+                "all parts need a row for each dashpot and each mode of the water",
+            ));
         }
         if first.wet != self.reservoir.as_ref().map_or(0, Reservoir::ties) {
-            return Err("the parts need the rows that tie them to the water");
+            return Err(Error::Water("the parts need the rows that tie them to the water"));
         }
         let mut met = vec![0; self.bodies.len()];
         for (k, line) in self.cracks.iter().enumerate() {
@@ -65,11 +70,15 @@ impl Dam {
                     span.count > 1 && span.first + span.count <= nodes
                 });
                 if !there {
-                    return Err("a crack needs two nodes or more of each part, which are there");
+                    return Err(Error::Dam(
+                        "a crack needs two nodes or more of each part, which are there",
+                    ));
                 }
                 let segments = line.angles[side].len();
                 if segments > 0 && segments + 1 != span.count {
-                    return Err("a crack that is not straight needs an angle for each segment");
+                    return Err(Error::Dam(
+                        "a crack that is not straight needs an angle for each segment",
+                    ));
                 }
                 if let Some(met) = met.get_mut(k + side) {
                     *met += span.count;
@@ -77,13 +86,15 @@ impl Dam {
             }
         }
         if !met.iter().copied().eq(self.bodies.iter().map(ReducedBody::nodes)) {
-            return Err("every node of a part needs its crack");
+            return Err(Error::Dam("every node of a part needs its crack"));
         }
         for line in &self.cracks {
             let Some(bond) = line.bond else { continue };
             let friction = line.friction[0].max(line.friction[1]);
             if line.law.is_some() || self.contactors == 5 {
-                return Err("a bonded joint has constant friction, and its nodes are watched once");
+                return Err(Error::Dam(
+                    "a bonded joint has constant friction, and its nodes are watched once",
+                ));
             }
             let strengths = [bond.tensile, bond.cohesion];
             let others = [bond.energy[0], bond.energy[1], bond.dynamic, bond.first];
@@ -92,13 +103,36 @@ impl Dam {
                 || strengths.iter().chain(&others).any(|number| !number.is_finite())
                 || bond.cohesion < friction * bond.tensile
             {
-                return Err(
+                return Err(Error::Dam(
                     "a bond needs energies above zero, and a cohesion of friction times its tensile strength",
-                );
+                ));
             }
         }
         for line in &self.cracks {
             line.inside.check(line.nodes.map(|span| span.count))?;
+        }
+        Ok(())
+    }
+
+    /// Whether these are its parts across the valley, and that can be followed.
+    ///
+    /// # Errors
+    /// Says why not.
+    pub fn check_across(&self, bodies: &[ReducedBody]) -> Result<(), &'static str> {
+        let fits = |(own, body): (&ReducedBody, &ReducedBody)| {
+            own.directions() == 1 && own.nodes() == body.nodes() && own.wet() == 0
+        };
+        let alike = bodies.iter().all(|body| body.dampers() == bodies[0].dampers());
+        if bodies.len() != self.bodies.len() || !alike || !bodies.iter().zip(&self.bodies).all(fits) {
+            return Err("across the valley each part needs a component for each of its nodes");
+        }
+        if self.softness() > 0.0
+            || self
+                .cracks
+                .iter()
+                .any(|line| line.law.is_some() || line.bond.is_some())
+        {
+            return Err("across the valley cracks are straight and have coefficients of friction");
         }
         Ok(())
     }
@@ -116,6 +150,21 @@ pub struct Shaking<'a> {
     pub scale: [f64; 2],
     /// Water in the cracks whose pressure changes meanwhile; the penalty method knows none.
     pub rising: &'a [RisingWater],
+    /// What shakes the dam across the valley, by the first of the factors; the penalty method knows nothing of it.
+    pub across: Option<CrossShaking<'a>>,
+}
+
+/// What shakes across the valley.
+#[derive(Clone, Copy, Debug)]
+pub struct CrossShaking<'a> {
+    /// The parts with one component for each node, otherwise as those of the dam.
+    pub bodies: &'a [ReducedBody],
+    /// How far a crack may slip to the left and to the right bank until a neighbour stops it (m).
+    pub gap: [f64; 2],
+    /// Mean acceleration of the ground to the left bank in each step (m/s2).
+    pub ground: &'a [f64],
+    /// How far each mode of the part at the crest moves a point of it whose way is wanted.
+    pub crest: Option<&'a [f64]>,
 }
 
 /// What is wanted of a run beside its summary.

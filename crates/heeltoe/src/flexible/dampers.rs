@@ -76,6 +76,20 @@ pub(super) struct HeldNodes {
 
 impl Wide {
     fn new(bodies: &[ModalStepper], gain: &[f64], state: usize) -> Self {
+        let count = gain.len().isqrt();
+        let (nodes, gained) = HeldNodes::new(bodies, gain, state);
+        let wide = count.div_ceil(LANES);
+        Wide {
+            gain: Panels::new(&in_groups(gain, count), wide, wide),
+            felt: Panels::new(&in_groups(&gained, count), wide, wide),
+            nodes,
+        }
+    }
+}
+
+impl HeldNodes {
+    /// With `N W_dc`, a row for each crack node of all parts.
+    fn new(bodies: &[ModalStepper], gain: &[f64], state: usize) -> (Self, Vec<f64>) {
         let size = bodies.iter().map(|body| body.body.columns()).sum::<usize>();
         let count = gain.len().isqrt();
         let mut parts = Vec::new();
@@ -98,7 +112,7 @@ impl Wide {
             first += own;
         }
         let mut gained = vec![0.0; size * count];
-        for (k, gains) in gain.chunks_exact(count).enumerate() {
+        for (k, gains) in gain.chunks_exact(count.max(1)).enumerate() {
             let mut held = vec![0.0; size];
             for (gain, row) in gains.iter().zip(&felt) {
                 held.iter_mut().zip(row).for_each(|(sum, x)| *sum += gain * x);
@@ -110,21 +124,15 @@ impl Wide {
                 row.iter_mut().zip(&held).for_each(|(sum, held)| *sum -= x * held);
             }
         }
-        let (wide, groups) = (count.div_ceil(LANES), size.div_ceil(LANES));
-        Wide {
-            gain: Panels::new(&in_groups(gain, count), wide, wide),
-            felt: Panels::new(&in_groups(&gained, count), wide, wide),
-            nodes: HeldNodes {
-                tiles: Symmetric::new(&matrix, size),
-                matrix: in_groups(&matrix, size),
-                parts,
-                stride: groups,
-            },
-        }
+        let nodes = HeldNodes {
+            tiles: Symmetric::new(&matrix, size),
+            matrix: in_groups(&matrix, size),
+            parts,
+            stride: size.div_ceil(LANES),
+        };
+        (nodes, gained)
     }
-}
 
-impl HeldNodes {
     /// Find the velocities of the crack nodes with these impulses of contact.
     fn answer<W: Lanes>(&self, bodies: &mut [ModalStepper], impulses: &[Group], room: &mut [Group]) {
         room.fill([0.0; LANES]);
@@ -138,6 +146,23 @@ impl HeldNodes {
             }
             answers = rest;
         }
+    }
+
+    /// How a contact answers to another where its nodes move across the valley alone.
+    pub(super) fn across(&self, one: &Pair, other: &Pair) -> f64 {
+        let mut answer = 0.0;
+        for (part, nodes) in one.parts() {
+            // Of a rigid plane there are no nodes.
+            for (node, a) in nodes.iter().filter(|(_, a)| *a != 0.0) {
+                let row = &self.matrix[(self.parts[part].0 + node) * self.stride..][..self.stride];
+                for (part, nodes) in other.parts() {
+                    for (node, b) in nodes.iter().filter(|(_, b)| *b != 0.0) {
+                        answer += a * b * row.as_flattened()[self.parts[part].0 + node];
+                    }
+                }
+            }
+        }
+        answer
     }
 
     /// How a contact answers to another.
@@ -310,6 +335,11 @@ impl<'a> Dampers<'a> {
             None => Holding::Gain(&self.gain[damping]),
             Some(wide) => Holding::Nodes(&wide[damping].nodes),
         }
+    }
+
+    /// How the crack nodes answer with what the dashpots hold back.
+    pub(super) fn held(&self, bodies: &[ModalStepper], damping: usize) -> HeldNodes {
+        HeldNodes::new(bodies, &self.gain[damping], damping).0
     }
 
     /// Number of rows that the contact problem has to feel by itself.

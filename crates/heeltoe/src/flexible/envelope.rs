@@ -4,6 +4,7 @@
 //! the rows, which are far larger than anything a step reads, are read once for all of these; nothing else is kept.
 
 use super::simd::{apart, Group, Lanes, Plain, LANES};
+use crate::error::Error;
 use crate::table::columns;
 
 /// Groups of states, and states, that are worked on at once.
@@ -22,9 +23,9 @@ impl<'a> Stresses<'a> {
     ///
     /// # Errors
     /// Where these are not as many for each place.
-    pub fn new(rows: &'a [[f64; 3]], modes: usize) -> Result<Self, &'static str> {
+    pub fn new(rows: &'a [[f64; 3]], modes: usize) -> Result<Self, Error> {
         if modes == 0 || !rows.len().is_multiple_of(modes) {
-            return Err("each place needs a stress for each mode");
+            return Err(Error::Body("each place needs a stress for each mode"));
         }
         Ok(Stresses { rows, modes })
     }

@@ -108,8 +108,8 @@ impl Frames {
 pub(super) struct Since {
     /// On the nodes of each crack's upper face.
     nodes: Vec<Vec<f64>>,
-    /// Of each crack, along and across it, and what it could bear by its law.
-    sums: Vec<[f64; 3]>,
+    /// Of each crack, along and across it, what it could bear by its law, and across the valley.
+    sums: Vec<[f64; 4]>,
     time: f64,
 }
 
@@ -118,19 +118,19 @@ impl Since {
         let room = |line: &Line| vec![0.0; 2 * line.nodes[0].count];
         Since {
             nodes: dam.cracks.iter().map(room).collect(),
-            sums: vec![[0.0; 3]; dam.cracks.len()],
+            sums: vec![[0.0; 4]; dam.cracks.len()],
             time: 0.0,
         }
     }
 
     /// Add the impulses on a crack's upper face, and its sums.
-    pub(super) fn add(&mut self, crack: usize, upper: Face, sums: [f64; 3]) {
+    pub(super) fn add(&mut self, crack: usize, upper: Face, sums: [f64; 4]) {
         let impulses = upper.along.iter().chain(upper.across);
         for (total, p) in self.nodes[crack].iter_mut().zip(impulses) {
             *total += p;
         }
         let total = &mut self.sums[crack];
-        *total = [0, 1, 2].map(|k| total[k] + sums[k]);
+        *total = [0, 1, 2, 3].map(|k| total[k] + sums[k]);
     }
 
     /// Go on to the end of a step.
@@ -143,8 +143,8 @@ impl Since {
         self.time > 0.0
     }
 
-    /// Mean force along and across a crack, and mean of what it could bear by its law.
-    pub(super) fn force(&self, crack: usize) -> [f64; 3] {
+    /// Mean force along and across a crack, mean of what it could bear by its law, and mean force across the valley.
+    pub(super) fn force(&self, crack: usize) -> [f64; 4] {
         self.sums[crack].map(|sum| sum * self.rate())
     }
 
@@ -159,7 +159,7 @@ impl Since {
 
     pub(super) fn clear(&mut self) {
         self.nodes.iter_mut().for_each(|nodes| nodes.fill(0.0));
-        self.sums.fill([0.0; 3]);
+        self.sums.fill([0.0; 4]);
         self.time = 0.0;
     }
 }
@@ -168,8 +168,9 @@ impl Since {
 pub(super) struct Snapshot<'a> {
     pub status: &'a [Status],
     pub motion: &'a Motion,
-    /// Mean force along and across it since the frame before, and mean of what it could bear by its law.
-    pub force: [f64; 3],
+    /// Mean force along and across it since the frame before, mean of what it could bear by its law, and mean force
+    /// across the valley.
+    pub force: [f64; 4],
     pub summary: &'a Summary,
     pub ledger: &'a Ledger,
 }
@@ -201,6 +202,8 @@ columns!(Snapshot<'_>, now => {
     "cracked_downstream": now.summary.cracked.lengths[1],
     "cracked_length": now.summary.cracked.lengths[2],
     "softening_length": now.summary.cracked.lengths[3],
+    "slip_cross": now.summary.cross.slip,
+    "friction_cross": now.force[3],
 });
 
 impl Snapshot<'_> {

@@ -64,7 +64,7 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, penalty: &Penalty, wanted: 
             let impulse = |body: &NewmarkStepper| body.force.iter().map(|f| f * dt).collect();
             let impulses: Vec<Vec<f64>> = newmark.bodies.iter().map(impulse).collect();
             let around = |crack| Faces::around(crack, &impulses, |impulse| impulse);
-            newmark.walk.gather(around, *dt);
+            newmark.walk.gather(around, &[], *dt);
         }
         newmark.follow();
         if newmark.walk.due(step) {
@@ -220,7 +220,7 @@ impl<'a> Newmark<'a> {
         if !(sound && ledger.stored.is_finite() && self.walk.cracks[0].summary.slip.is_finite()) {
             self.walk.steps.outcome = Outcome::BlownUp;
         }
-        self.walk.end(ledger, |_| Vec::new())
+        self.walk.end(ledger, Vec::new(), |_| Vec::new())
     }
 }
 

@@ -1,5 +1,6 @@
 //! What is in a crack beside contact, as data: water and anchors; [`super::crack_forces`] is the same under way.
 
+use crate::error::Error;
 use crate::inside::{Anchor, Law};
 
 /// Water in a crack; forces of each node across the crack, of the upper and of the lower face.
@@ -79,11 +80,11 @@ impl Inside {
     ///
     /// # Errors
     /// Says what is not.
-    pub(super) fn check(&self, counts: [usize; 2]) -> Result<(), &'static str> {
+    pub(super) fn check(&self, counts: [usize; 2]) -> Result<(), Error> {
         let forces = |water: &[Vec<f64>; 2]| [water[0].len(), water[1].len()] == counts;
         if let Some(water) = &self.water {
             if !forces(&water.still) || !forces(&water.full) {
-                return Err("the water needs a force for each crack node");
+                return Err(Error::Water("the water needs a force for each crack node"));
             }
         }
         let there = |anchor: &FaceAnchor| {
@@ -91,7 +92,7 @@ impl Inside {
             faces.all(|(point, count)| point.iter().all(|(node, _)| *node < count.max(1)))
         };
         if !self.anchors.iter().all(there) {
-            return Err("an anchor needs nodes that are there");
+            return Err(Error::Dam("an anchor needs nodes that are there"));
         }
         Ok(())
     }

@@ -10,16 +10,18 @@
 //! and the contact problem asks for no more than `u_f`, `W p`, single entries of `W`, and that all follow once `p` is
 //! known. What a dam is made of besides concrete comes in here, behind these few questions.
 
+use super::body::ReducedBody;
 use super::compliance::Compliance;
 use super::contact::Contacts;
 use super::crack_forces::CrackForces;
-use super::dam::Dam;
-use super::dampers::{Dampers, Holding};
+use super::dampers::{Dampers, HeldNodes, Holding};
 use super::faces::Faces;
 use super::ledger::Ledger;
 use super::modal_stepper::{advance, move_crack, Drive, ModalStepper};
+use super::reservoir::Reservoir;
 use super::scheme::TimeStep;
 use super::simd::{Group, Lanes};
+use super::still::Still;
 
 /// Bodies, dashpots and water in a step.
 pub(super) struct LinearDam<'a> {
@@ -32,14 +34,18 @@ pub(super) struct LinearDam<'a> {
 
 impl<'a> LinearDam<'a> {
     /// The dam as it stands before the earthquake; it starts with the damping of cracks that stick.
-    pub(super) fn new(dam: &'a Dam, step: TimeStep) -> Self {
-        let still = dam.still.as_ref();
-        let parts = dam.bodies.iter().enumerate();
+    pub(super) fn new(
+        bodies: &'a [ReducedBody],
+        reservoir: Option<&'a Reservoir>,
+        still: Option<&'a Still>,
+        step: TimeStep,
+    ) -> Self {
+        let parts = bodies.iter().enumerate();
         let bodies: Vec<_> = parts
             .map(|(part, body)| ModalStepper::new(body, still, part, step))
             .collect();
         LinearDam {
-            dampers: Dampers::new(&bodies, dam.reservoir.as_ref(), step),
+            dampers: Dampers::new(&bodies, reservoir, step),
             drive: Drive {
                 ground: [0.0; 2],
                 damping: 0,
@@ -83,6 +89,16 @@ impl<'a> LinearDam<'a> {
     #[inline(always)]
     pub(super) fn spread(&mut self, contacts: &Contacts, impulses: &[f64]) {
         contacts.spread(impulses, &mut self.bodies, |body| &mut body.impulse);
+    }
+
+    /// The same of impulses across the valley.
+    pub(super) fn spread_across(&mut self, contacts: &Contacts, impulses: &[f64]) {
+        contacts.spread_across(impulses, &mut self.bodies, |body| &mut body.impulse);
+    }
+
+    /// How the crack nodes answer in a state of damping, dashpots included.
+    pub(super) fn held(&self, damping: usize) -> HeldNodes {
+        self.dampers.held(&self.bodies, damping)
     }
 
     /// The state of damping of this step.

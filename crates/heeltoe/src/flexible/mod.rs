@@ -3,6 +3,7 @@
 //! Each mode obeys `w'' + c w' + omega^2 w = f - gamma a(t) + shapes^T p`, with the forces p of contact found in every step,
 //! so that nothing passes through the crack and friction is Coulomb's.
 
+mod across;
 mod body;
 mod bond;
 mod boundary;
@@ -26,6 +27,7 @@ mod law;
 mod ledger;
 mod linear;
 pub mod many;
+mod matrices;
 mod modal_stepper;
 mod newmark;
 mod observe;
@@ -51,12 +53,13 @@ mod walk;
 pub use body::{Modes, ReducedBody};
 pub use bond::Cracked;
 pub use crack_line::{BondLaw, Line, RockingThresholds, Span};
-pub use dam::{Dam, Shaking, UntilRest, Wanted};
+pub use dam::{CrossShaking, Dam, Shaking, UntilRest, Wanted};
 pub use envelope::{Extreme, Stressed, Stresses};
 pub use frames::Frames;
 pub use inside::{Crossing, FaceAnchor, FollowingWater, Inside, Point, RisingWater};
 pub use law::worked::Worked;
 pub use ledger::Ledger;
+pub use matrices::{Matrices, MatrixModes};
 pub use observe::State;
 pub use reservoir::Reservoir;
 pub use result::Run;

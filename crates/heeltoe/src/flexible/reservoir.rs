@@ -36,6 +36,7 @@ use super::panels::Panels;
 use super::scheme::TimeStep;
 use super::simd::{apart, fma, in_groups, Group, Lanes, Plain, LANES};
 use super::symmetric::{add_product, Symmetric};
+use crate::error::Error;
 
 /// A reservoir in its modes; `m` of them.
 pub struct Reservoir {
@@ -55,15 +56,13 @@ const LEFT: f64 = 1e-12;
 impl Reservoir {
     /// # Errors
     /// Arrays that do not agree in the number of modes, or none.
-    pub fn new(
-        omega_squared: &[f64],
-        leaving: [&[f64]; 2],
-        ground: [&[f64]; 2],
-    ) -> Result<Self, &'static str> {
+    pub fn new(omega_squared: &[f64], leaving: [&[f64]; 2], ground: [&[f64]; 2]) -> Result<Self, Error> {
         let modes = omega_squared.len();
         let squares = leaving.iter().all(|matrix| matrix.len() == modes * modes);
         if modes == 0 || !squares || ground.iter().any(|share| share.len() != modes) {
-            return Err("the arrays of a reservoir must agree in the number of its modes");
+            return Err(Error::Water(
+                "the arrays of a reservoir must agree in the number of its modes",
+            ));
         }
         Ok(Reservoir {
             omega_squared: omega_squared.to_vec(),
@@ -80,10 +79,10 @@ impl Reservoir {
     ///
     /// # Errors
     /// Where the rows are not as many as the modes.
-    pub fn tie(&mut self, rows: &[&[f64]]) -> Result<Vec<Vec<f64>>, &'static str> {
+    pub fn tie(&mut self, rows: &[&[f64]]) -> Result<Vec<Vec<f64>>, Error> {
         let modes = self.modes();
         if rows.iter().any(|rows| !rows.len().is_multiple_of(modes)) {
-            return Err("the water needs a row for each of its modes");
+            return Err(Error::Water("the water needs a row for each of its modes"));
         }
         let column = |rows: &[f64], c: usize| -> Vec<f64> {
             let count = rows.len() / modes;

@@ -18,6 +18,8 @@ pub struct Run {
     pub extremes: Vec<Vec<Extreme>>,
     /// Where the point of the part at the crest that was wanted is at the start and after each step (m), from anywhere.
     pub crest: Vec<f64>,
+    /// The same across the valley (m).
+    pub crest_cross: Vec<f64>,
 }
 
 impl Run {

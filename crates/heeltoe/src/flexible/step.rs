@@ -18,6 +18,7 @@
 //! be thrown back so that contact would do positive work. Nothing rebounds at a node: the waves in the concrete do
 //! that.
 
+use super::across::Across;
 use super::bond::Bonds;
 use super::contact_operator::FacesOperator;
 use super::coulomb::{Problem, Report, Solver};
@@ -35,6 +36,7 @@ use super::simd::x86;
 use super::simd::{Lanes, Plain};
 use super::status::Status;
 use super::still::Still;
+use super::track::Track;
 use super::walk::Walk;
 
 /// Shake the dam; `theta` is the weight of the new state within a step.
@@ -69,8 +71,14 @@ fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
         moreau
             .walk
             .book(step, |crack| moreau.linear.position(crack), shaking.dt);
+        if let Some(across) = &moreau.across {
+            moreau.walk.book_across(across);
+        }
         if moreau.walk.observed() {
-            moreau.walk.gather(|crack| moreau.linear.impulse(crack), 1.0);
+            let cross = moreau.across.as_ref().map_or(&[][..], |across| &across.rows.p);
+            moreau
+                .walk
+                .gather(|crack| moreau.linear.impulse(crack), cross, 1.0);
         }
         let pushed = moreau.acting.is_some() || moreau.still.is_some();
         moreau.linear.join(moreau.quiet, pushed);
@@ -99,13 +107,18 @@ fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
             .as_ref()
             .map_or_else(Vec::new, |acting| acting.borne(crack))
     };
-    moreau.walk.end(ledger, anchors)
+    let crest_cross = moreau
+        .across
+        .and_then(|across| across.track)
+        .map_or_else(Vec::new, Track::end);
+    moreau.walk.end(ledger, crest_cross, anchors)
 }
 
 /// The dam on its way.
 struct Moreau<'a> {
     walk: Walk<'a>,
     linear: LinearDam<'a>,
+    across: Option<Across<'a>>,
     acting: Option<CrackForces<'a>>,
     still: Option<&'a Still>,
     /// Whether nothing moves the dam in this step.
@@ -118,7 +131,8 @@ impl<'a> Moreau<'a> {
     fn new(dam: &'a Dam, shaking: &'a Shaking, theta: f64, wanted: Wanted<'a>) -> Self {
         let dt = shaking.dt;
         let still = dam.still.as_ref();
-        let linear = LinearDam::new(dam, TimeStep { dt, theta });
+        let step = TimeStep { dt, theta };
+        let linear = LinearDam::new(&dam.bodies, dam.reservoir.as_ref(), still, step);
         let start = linear.energy();
         let start_at = |crack| linear.position(crack);
         let mut walk = Walk::new(dam, dt, wanted, start_at);
@@ -132,6 +146,7 @@ impl<'a> Moreau<'a> {
             }
         }
         Moreau {
+            across: Across::new(dam, shaking.across, walk.crack.contacts.len(), step),
             walk,
             acting: CrackForces::new(&dam.cracks, shaking.rising, start_at),
             still,
@@ -156,6 +171,9 @@ impl<'a> Moreau<'a> {
             damping,
         };
         self.linear.advance::<W>(under_way, drive);
+        if let Some(across) = &mut self.across {
+            across.go_on::<W>(under_way, next, scale[0], damping);
+        }
     }
 
     /// Write the contact problem of the step, with what else acts in the crack.
@@ -171,8 +189,12 @@ impl<'a> Moreau<'a> {
             self.linear.push(acting);
         }
         // A dam that stands under loads that do not change goes on standing, to the last bit.
-        self.quiet = self.still.is_some() && self.linear.rests();
+        let across_rests = self.across.as_ref().is_none_or(Across::rests);
+        self.quiet = self.still.is_some() && self.linear.rests() && across_rests;
         if self.quiet {
+            if let Some(across) = &mut self.across {
+                across.stay(&crack.contacts);
+            }
             return;
         }
         self.linear
@@ -189,6 +211,9 @@ impl<'a> Moreau<'a> {
         }
         crack.set_up();
         crack.bear(self.linear.step);
+        if let Some(across) = &mut self.across {
+            across.set_up::<W>(&crack.contacts);
+        }
     }
 
     /// Solve the contact problem and move the nodes; the bodies get their impulses, the ledger its works.
@@ -210,10 +235,15 @@ impl<'a> Moreau<'a> {
                     linear: &mut self.linear,
                     softness,
                 };
+                let (problem, solver) = (&mut crack.problem, &mut crack.solver);
+                if let Some(across) = &mut self.across {
+                    let report = faces.solve_across::<W>(problem, solver, across);
+                    return self.end_contact::<W>(report, softness);
+                }
                 let solving = Solving {
                     faces: &mut faces,
-                    problem: &mut crack.problem,
-                    solver: &mut crack.solver,
+                    problem,
+                    solver,
                     bonds: crack.bonds.as_mut(),
                     laws: crack.laws.as_mut(),
                     before: &crack.before,
@@ -223,6 +253,11 @@ impl<'a> Moreau<'a> {
                 (solving.solve::<W>(), softness)
             }
         };
+        self.end_contact::<W>(report, softness);
+    }
+
+    /// Book the contact problem as it was solved, and move the nodes.
+    fn end_contact<W: Lanes>(&mut self, report: Report, softness: f64) {
         self.walk.steps.note(report);
         self.book_contact(softness);
         let before = self.acted();
@@ -256,6 +291,10 @@ impl<'a> Moreau<'a> {
                 ledger.fracture += taken[0] + taken[1];
                 ledger.turnover += taken[0].abs() + taken[1].abs();
             }
+            let work = self.across.as_ref().map_or(work, |across| {
+                let own = across.works(of);
+                [work[0] + own[0], work[1] + own[1]]
+            });
             for (lost, work) in watch.summary.lost.iter_mut().zip(work) {
                 *lost -= work;
             }
@@ -320,6 +359,9 @@ impl<'a> Moreau<'a> {
         if let Some(track) = &mut self.walk.track {
             track.add::<W>(self.linear.moved());
         }
+        if let Some(across) = &mut self.across {
+            across.follow::<W>();
+        }
     }
 
     /// Look at the stresses.
@@ -340,6 +382,9 @@ impl<'a> Moreau<'a> {
     fn balance(&self) -> Ledger {
         let mut ledger = self.ledger;
         self.linear.book(&mut ledger);
+        if let Some(across) = &self.across {
+            across.balance(&mut ledger);
+        }
         ledger
     }
 }

@@ -80,6 +80,29 @@ pub struct Summary {
     pub final_state: State,
     /// What each anchor with stiffness has borne (N, s).
     pub anchors: Vec<Borne>,
+    /// What the crack has done across the valley.
+    pub cross: CrossSummary,
+}
+
+/// Peaks and sums of a crack across the valley, positive to the left bank.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CrossSummary {
+    /// Mean motion (m) of the upper face against the lower one.
+    pub slip: f64,
+    /// Largest slip.
+    pub slip_max: f64,
+    /// Least slip.
+    pub slip_min: f64,
+    /// Length (m) of the path of the slip, along and across the valley together.
+    pub slip_path: f64,
+    /// How often the part above comes to rest against a neighbour.
+    pub side_contacts: u64,
+    /// How long a neighbour pushes a node (s).
+    pub time_at_side: f64,
+    /// Impulse (N s) that the neighbours have taken.
+    pub side_impulse: f64,
+    /// Whether one pushes now.
+    pub at_side: bool,
 }
 
 columns!(Summary, s => {
@@ -138,6 +161,13 @@ columns!(Summary, s => {
     "cracked_from_toe": s.cracked.lengths[1],
     "cracked_length": s.cracked.lengths[2],
     "softening_length": s.cracked.lengths[3],
+    "cross_slip": s.cross.slip,
+    "cross_slip_max": s.cross.slip_max,
+    "cross_slip_min": s.cross.slip_min,
+    "cross_slip_path": s.cross.slip_path,
+    "side_contacts": s.cross.side_contacts as f64,
+    "time_at_side": s.cross.time_at_side,
+    "side_impulse": s.cross.side_impulse,
 });
 
 impl Summary {

@@ -268,6 +268,7 @@ fn body(dice: &mut Dice) -> ReducedBody {
         start: &numbers,
         shapes: &shapes,
         position: &position,
+        directions: 2,
         dampers: &[],
         damper_signs: &[],
         wet: &[],

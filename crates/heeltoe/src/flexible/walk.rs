@@ -5,6 +5,7 @@
 
 use std::ops::Range;
 
+use super::across::Across;
 use super::body::ReducedBody;
 use super::bond::Cracked;
 use super::contact::Contactor;
@@ -212,16 +213,27 @@ impl<'a> Walk<'a> {
     }
 
     /// Add the impulses of a step, on the nodes around each crack, to those since the last frame; what the contact problem
-    /// has found times `factor` are impulses.
-    pub(super) fn gather<'f>(&mut self, impulse: impl Fn(usize) -> Faces<'f>, factor: f64) {
+    /// has found times `factor` are impulses; `cross` has those of the contacts across the valley, if there are any.
+    pub(super) fn gather<'f>(&mut self, impulse: impl Fn(usize) -> Faces<'f>, cross: &[f64], factor: f64) {
         let crack = &self.crack;
         for (k, watch) in self.cracks.iter().enumerate() {
             let [along, across] = crack.sums(watch.contacts.clone()).map(|sum| sum * factor);
             let borne = crack.laws.as_ref().map_or(0.0, |laws| laws.sums[k][1] * self.dt);
             let upper = watch.place.of(impulse(k)).upper;
-            self.since.add(k, upper, [along, across, borne]);
+            let cross = cross
+                .get(watch.contacts.clone())
+                .map_or(0.0, |own| own.iter().sum::<f64>() * factor);
+            self.since.add(k, upper, [along, across, borne, cross]);
         }
         self.since.go_on(self.dt);
+    }
+
+    /// Book what a step has done across the valley.
+    pub(super) fn book_across(&mut self, across: &Across) {
+        for (k, watch) in self.cracks.iter_mut().enumerate() {
+            let along = watch.summary.slip_velocity * self.dt;
+            across.book(k, watch.contacts.clone(), along, &mut watch.summary.cross);
+        }
     }
 
     /// Keep a frame.
@@ -300,8 +312,14 @@ impl<'a> Walk<'a> {
         !here || self.wanted.stop.asked()
     }
 
-    /// Hand over what there is to tell; `anchors` has what those of a crack bore.
-    pub(super) fn end(self, ledger: Ledger, anchors: impl Fn(usize) -> Vec<Borne>) -> Run {
+    /// Hand over what there is to tell; `anchors` has what those of a crack bore, `crest_cross` the way of its crest across
+    /// the valley.
+    pub(super) fn end(
+        self,
+        ledger: Ledger,
+        crest_cross: Vec<f64>,
+        anchors: impl Fn(usize) -> Vec<Borne>,
+    ) -> Run {
         let steps = &self.steps;
         let summary = |(crack, watch): (usize, Watch)| Summary {
             ledger,
@@ -320,6 +338,7 @@ impl<'a> Walk<'a> {
             worked: self.crack.laws.map_or_else(Vec::new, |laws| laws.contacts),
             extremes: self.envelope.map_or_else(Vec::new, Envelope::end),
             crest: self.track.map_or_else(Vec::new, Track::end),
+            crest_cross,
         }
     }
 }

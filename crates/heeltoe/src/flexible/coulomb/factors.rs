@@ -9,10 +9,11 @@
 //!
 //! The matrix is factored, `P G = L U`, column by column, with row pivoting.
 
-use super::super::simd::{add_times, apart, combine, fma, Group, Lanes, LANES};
+use super::super::simd::{apart, combine, fma, Group, Lanes, LANES};
 use super::super::status::Status;
 use super::linear::{missing, Linear};
 use super::problem::Problem;
+use super::triangles;
 
 /// Solutions with the same factors after which their inverse pays: one solution by it takes a quarter of the time, and all
 /// of it as long as five. By factors the velocities are right to rounding whatever the matrix is, so what is not
@@ -168,76 +169,23 @@ impl Factors {
         }
         let stride = n.div_ceil(LANES);
         self.sum = vec![[0.0; LANES]; stride];
-        // All columns at once: of each of them the product with the matrix is right to rounding, that of rows would not be.
-        let mut rows = vec![[0.0; LANES]; n * stride];
-        for k in 0..n {
-            rows[k * stride..][..stride].as_flattened_mut()[k] = 1.0;
-        }
-        for (k, &pivot) in self.pivots.iter().enumerate().filter(|(k, pivot)| k != *pivot) {
-            let (above, below) = rows.split_at_mut(pivot * stride);
-            above[k * stride..][..stride].swap_with_slice(&mut below[..stride]);
-        }
-        for k in 0..n {
-            let (own, below) = rows[k * stride..].split_at_mut(stride);
-            let multipliers = &self.lu[k * n + k + 1..(k + 1) * n];
-            for (row, l) in below.chunks_exact_mut(stride).zip(multipliers) {
-                add_times::<W>(-l, own, row);
-            }
-        }
-        for k in (0..n).rev() {
-            let (above, own) = rows.split_at_mut(k * stride);
-            let own = &mut own[..stride];
-            let pivot = W::all(self.lu[k * n + k]);
-            for x in own.iter_mut() {
-                pivot.fma(W::load(x), W::all(0.0)).store(x);
-            }
-            for (row, u) in above.chunks_exact_mut(stride).zip(&self.lu[k * n..]) {
-                add_times::<W>(-u, own, row);
-            }
-        }
-        self.inverse = vec![[0.0; LANES]; n * stride];
-        let (rows, columns) = (rows.as_flattened(), self.inverse.as_flattened_mut());
-        for k in 0..n {
-            for r in 0..n {
-                columns[k * stride * LANES + r] = rows[r * stride * LANES + k];
-            }
-        }
+        triangles::inverse::<W>(&self.lu, &self.pivots, n, &mut self.inverse);
     }
 
     /// What [`substitute`] does.
     #[inline(always)]
     fn solve_triangles<W: Lanes>(&mut self) {
-        let n = self.unknowns.len();
-        for (k, &pivot) in self.pivots.iter().enumerate() {
-            self.x.swap(k, pivot);
-        }
-        // The factors are stored column by column: all of the work is adding multiples of columns.
-        for k in 0..n {
-            let factor = -self.x[k];
-            let (_, below) = self.x.split_at_mut(k + 1);
-            for (value, l) in below.iter_mut().zip(&self.lu[k * n + k + 1..(k + 1) * n]) {
-                *value = fma::<W>(factor, *l, *value);
-            }
-        }
-        for k in (0..n).rev() {
-            let value = self.x[k] * self.lu[k * n + k];
-            self.x[k] = value;
-            let (above, _) = self.x.split_at_mut(k);
-            for (other, l) in above.iter_mut().zip(&self.lu[k * n..k * n + k]) {
-                *other = fma::<W>(-value, *l, *other);
-            }
-        }
+        triangles::substitute::<W>(&self.lu, &self.pivots, &mut self.x);
     }
 
     /// What [`factor`] does.
     #[inline(always)]
     fn anew<W: Lanes>(&mut self, problem: &Problem, status: &[Status]) -> bool {
         self.set_up::<W>(problem, status);
-        self.pivots.clear();
         self.inverse.clear();
         self.used = 0;
         self.old = false;
-        self.fresh = self.eliminate::<W>();
+        self.fresh = triangles::eliminate::<W>(&mut self.lu, self.unknowns.len(), &mut self.pivots);
         if self.fresh {
             self.of.clear();
             self.of.extend_from_slice(status);
@@ -276,48 +224,6 @@ impl Factors {
                 }
             }
         }
-    }
-
-    /// Gauss's elimination in place; false where a pivot vanishes.
-    #[inline(always)]
-    fn eliminate<W: Lanes>(&mut self) -> bool {
-        let n = self.unknowns.len();
-        for k in 0..n {
-            let column = &self.lu[k * n + k..(k + 1) * n];
-            let mut pivot = 0;
-            for (row, value) in column.iter().enumerate() {
-                if value.abs() > column[pivot].abs() {
-                    pivot = row;
-                }
-            }
-            let largest = column[pivot];
-            if largest == 0.0 || !largest.is_finite() {
-                return false;
-            }
-            self.pivots.push(k + pivot);
-            if pivot != 0 {
-                for column in self.lu.chunks_exact_mut(n) {
-                    column.swap(k, k + pivot);
-                }
-            }
-            // The pivot is kept as its inverse: solving needs no division.
-            let inverse = 1.0 / largest;
-            let (left, right) = self.lu.split_at_mut((k + 1) * n);
-            let multipliers = &mut left[k * n + k..];
-            multipliers[0] = inverse;
-            for value in &mut multipliers[1..] {
-                *value *= inverse;
-            }
-            for column in right.chunks_exact_mut(n) {
-                let factor = -column[k];
-                if factor != 0.0 {
-                    for (value, l) in column[k + 1..].iter_mut().zip(&multipliers[1..]) {
-                        *value = fma::<W>(factor, *l, *value);
-                    }
-                }
-            }
-        }
-        true
     }
 }
 

@@ -13,12 +13,14 @@
 //! their conditions change state, and the factors of the last few sets are kept as long as what `G` has for them. So `G`
 //! itself is wanted among closed contacts only; what else is said of `u` is for the faces to tell.
 
+pub(super) mod disc;
 mod factors;
 mod inverse;
 mod linear;
 mod past;
 mod problem;
 mod sweep;
+mod triangles;
 
 pub(super) use self::problem::{ContactOperator, Known, Problem};
 

@@ -1,0 +1,197 @@
+//! The dam across the valley: one displacement w at right angles to its section.
+//!
+//! Nothing in the bodies couples w with the motion in the section,
+//!
+//! ```text
+//! M_y w'' + C_y w' + K_y w = -M_y 1 a_y + forces in the cracks
+//! ```
+//!
+//! so that they are bodies of their own in their modes, see [`super::body`], with one component for each node. In the
+//! cracks friction joins both, see [`super::coulomb::disc`]. Water does nothing along a face, and before the earthquake
+//! w is zero. A neighbour stops the nodes of a crack once they have slipped as far as the gap beside it, and does not let
+//! them rebound.
+
+use super::contact::Contacts;
+use super::coulomb::disc::{Disc, Rows, Side};
+use super::dam::{CrossShaking, Dam};
+use super::dampers::HeldNodes;
+use super::ledger::Ledger;
+use super::linear::LinearDam;
+use super::modal_stepper::Drive;
+use super::place::Place;
+use super::scheme::TimeStep;
+use super::simd::Lanes;
+use super::summary::CrossSummary;
+use super::track::Track;
+
+/// Closer to a neighbour than this (m) a node touches it; it may pass it by the way of one step.
+const TOUCHES: f64 = 1e-9;
+
+/// The dam across the valley on its way.
+pub(super) struct Across<'a> {
+    crossing: CrossShaking<'a>,
+    linear: LinearDam<'a>,
+    held: [HeldNodes; 2],
+    places: Vec<Place>,
+    disc: Disc,
+    pub rows: Rows,
+    /// Of each contact: velocity before the step, and how far it has slipped.
+    before: Vec<f64>,
+    slip: Vec<f64>,
+    /// Whether contacts have moved since their answers were written.
+    pub moved: bool,
+    pub track: Option<Track>,
+}
+
+impl<'a> Across<'a> {
+    /// None where the ground does not move that way.
+    pub(super) fn new(
+        dam: &Dam,
+        crossing: Option<CrossShaking<'a>>,
+        contacts: usize,
+        step: TimeStep,
+    ) -> Option<Self> {
+        let crossing = crossing.filter(|crossing| crossing.ground.iter().any(|a| *a != 0.0))?;
+        let linear = LinearDam::new(crossing.bodies, None, None, step);
+        Some(Across {
+            held: [0, 1].map(|state| linear.held(state)),
+            linear,
+            places: Place::all(&dam.cracks),
+            disc: Disc::new(contacts),
+            rows: Rows::new(contacts),
+            before: vec![0.0; contacts],
+            slip: vec![0.0; contacts],
+            moved: true,
+            track: crossing.crest.map(Track::new),
+            crossing,
+        })
+    }
+
+    /// Let the modes finish the present step, where there is one, and begin another.
+    pub(super) fn go_on<W: Lanes>(&mut self, under_way: bool, next: usize, scale: f64, damping: usize) {
+        let a = self.crossing.ground.get(next).copied().unwrap_or(0.0);
+        let drive = Drive {
+            ground: [scale * a * self.linear.step.dt, 0.0],
+            damping,
+        };
+        self.linear.advance::<W>(under_way, drive);
+    }
+
+    /// Whether nothing moves or drives it.
+    pub(super) fn rests(&self) -> bool {
+        self.linear.rests()
+    }
+
+    /// Leave it at rest for a step.
+    pub(super) fn stay(&mut self, contacts: &Contacts) {
+        self.moved |= contacts.moved.contains(&true);
+        self.rows.p.fill(0.0);
+        self.rows.u.fill(0.0);
+    }
+
+    /// Write the rows of the step's contact problem.
+    pub(super) fn set_up<W: Lanes>(&mut self, contacts: &Contacts) {
+        self.linear.find_free::<W>(false, false);
+        let (linear, rows, m) = (&self.linear, &mut self.rows, contacts.len());
+        let held = &self.held[linear.damping()];
+        let all = self.moved;
+        self.moved |= contacts.moved.contains(&true);
+        for (i, one) in contacts.pairs.iter().enumerate() {
+            let Some(one) = one else { continue };
+            for (j, other) in contacts.pairs[..=i].iter().enumerate() {
+                let (Some(other), true) = (other, all || contacts.moved[i] || contacts.moved[j]) else {
+                    continue;
+                };
+                let answer = held.across(one, other);
+                (rows.g[i * m + j], rows.g[j * m + i]) = (answer, answer);
+            }
+            if rows.scale[i] == 0.0 {
+                rows.scale[i] = 1.0 / rows.g[i * m + i];
+            }
+        }
+        contacts.relative_across(|crack| linear.free(crack), &mut rows.b);
+        contacts.relative_across(|crack| linear.velocity(crack), &mut self.before);
+        contacts.relative_across(|crack| linear.position(crack), &mut self.slip);
+        for (touches, slip) in rows.touches.iter_mut().zip(&self.slip) {
+            let [left, right] = self.crossing.gap;
+            *touches = [slip + TOUCHES > left, TOUCHES - slip > right];
+        }
+    }
+
+    /// The solver and the rows that it needs.
+    pub(super) fn problem(&mut self) -> (&mut Disc, &mut Rows) {
+        (&mut self.disc, &mut self.rows)
+    }
+
+    /// Move the nodes by the impulses found.
+    pub(super) fn finish<W: Lanes>(&mut self, contacts: &Contacts) {
+        self.moved = false;
+        self.linear.spread_across(contacts, &self.rows.p);
+        self.linear.answer::<W>();
+        contacts.relative_across(|crack| self.linear.answered(crack), &mut self.rows.u);
+        self.linear.finish::<W>();
+    }
+
+    /// Works of friction and of the neighbours on some contacts.
+    pub(super) fn works(&self, contacts: std::ops::Range<usize>) -> [f64; 2] {
+        let (theta, rows) = (self.linear.step.theta, &self.rows);
+        let mut works = [0.0; 2];
+        for k in contacts {
+            let mean = (1.0 - theta) * self.before[k] + theta * rows.u[k];
+            works[usize::from(rows.side[k] != Side::None)] += rows.p[k] * mean;
+        }
+        works
+    }
+
+    /// Book what the step has done to a crack with these contacts, whose faces have slipped so far against each other
+    /// along it in the step.
+    pub(super) fn book(
+        &self,
+        crack: usize,
+        contacts: std::ops::Range<usize>,
+        along: f64,
+        summary: &mut CrossSummary,
+    ) {
+        let faces = self.linear.position(crack);
+        let mean = |numbers: &[f64]| numbers.iter().sum::<f64>() / numbers.len().max(1) as f64;
+        let [upper, lower] = self.places[crack].spans();
+        let of = |numbers: &[f64], first: usize, count: usize| {
+            if count == 0 {
+                0.0
+            } else {
+                mean(&numbers[first..][..count])
+            }
+        };
+        let slip = of(faces.upper, upper.first, upper.count) - of(faces.lower, lower.first, lower.count);
+        summary.slip_path += along.hypot(slip - summary.slip);
+        summary.slip = slip;
+        summary.slip_max = summary.slip_max.max(slip);
+        summary.slip_min = summary.slip_min.min(slip);
+        let (mut held, rows) = (false, &self.rows);
+        for k in contacts {
+            if rows.side[k] != Side::None {
+                held = true;
+                summary.side_impulse += rows.p[k].abs();
+            }
+        }
+        summary.side_contacts += u64::from(held && !summary.at_side);
+        summary.at_side = held;
+        if held {
+            summary.time_at_side += self.linear.step.dt;
+        }
+    }
+
+    /// Follow the point of the crest that is wanted.
+    pub(super) fn follow<W: Lanes>(&mut self) {
+        if let Some(track) = &mut self.track {
+            track.add::<W>(self.linear.moved());
+        }
+    }
+
+    /// Add its works and the energy it holds to a ledger that has those of the motion in the section.
+    pub(super) fn balance(&self, ledger: &mut Ledger) {
+        let stored = ledger.stored;
+        self.linear.book(ledger);
+        ledger.stored = stored + self.linear.energy();
+    }
+}
