@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use heeltoe::flexible::{
-    find_rest, many, simulate, BondLaw, Crossing, Dam, FaceAnchor, Inside, Line, Modes, Penalty, Point,
-    RisingWater, RockingThresholds, Scheme, Shaking, Span, Stressed, Stresses, Summary, Unrest, UntilRest,
-    Wanted,
+    find_rest, many, simulate, BondLaw, CrossShaking, Crossing, Dam, FaceAnchor, Inside, Line, Modes,
+    Penalty, Point, RisingWater, RockingThresholds, Scheme, Shaking, Span, Stressed, Stresses, Summary,
+    Unrest, UntilRest, Wanted,
 };
 use heeltoe::inside::Law;
 use numpy::{PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
@@ -14,7 +14,7 @@ use pyo3::types::PyTuple;
 
 use crate::law::FrictionLaw;
 use crate::results::{by_column, AtRest, DamRun};
-use crate::tables::{named, pool, rows, wrong, Numbers};
+use crate::tables::{named, pool, rows, slice, wrong, Numbers};
 use crate::watch::{watched, Ending};
 
 /// A body in its modes as Python gives it, by the names of `Modes`.
@@ -36,8 +36,8 @@ pub struct ReducedBody<'py> {
 }
 
 impl ReducedBody<'_> {
-    /// With the rows that tie it to water.
-    fn body(&self, wet: &[f64]) -> PyResult<heeltoe::flexible::ReducedBody> {
+    /// With the rows that tie it to water, and so many components for each node.
+    fn body(&self, wet: &[f64], directions: usize) -> PyResult<heeltoe::flexible::ReducedBody> {
         let modes = Modes {
             omega_squared: self.omega_squared.as_slice()?,
             damping: [self.damping_sticking.as_slice()?, self.damping_free.as_slice()?],
@@ -49,6 +49,7 @@ impl ReducedBody<'_> {
             start: self.start.as_slice()?,
             shapes: self.shapes.as_slice()?,
             position: self.position.as_slice()?,
+            directions,
             dampers: self.dampers.as_slice()?,
             damper_signs: self.damper_signs.as_slice()?,
             wet,
@@ -227,6 +228,8 @@ pub struct CrackedDam {
     /// The crack that is asked of.
     asked: usize,
     rising: Vec<RisingWater>,
+    /// Its parts across the valley, and how far their neighbours are.
+    across: Option<(Arc<Vec<heeltoe::flexible::ReducedBody>>, [f64; 2])>,
     /// Why there is no state of rest.
     unrest: Option<Unrest>,
 }
@@ -269,11 +272,36 @@ impl CrackedDam {
 
 impl CrackedDam {
     /// The ground, and the water that changes meanwhile, as this scheme may have it.
-    fn shaking<'a>(&'a self, ground: &'a [[f64; 2]], dt: f64, scheme: &Scheme) -> PyResult<Shaking<'a>> {
+    fn shaking<'a>(
+        &'a self,
+        ground: &'a [[f64; 2]],
+        across: Option<&'a [f64]>,
+        dt: f64,
+        scheme: &Scheme,
+    ) -> PyResult<Shaking<'a>> {
         if !self.rising.is_empty() && matches!(scheme, Scheme::Penalty(_)) {
             return Err(wrong("water that changes needs exact contact"));
         }
+        let across = match (across, &self.across) {
+            (None, _) => None,
+            (Some(_), None) => return Err(wrong("the dam has no parts across the valley")),
+            (Some(_), _) if matches!(scheme, Scheme::Penalty(_)) => {
+                return Err(wrong("shaking across the valley needs exact contact"))
+            }
+            (Some(across), _) if across.len() != ground.len() => {
+                return Err(wrong(
+                    "the ground needs as many steps across the valley as along it",
+                ))
+            }
+            (Some(ground), Some((bodies, gap))) => Some(CrossShaking {
+                bodies,
+                gap: *gap,
+                ground,
+                crest: None,
+            }),
+        };
         Ok(Shaking {
+            across,
             ground,
             dt,
             scale: [1.0; 2],
@@ -306,7 +334,7 @@ impl CrackedDam {
             Some(water) => water.tie(&rows).map_err(wrong)?,
             None => rows.iter().map(|rows| rows.to_vec()).collect(),
         };
-        let bodies = parts.iter().zip(&ties).map(|(part, ties)| part.body(ties));
+        let bodies = parts.iter().zip(&ties).map(|(part, ties)| part.body(ties, 2));
         let mut dam = Dam {
             bodies: bodies.collect::<PyResult<_>>()?,
             cracks: cracks.iter().map(CrackLine::line).collect::<PyResult<_>>()?,
@@ -322,6 +350,7 @@ impl CrackedDam {
             dam: Arc::new(dam),
             asked,
             rising: Vec::new(),
+            across: None,
             unrest,
         })
     }
@@ -341,6 +370,21 @@ impl CrackedDam {
             dam: Arc::clone(&self.dam),
             asked: self.asked,
             rising,
+            across: self.across.clone(),
+            unrest: self.unrest,
+        })
+    }
+
+    /// See `_kernel.pyi`.
+    fn crossed(&self, parts: Vec<ReducedBody<'_>>, gap: [f64; 2]) -> PyResult<Self> {
+        let bodies = parts.iter().map(|part| part.body(part.wet.as_slice()?, 1));
+        let bodies = bodies.collect::<PyResult<Vec<_>>>()?;
+        self.dam.check_across(&bodies).map_err(wrong)?;
+        Ok(CrackedDam {
+            dam: Arc::clone(&self.dam),
+            asked: self.asked,
+            rising: self.rising.clone(),
+            across: Some((Arc::new(bodies), gap)),
             unrest: self.unrest,
         })
     }
@@ -357,7 +401,7 @@ impl CrackedDam {
     }
 
     /// See `_kernel.pyi`.
-    #[pyo3(signature = (ground, step, theta, *, stride=0, stresses=None, crest=None, penalty=None, ending=None, until_rest=None))]
+    #[pyo3(signature = (ground, step, theta, *, stride=0, stresses=None, crest=None, penalty=None, ending=None, until_rest=None, across=None, crest_across=None))]
     #[allow(clippy::too_many_arguments)]
     fn run<'py>(
         &self,
@@ -371,9 +415,16 @@ impl CrackedDam {
         penalty: Option<[f64; 3]>,
         ending: Option<Bound<'py, Ending>>,
         until_rest: Option<(usize, usize, f64, f64)>,
+        across: Option<Numbers<'py>>,
+        crest_across: Option<Numbers<'py>>,
     ) -> PyResult<DamRun> {
         let scheme = self.scheme(theta, penalty)?;
-        let shaking = self.shaking(rows(ground.as_slice()?, "ground")?, step, &scheme)?;
+        let mut shaking = self.shaking(
+            rows(ground.as_slice()?, "ground")?,
+            slice(&across)?,
+            step,
+            &scheme,
+        )?;
         let stresses = stresses
             .as_ref()
             .map(|wanted| Ok::<_, PyErr>((wanted.stresses()?, wanted.stride)))
@@ -387,6 +438,17 @@ impl CrackedDam {
             return Err(wrong(
                 "a point of the crest needs a number for each mode of its part",
             ));
+        }
+        if let Some(across) = &mut shaking.across {
+            across.crest = slice(&crest_across)?;
+            if across
+                .crest
+                .is_some_and(|row| row.len() != across.bodies[0].count())
+            {
+                return Err(wrong(
+                    "a point of the crest needs a number for each mode of its part",
+                ));
+            }
         }
         let until_rest = until_rest.map(|(first, every, seconds, moved)| UntilRest {
             first,
@@ -410,7 +472,7 @@ impl CrackedDam {
     }
 
     /// See `_kernel.pyi`.
-    #[pyo3(signature = (ground, step, theta, scales, *, threads=0, penalty=None, ending=None))]
+    #[pyo3(signature = (ground, step, theta, scales, *, threads=0, penalty=None, ending=None, across=None))]
     #[allow(clippy::too_many_arguments)]
     fn run_many<'py>(
         &self,
@@ -422,9 +484,15 @@ impl CrackedDam {
         threads: usize,
         penalty: Option<[f64; 3]>,
         ending: Option<Bound<'py, Ending>>,
+        across: Option<Numbers<'py>>,
     ) -> PyResult<Bound<'py, PyTuple>> {
         let scheme = self.scheme(theta, penalty)?;
-        let shaking = self.shaking(rows(ground.as_slice()?, "ground")?, step, &scheme)?;
+        let shaking = self.shaking(
+            rows(ground.as_slice()?, "ground")?,
+            slice(&across)?,
+            step,
+            &scheme,
+        )?;
         let scales = rows(scales.as_slice()?, "scales")?;
         let pool = pool(threads)?;
         let runs = watched(

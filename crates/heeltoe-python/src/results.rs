@@ -171,13 +171,15 @@ numbers!(DamSummary of elastic::Summary {
     energy_damping energy_numerical energy_impact energy_friction energy_gained energy_turnover energy_residual steps
     iterations most_iterations sweeps contact_residual final_state crack_friction crack_impact slip_path bond_energy
     energy_fracture energy_boundary energy_floor energy_far_end crack_fracture first_cracking first_cracking_place cracked_through cracked_from_heel
-    cracked_from_toe cracked_length softening_length
+    cracked_from_toe cracked_length softening_length cross_slip cross_slip_max cross_slip_min cross_slip_path side_contacts
+    time_at_side side_impulse
 });
 
 columns!(DamFrames of Frames {
     time slip slip_velocity rotation gap_heel gap_toe normal_force friction_force touching state stored_energy
     input_energy damping_energy impact_energy friction_energy numerical_energy slip_path friction_strength
     fracture_energy boundary_energy floor_energy far_end_energy cracked_upstream cracked_downstream cracked_length softening_length
+    slip_cross friction_cross
 });
 
 columns!(StressExtremes of elastic::Extreme { tension tension_time xx zz xz compression compression_time });
@@ -217,6 +219,21 @@ impl BlockSummary {
             energy_input: self.energy_input + later.energy_input,
             energy_friction: self.energy_friction + later.energy_friction,
             energy_impact: self.energy_impact + later.energy_impact,
+            ..later.clone()
+        }
+    }
+}
+
+impl CrossingSummary {
+    /// This and a later run as one.
+    fn then(&self, later: &Self) -> Self {
+        CrossingSummary {
+            slip_min: self.slip_min.min(later.slip_min),
+            slip_max: self.slip_max.max(later.slip_max),
+            path: self.path + later.path,
+            side_impulse: self.side_impulse + later.side_impulse,
+            time_at_side: self.time_at_side + later.time_at_side,
+            side_strikes: self.side_strikes + later.side_strikes,
             ..later.clone()
         }
     }
@@ -376,6 +393,19 @@ impl BlockRun {
             }
             _ => None,
         };
+        let crossing = match (&self.crossing, &later.crossing) {
+            (Some(first), Some(later)) => {
+                let (first, later) = (first.get(), later.get());
+                let (above, below) = (first.kept.bind(py), later.kept.bind(py));
+                let kept = [above.readonly().as_slice()?, below.readonly().as_slice()?].concat();
+                let crossing = Crossing {
+                    kept: shaped(py, kept, above.shape()[0] + below.shape()[0])?.unbind(),
+                    summary: Py::new(py, first.summary.get().then(later.summary.get()))?,
+                };
+                Some(Py::new(py, crossing)?)
+            }
+            _ => None,
+        };
         Ok(BlockRun {
             summary: Py::new(py, self.summary.get().then(later.summary.get()))?,
             histories: Py::new(py, self.histories.get().then(py, later.histories.get())?)?,
@@ -384,8 +414,7 @@ impl BlockRun {
             anchors,
             worn: worn.map(|worn| Py::new(py, worn)).transpose()?,
             rough: rough.map(|rough| Py::new(py, rough)).transpose()?,
-            // No run across the valley is made of several.
-            crossing: None,
+            crossing,
         })
     }
 }
@@ -457,6 +486,7 @@ pub struct DamRun {
     extremes: Py<PyTuple>,
     worked: Py<WornContacts>,
     crest: Column,
+    crest_cross: Column,
 }
 
 impl DamRun {
@@ -503,6 +533,7 @@ impl DamRun {
             water: shaped(py, frames.water, count)?.unbind(),
             extremes: PyTuple::new(py, extremes)?.unbind(),
             crest: array(py, run.crest),
+            crest_cross: array(py, run.crest_cross),
             worked: Py::new(
                 py,
                 WornContacts::of(py, run.worked.iter().map(elastic::Worked::row))?,

@@ -95,7 +95,7 @@ pub fn run_rigid<'py>(
 pub fn run_rigid_plane<'py>(
     py: Python<'py>,
     block: Numbers<'py>,
-    across: [f64; 3],
+    across: [f64; 5],
     time: Numbers<'py>,
     horizontal: Numbers<'py>,
     vertical: Option<Numbers<'py>>,
@@ -112,12 +112,7 @@ pub fn run_rigid_plane<'py>(
         level: &level,
         cross: cross.as_slice()?,
     };
-    let [mass, left, right] = across;
-    let across = Across {
-        mass,
-        gap: [left, right],
-        start: [0.0; 2],
-    };
+    let across = self::across(across);
     across.check(&block, &shaking).map_err(wrong)?;
     let options = Options {
         settle,
@@ -131,10 +126,19 @@ pub fn run_rigid_plane<'py>(
     BlockRun::of(py, run, true)
 }
 
+/// What moves across the valley: its mass, the gaps to the left and to the right, its place and its velocity.
+fn across([mass, left, right, place, velocity]: [f64; 5]) -> Across {
+    Across {
+        mass,
+        gap: [left, right],
+        start: [place, velocity],
+    }
+}
+
 /// Run one block under loads and at rotations that change; see `_kernel.pyi`.
 #[pyfunction]
 #[pyo3(signature = (block, varying, rotation, law, pressure, anchors, friction, asperities, time, horizontal,
-    vertical, turning, output_times, start, worn, rough, settle, event_limit, jam))]
+    vertical, turning, output_times, start, worn, rough, settle, event_limit, jam, across=None, cross=None))]
 #[allow(clippy::too_many_arguments)]
 pub fn run_rigid_varying<'py>(
     py: Python<'py>,
@@ -157,6 +161,8 @@ pub fn run_rigid_varying<'py>(
     settle: f64,
     event_limit: u64,
     jam: bool,
+    across: Option<[f64; 5]>,
+    cross: Option<Numbers<'py>>,
 ) -> PyResult<BlockRun> {
     let block = self::block(&block)?;
     let anchors = rows(anchors.as_slice()?, "anchors")?.iter().map(anchor).collect();
@@ -168,7 +174,7 @@ pub fn run_rigid_varying<'py>(
         anchors,
     );
     let level = Shaking::new(time.as_slice()?, horizontal.as_slice()?, slice(&vertical)?).map_err(wrong)?;
-    let shaking = TurningShaking::new(level, slice(&turning)?).map_err(wrong)?;
+    let shaking = TurningShaking::new(level.clone(), slice(&turning)?).map_err(wrong)?;
     let options = Options {
         settle,
         event_limit,
@@ -181,6 +187,16 @@ pub fn run_rigid_varying<'py>(
         worn: worn.map_or(BeenThrough::FRESH, |(path, bonded)| BeenThrough { path, bonded }),
         asperities: asperities.map(|asperities| (asperities, rough.unwrap_or_default())),
     });
+    if let (Some(across), Some(cross)) = (across, slice(&cross)?) {
+        let (across, shaking) = (self::across(across), CrossShaking { level: &level, cross });
+        across.check(&block, &shaking).map_err(wrong)?;
+        let varying = (&body, surface.as_ref());
+        let walk = |options: Options, wanted: Wanted<'_>| {
+            plane::simulate_varying(&block, &across, &shaking, varying, start, options, wanted)
+        };
+        let run = walked(py, time.len()?, &output_times, options, walk)?;
+        return BlockRun::of(py, run, true);
+    }
     let walk = |options: Options, wanted: Wanted<'_>| {
         varying::simulate(&block, &body, surface.as_ref(), &shaking, start, options, wanted)
     };

@@ -56,6 +56,7 @@ fn part(faces: usize, force: f64) -> ReducedBody {
         start: &zeros,
         shapes: &shapes,
         position: &position,
+        directions: 2,
         dampers: &[],
         damper_signs: &[],
         wet: &[],
@@ -104,6 +105,7 @@ fn shake(dt: f64, steps: usize) -> Run {
         dt,
         scale: [1.0; 2],
         rising: &[],
+        across: None,
     };
     let wanted = Wanted {
         stride: 1,

@@ -49,6 +49,7 @@ impl Pair {
             dt,
             scale: [1.0; 2],
             rising: &[],
+            across: None,
         }
     }
 }
@@ -73,6 +74,7 @@ pub fn pair_of_nodes(pair: &Pair) -> Dam {
         start: &[pair.pulled * root, 0.0, 0.0, 0.0],
         shapes: shapes.as_flattened(),
         position: &[pair.pulled, 10.0 + pair.pulled, pair.gap, pair.gap],
+        directions: 2,
         dampers: &[],
         damper_signs: &[],
         wet: &[],

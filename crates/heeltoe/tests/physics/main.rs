@@ -8,6 +8,8 @@ mod flight;
 mod friction_laws;
 mod numbers;
 mod plane;
+mod plane_laws;
+mod plane_rocking;
 mod rigid;
 mod rocking;
 mod stack;

@@ -1,4 +1,4 @@
-//! What the tests share: gravity, a rectangular block, options, a comparison.
+//! What the tests share: gravity, a rectangular block, options, a comparison, random numbers.
 
 use heeltoe::rigid::varying::VaryingNumbers;
 use heeltoe::rigid::{BlockNumbers, Options};
@@ -89,5 +89,16 @@ impl Dice {
             .wrapping_mul(6364136223846793005)
             .wrapping_add(1442695040888963407);
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+/// Numbers between 0 and 1, the same each time.
+pub fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    move || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
     }
 }

@@ -7,13 +7,13 @@ use heeltoe::rigid::{
     exact, Block, BlockNumbers, Crossing, EventKind, Outcome, Run, Shaking, Vector, Wanted,
 };
 
-use crate::numbers::{near, OPTIONS, SLIP};
+use crate::numbers::{near, random, OPTIONS, SLIP};
 
 /// The programs that computed the figures.
 const GRAVITY: f64 = 9.80665;
 
 /// A slab that never lifts, of so much mass along the stream and 1 across.
-fn slab(mass: f64, friction: [f64; 2], push: f64) -> BlockNumbers {
+pub fn slab(mass: f64, friction: [f64; 2], push: f64) -> BlockNumbers {
     BlockNumbers {
         mass_horizontal: mass,
         mass_vertical: 1.0,
@@ -33,23 +33,23 @@ fn slab(mass: f64, friction: [f64; 2], push: f64) -> BlockNumbers {
     }
 }
 
-const FREE: Across = Across {
+pub const FREE: Across = Across {
     mass: 1.0,
     gap: [f64::INFINITY; 2],
     start: [0.0; 2],
 };
 
 /// Moments and ground accelerations along, across, up.
-struct Ground {
-    time: Vec<f64>,
-    along: Vec<f64>,
-    across: Vec<f64>,
-    up: Option<Vec<f64>>,
+pub struct Ground {
+    pub time: Vec<f64>,
+    pub along: Vec<f64>,
+    pub across: Vec<f64>,
+    pub up: Option<Vec<f64>>,
 }
 
 impl Ground {
     /// The same accelerations all the time.
-    fn steady([along, across]: [f64; 2], end: f64) -> Self {
+    pub fn steady([along, across]: [f64; 2], end: f64) -> Self {
         Ground {
             time: vec![0.0, end],
             along: vec![along; 2],
@@ -69,7 +69,7 @@ impl Ground {
     }
 }
 
-fn crossing(run: &Run) -> &Crossing {
+pub fn crossing(run: &Run) -> &Crossing {
     run.crossing.as_ref().unwrap()
 }
 
@@ -77,17 +77,6 @@ fn events() -> Wanted<'static> {
     Wanted {
         events: true,
         ..Wanted::default()
-    }
-}
-
-/// Numbers between 0 and 1, the same each time.
-fn random(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-    move || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 
@@ -239,7 +228,7 @@ fn c7_a_force_that_grows_past_friction_begins_by_the_onset() {
 }
 
 /// A shaking of random samples, 0.01 s apart.
-fn shaken(seed: u64, strength: f64, samples: usize, vertical: bool) -> Ground {
+pub fn shaken(seed: u64, strength: f64, samples: usize, vertical: bool) -> Ground {
     let mut next = random(seed);
     let mut series = |size: f64| -> Vec<f64> {
         let mut value = 0.0;
@@ -337,6 +326,21 @@ fn a_ground_that_is_still_across_gives_the_bits_of_the_exact_walk() {
 /// Where a plain stepper of step h puts the block: free motion, then the impulse of friction, at most mu N h, that
 /// slows it down most; the neighbours stop it.
 fn plain(block: &BlockNumbers, across: &Across, ground: &Ground, steps: usize) -> [f64; 2] {
+    let friction = [block.friction_static, block.friction_kinetic];
+    plain_by(block, across, ground, steps, |rests, _, _| {
+        friction[usize::from(!rests)]
+    })
+}
+
+/// The same with a coefficient of friction by whether the block rests, its path and its speed.
+pub fn plain_by(
+    block: &BlockNumbers,
+    across: &Across,
+    ground: &Ground,
+    steps: usize,
+    friction: impl Fn(bool, f64, f64) -> f64,
+) -> [f64; 2] {
+    let mut path = 0.0;
     let mut u = [0.0_f64; 2];
     let mut q = [0.0_f64; 2];
     let mass = [block.mass_horizontal, across.mass];
@@ -352,11 +356,8 @@ fn plain(block: &BlockNumbers, across: &Across, ground: &Ground, steps: usize) -
                 -across.mass * at(&ground.across),
             ];
             let normal = -block.static_vertical + block.mass_vertical * up;
-            let mu = if rests {
-                block.friction_static
-            } else {
-                block.friction_kinetic
-            };
+            let speed = u[0].hypot(u[1]);
+            let mu = friction(rests, path, speed);
             let free = [0, 1].map(|i| u[i] + h * force[i] / mass[i]);
             let limit = mu * normal * h;
             let lies = across.gap[0] <= q[1] && free[1] > 0.0 || -across.gap[1] >= q[1] && free[1] < 0.0;
@@ -366,7 +367,7 @@ fn plain(block: &BlockNumbers, across: &Across, ground: &Ground, steps: usize) -
                 u = [0.0; 2];
                 rests = true;
             } else {
-                let rub = block.friction_kinetic * normal * h;
+                let rub = friction(false, path, speed) * normal * h;
                 // u = (M + l)^-1 M free with l |u| = rub.
                 let (mut least, mut most) = (0.0, 1e4);
                 let slowed = |l: f64| [0, 1].map(|i| mass[i] * free[i] / (mass[i] + l));
@@ -382,6 +383,7 @@ fn plain(block: &BlockNumbers, across: &Across, ground: &Ground, steps: usize) -
                 u = slowed(least);
                 rests = false;
             }
+            path += h * u[0].hypot(u[1]);
             q = [q[0] + h * u[0], q[1] + h * u[1]];
             q[1] = q[1].clamp(-across.gap[1], across.gap[0]);
         }
@@ -414,20 +416,6 @@ fn random_slabs_go_where_a_plain_stepper_puts_them() {
             near(ours[i], fine[i], 2e-5 + (fine[i] - coarse[i]).abs());
         }
     }
-}
-
-#[test]
-fn a_block_that_would_lift_ends_without_a_result() {
-    let slender = BlockNumbers {
-        height: 3.0,
-        heel_distance: 0.5,
-        toe_distance: 0.5,
-        per_horizontal_moment: -3.0,
-        ..slab(1.0, [0.9; 2], 0.0)
-    };
-    let ground = shaken(4, 2.0, 500, false);
-    let run = ground.run(&slender, &FREE, false, Wanted::default());
-    assert_eq!(run.summary.outcome, Outcome::LiftsAcross);
 }
 
 #[test]
@@ -477,10 +465,7 @@ fn random_slabs_close_their_books() {
         let across = Across { gap, ..FREE };
         let run = ground.run(&block, &across, false, Wanted::default());
         let (s, c) = (&run.summary, crossing(&run));
-        // Where the ground falls faster than g there is nothing left to lie on.
-        let falls = ground.up.iter().flatten().any(|up| *up < -0.99 * GRAVITY);
-        let lifts = falls && s.outcome == Outcome::LiftsAcross;
-        assert!(s.outcome == Outcome::Done || lifts, "{seed}");
+        assert_eq!(s.outcome, Outcome::Done, "{seed}");
         assert!(
             s.row().iter().chain(&c.row()).all(|value| value.is_finite()),
             "{seed}"

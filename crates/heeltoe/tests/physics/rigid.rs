@@ -1,8 +1,8 @@
 //! The exact walk of one block: sliding, dropping, and the energy of a motion in which all happens.
 
-use heeltoe::rigid::{exact, Block, EventKind, Mode, Outcome, Run, Shaking, Wanted};
+use heeltoe::rigid::{exact, Block, BlockNumbers, EventKind, Mode, Outcome, Run, Shaking, Wanted};
 
-use crate::numbers::{near, Rectangle, GRAVITY, HEEL, OPTIONS, SLIP, TOE};
+use crate::numbers::{near, random, Rectangle, GRAVITY, HEEL, OPTIONS, SLIP, TOE};
 
 /// Wide enough to slide alone.
 const FLAT: Rectangle = Rectangle {
@@ -190,4 +190,49 @@ fn the_energy_of_rocking_slipping_and_flying_is_accounted_for() {
     let struck: f64 = run.events.iter().map(|event| event.energy_lost).sum();
     near(struck, summary.ledger.impact, 1e-12 * struck);
     assert!(run.events.iter().all(|event| event.energy_lost >= -1e-9 * struck));
+}
+
+#[test]
+fn blocks_without_wanted_events_go_the_way_of_those_with_them() {
+    let mut next = random(7);
+    let [mut stops, mut rocked] = [0; 2];
+    for seed in 0..400 {
+        let vertical = seed % 3 == 0;
+        let mut series = |size: f64| -> Vec<f64> {
+            let mut value = 0.0;
+            (0..600)
+                .map(|_| {
+                    value = 0.8 * value + size * GRAVITY * (next() - 0.5);
+                    value
+                })
+                .collect()
+        };
+        let (along, up) = (series(2.0), series(1.0));
+        // A jump, where two samples share a moment.
+        let time: Vec<f64> = (0..600)
+            .map(|k| 0.01 * f64::from(k - i32::from(k > 300)))
+            .collect();
+        let shaking = Shaking::new(&time, &along, vertical.then_some(&up[..])).unwrap();
+        let block = Rectangle {
+            width: 10.0,
+            height: 2.0 + 10.0 * next(),
+            friction: 0.2 + 0.6 * next(),
+            restitution: 0.3,
+        };
+        let numbers = BlockNumbers {
+            friction_kinetic: block.friction * (0.6 + 0.4 * next()),
+            static_horizontal: 0.1 * block.mass() * GRAVITY,
+            ..block.numbers()
+        };
+        let run = |wanted: Wanted| exact::simulate(&Block::new(&numbers), &shaking, None, OPTIONS, wanted);
+        let [quick, slow] = [run(Wanted::default()), run(events())];
+        assert_eq!(
+            format!("{:?}", quick.summary),
+            format!("{:?}", slow.summary),
+            "{seed}"
+        );
+        stops += slow.summary.slip_stops;
+        rocked += u64::from(slow.summary.impacts > 0);
+    }
+    assert!(stops > 2000 && rocked > 50, "{stops} {rocked}");
 }

@@ -98,6 +98,7 @@ impl Drawn {
             start: &[0.0; MODES],
             shapes: &self.shapes[side],
             position: &[0.0, 10.0, across, across],
+            directions: 2,
             dampers: &[],
             damper_signs: &[],
             wet,
@@ -141,6 +142,7 @@ fn shake(dam: &Dam, ground: &[[f64; 2]], dt: f64, theta: f64) -> Run {
         dt,
         scale: [1.0; 2],
         rising: &[],
+        across: None,
     };
     let wanted = Wanted {
         stride: 1,
