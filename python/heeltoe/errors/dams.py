@@ -32,7 +32,7 @@ OF_DAMS: dict[str, tuple[str, str]] = {
     ),
     "drawing-layer": ("{value} has no closed outline{why}; layers that have: {layers}", "name one of them"),
     "drawing-height": (
-        "by the unit of the drawing, {unit}, the dam is {value} high",
+        "by the unit {unit} the dam is {value} high",
         'say the unit of its numbers, for example unit = "m" under [section]',
     ),
     "polygon-crossing": (
@@ -92,8 +92,8 @@ OF_DAMS: dict[str, tuple[str, str]] = {
     ),
     # the band of the friction
     "band-negative": ("5 % of this {value} distribution is below zero", "cut it by lower, or give less scatter"),
-    "fit-empty": (
-        "{value} has no friction of a crack",
+    "fit-file": (
+        "{value} {reason}",
         "give the law-fit.toml of `heeltoe law fit TESTS.csv --out FOLDER`",
     ),
     "band-judge": ("the band has no {value}", "give that end, or judge another one"),

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from heeltoe.warnings.input import Severity
+from heeltoe.warnings.input import Row
 
-#: Code -> (how grave, field of the case, sentence).
-OF_CRACKS: dict[str, tuple[Severity, str, str]] = {
+#: By code: how grave, field of the case, sentence.
+OF_CRACKS: dict[str, Row] = {
     "sequence-ends": (
         "grave",
         "aftershocks",
@@ -46,11 +46,5 @@ OF_CRACKS: dict[str, tuple[Severity, str, str]] = {
         "elements of {element_m:.3g m} along the joint are longer than a third of its process zone of {zone_m:.3g m}; "
         "the tensile strength is lowered from {given_pa:.3g MPa} to {taken_pa:.3g MPa}, which keeps the energy: give "
         "more elements across",
-    ),
-    "further-crack-uncertain": (
-        "grave",
-        "flexible.evidence",
-        "the slip of the crack at {elevation_m:.4g m} has not converged, or its runs scatter: {slip_m:.4g mm} "
-        "± {uncertainty_m:.3g mm}",
     ),
 }

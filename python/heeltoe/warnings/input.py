@@ -11,8 +11,11 @@ Severity = Literal["note", "caution", "grave"]
 """``"note"``: what was assumed or left out, with nothing wrong. ``"caution"``: it may be a mistake, or the numbers hold
 with care. ``"grave"``: some number is not what it seems, or the dam does not hold what is asked of it."""
 
-# As in heeltoe.warnings.notice: code -> (how grave, field of the case, sentence).
-OF_INPUT: dict[str, tuple[Severity, str, str]] = {
+Row = tuple[Severity, str, str | dict[str, str]]
+"""How grave it is, the field of the case, and the sentence, or several by their kind."""
+
+# As in heeltoe.warnings.notice, by code.
+OF_INPUT: dict[str, Row] = {
     # case
     "value-unusual": ("caution", "", "{field}: {value}"),
     "value-unused": ("note", "", "{field} = {value} has no effect in the flexible model: {why}"),
@@ -26,12 +29,10 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
     "law-range": (
         "caution",
         "crack.law",
-        "{field}: the static loads press the crack{where} with {stress_pa:.3g MPa} on average, {why}",
-    ),
-    "law-range-part": (
-        "caution",
-        "crack.law",
-        "{field}: the static loads press {share:.2g %} of the length of the crack{where} with {why}",
+        {
+            "mean": "{field}: the static loads press the crack{where} with {stress_pa:.3g MPa} on average, {why}",
+            "part": "{field}: the static loads press {share:.2g %} of the length of the crack{where} with {why}",
+        },
     ),
     "law-by-mean": (
         "note",
@@ -56,27 +57,28 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
     ),
     # ground motion
     "motion-still": ("note", "motion", "{name} is zero throughout: in this direction the ground does not move"),
-    "motion-drifts": (
+    "motion-flaw": (
         "caution",
         "motion",
-        "{name} ends at {share:.0%} of its largest velocity: its baseline drifts, or it was cut",
-    ),
-    "motion-jumps": (
-        "caution",
-        "motion",
-        "{name} {place} at {jump_g:.3g g}, {share:.0%} of its peak: the ground jumps by as much against the rest that "
-        "it is in before and after the record; give more of the record, or taper it (motion.processing)",
-    ),
-    "motion-spike": (
-        "caution",
-        "motion",
-        "{name} jumps to {peak_g:.3g g} at {time_s:.4g s}, {ratio:.2g} times as far as it reaches around it: check "
-        "whether this value was measured",
-    ),
-    "motion-coarse": (
-        "caution",
-        "motion",
-        "{name} has values every {step_s:.3g s} only: check its step, as a dam feels much faster shaking",
+        {
+            "drifts": "{name} ends at {share:.0%} of its largest velocity: its baseline drifts, or it was cut",
+            "jumps": (
+                "{name} {place} at {jump_g:.3g g}, {share:.0%} of its peak: the ground jumps by as much against the"
+                " rest that it is in before and after the record; give more of the record, or taper it "
+                "(motion.processing)"
+            ),
+            "spike": (
+                "{name} jumps to {peak_g:.3g g} at {time_s:.4g s}, {ratio:.2g} times as far as it reaches around "
+                "it: check whether this value was measured"
+            ),
+            "coarse": "{name} has values every {step_s:.3g s} only: check its step, as a dam feels much faster shaking",
+            "gap": "{name} has a gap of {gap_s:.3g s} at {time_s:.4g s}",
+            "clipped": "{name} stays at its peak for four samples or more: it may be clipped",
+            "offset": (
+                "{name} rests at {level_g:.2g g}, {share:.2g} of how far it shakes from there: an offset of its "
+                "instrument makes the ground run away; a band-pass or a baseline takes it out"
+            ),
+        },
     ),
     "motion-coarse-for-dam": (
         "caution",
@@ -93,41 +95,31 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
     "components-unsure": (
         "caution",
         "motion.vertical",
-        "{field}: whether it is of the earthquake of the horizontal motion is not known: {missing} could not be "
-        "compared; they last {lengths_s:.4g s|and}, with steps of {steps_s:.3g s|and}",
-    ),
-    "motion-gap": ("caution", "motion", "{name} has a gap of {gap_s:.3g s} at {time_s:.4g s}"),
-    "motion-clipped": (
-        "caution",
-        "motion",
-        "{name} stays at its peak for four samples or more: it may be clipped",
+        "{field}: whether it was recorded with the horizontal motion is not known: {why}",
     ),
     "motion-gravity": (
         "grave",
         "motion.processing",
         "{name} rests at {level_g:.3g g}: gravity is in it, as its sensor feels it; without processing it is refused",
     ),
-    "motion-offset": (
-        "caution",
-        "motion.processing",
-        "{name} rests at {level_g:.2g g}, {share:.2g} of how far it shakes from there: an offset of its instrument "
-        "makes the ground run away; a band-pass or a baseline takes it out",
-    ),
     "motion-cut": (
         "caution",
         "motion.duration",
         "the cut to {duration_s:g s} leaves out the record's peak at {time_s:g s}",
     ),
-    "motion-scaled": (
+    "motion-unlike-records": (
         "caution",
         "motion",
-        "{name} is scaled by {factor:.3g}, more than {most:g}: an earthquake of such strength lasts longer and has "
-        "more of its motion at long periods; take a stronger record",
-    ),
-    "motion-stretched": (
-        "caution",
-        "motion.processing",
-        "{name} had its time stretched by {factor:g}: no earthquake was recorded like that",
+        {
+            "scaled": (
+                "{name} is scaled by {factor:.3g}, more than {most:g}: an earthquake of such strength lasts longer "
+                "and has more of its motion at long periods; take a stronger record"
+            ),
+            "stretched": "{name} had its time stretched by {factor:g}: no earthquake was recorded like that",
+            "beyond-relations": (
+                "{name} is outside the records behind its relations: M 6 to 7.6, 10 to 100 km, Vs30 600 m/s up"
+            ),
+        },
     ),
     "vertical-left-out": (
         "note",
@@ -135,11 +127,6 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "{field}: a motion given beside the case comes without it, as it was recorded with another one",
     ),
     "motion-generated": ("note", "motion.file", "{name} is generated, not recorded"),
-    "motion-beyond-relations": (
-        "caution",
-        "motion.file",
-        "{name} is outside the records behind its relations: M 6 to 7.6, 10 to 100 km, Vs30 600 m/s up",
-    ),
     "motion-peak-unusual": ("caution", "motion", "{name} peaks at {peak}: check its unit"),
     "component-other": ("grave", "motion", "{name} is a {kind} component ({component}), and shakes the dam {way} here"),
     "motions-left-out": ("caution", "motion", "{field}: a motion given beside the case comes alone and {effect}"),

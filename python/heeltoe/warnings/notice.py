@@ -8,21 +8,23 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 from string import Formatter
 from typing import Any
 
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.cracks import OF_CRACKS
-from heeltoe.warnings.input import OF_INPUT, Severity
+from heeltoe.warnings.input import OF_INPUT, Row, Severity
 from heeltoe.warnings.statics import OF_STATICS
 
 # What is said of a field, and of no number.
 _OF_FIELDS = ("fields-unused", "fields-idle")
 #: What a reader of a block's result does for that of the dam.
 AS_ELASTIC = "run it with --model auto"
-# Code -> (how grave, field of the case, sentence). Quantities are called as in the JSON, with their unit at the end;
-# how they are written stands in the braces, see heeltoe.units.sentences. {field} is the field, {time_s} the moment.
-CATALOGUE: dict[str, tuple[Severity, str, str]] = {
+# Code -> (how grave, field of the case, sentence, or the sentences by kind). Quantities are called as in the JSON, with
+# their unit at the end; how they are written stands in the braces, see heeltoe.units.sentences. {field} is the field,
+# {time_s} the moment.
+CATALOGUE: dict[str, Row] = {
     **OF_INPUT,
     **OF_CRACKS,
     **OF_STATICS,
@@ -64,12 +66,6 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "not determined: with the motion 1 + 1e-9 times as strong the block {other}, instead of sliding "
         "{slip_m:.4g mm}; bounces with a restitution of {restitution:g} amplify the last digit",
     ),
-    "cross-valley-left-out": (
-        "grave",
-        "motion.cross_valley",
-        "the flexible model leaves out the shaking across the valley, which uses up a part of the crack's friction: "
-        "the dam slides farther than here; the rigid model with this field says by how much its block does",
-    ),
     "cross-valley-upright": (
         "note",
         "motion.cross_valley",
@@ -79,8 +75,7 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "cross-valley-far": (
         "caution",
         "crack.side_gap",
-        "the block slides {slip_m:.3g mm} across the valley, farther than the joints of a dam allow: give "
-        "crack.side_gap",
+        "the dam slides {slip_m:.3g mm} across the valley, farther than the joints of a dam allow: give crack.side_gap",
     ),
     "slid-far": (
         "caution",
@@ -95,23 +90,23 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "{periods_s:.2g s|to}, where this motion shakes it with {accelerations_g:.2g g|to}, {times:.2g|to} times its "
         "peak{level}",
     ),
-    "rigid-slides": (
+    "rigid-unlike-dam": (
         "caution",
         "concrete.modulus",
-        "a dam of this stiffness slides {times:g|to} times as far as its block{chain} (as did {share:.2g %} of "
-        "{cases:d} studied cases): {remedy}, and the dam is elastic",
-    ),
-    "rigid-holds": (
-        "caution",
-        "concrete.modulus",
-        "its block slides less than {least_m:.2g mm}, but {shares:.2g %|to} of the dams like it slide more than "
-        "{far_m:.2g mm} ({cases:d} studied cases): {remedy}, and the dam is elastic",
-    ),
-    "rigid-unlike": (
-        "caution",
-        "concrete.modulus",
-        "a dam may slide and rock several times as far as its block, and none like this one was studied ({why}): "
-        "{remedy}, and the dam is elastic",
+        {
+            "slides": (
+                "a dam of this stiffness slides {times:g|to} times as far as its block{chain} (as did {share:.2g %}"
+                " of {cases:d} studied cases): {remedy}, and the dam is elastic"
+            ),
+            "holds": (
+                "its block slides less than {least_m:.2g mm}, but {shares:.2g %|to} of the dams like it slide more "
+                "than {far_m:.2g mm} ({cases:d} studied cases): {remedy}, and the dam is elastic"
+            ),
+            "unknown": (
+                "a dam may slide and rock several times as far as its block, and none like this one was studied "
+                "({why}): {remedy}, and the dam is elastic"
+            ),
+        },
     ),
     "study-vertical-left-out": (
         "caution",
@@ -131,17 +126,19 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "all runs are of rigid blocks, which leave out the vibration of the dam: it may slide and rock several times "
         'as far; model = ["rigid", "flexible"] shows both',
     ),
-    "study-scatter": (
+    "study-single-runs": (
         "caution",
         "flexible.evidence",
-        "single runs of the base case scatter: the mean of five is {value_m:.4g mm}, the run itself {run_m:.4g mm}; "
-        "each run of the study is a single one, so read their distribution, not one of them",
-    ),
-    "study-uncertain": (
-        "caution",
-        "flexible.evidence",
-        "the residual slip of the base case has not converged: {value_m:.4g mm} ± {uncertainty_m:.4g mm}; the runs of "
-        "the study have the same mesh and step",
+        {
+            "scatter": (
+                "single runs of the base case scatter: the mean of five is {value_m:.4g mm}, the run itself "
+                "{run_m:.4g mm}; each run of the study is a single one, so read their distribution, not one of them"
+            ),
+            "uncertain": (
+                "the residual slip of the base case has not converged: {value_m:.4g mm} ± {uncertainty_m:.4g mm}; "
+                "the runs of the study have the same mesh and step"
+            ),
+        },
     ),
     "rigid-top": (
         "caution",
@@ -171,18 +168,21 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "crack.restitution",
         "the slip depends on {field}: {slip_m:.4g mm} with {restitution:g}, {dead_slip_m:.4g mm} with 0",
     ),
-    "anchor-overloaded": (
+    "anchor-fails": (
         "grave",
         "anchors",
-        "anchor {number:d} bears {force_n:.4g MN/m}, tension and resistance to slip together, more than its capacity "
-        "of {capacity_n:.4g MN/m}, for the first time at {time_s:.3f s}: it would yield or break, and this result, "
-        "which takes it to hold, is too favourable",
-    ),
-    "anchor-slack": (
-        "grave",
-        "anchors",
-        "anchor {number:d} goes slack at {time_s:.3f s}, as the motion of the crack shortens it, and {then}: from then "
-        "on its prestress holds nothing, and static checks that count it do not apply to the dam after the earthquake",
+        {
+            "overloaded": (
+                "anchor {number:d} bears {force_n:.4g MN/m}, tension and resistance to slip together, more than its"
+                " capacity of {capacity_n:.4g MN/m}, for the first time at {time_s:.3f s}: it would yield or break,"
+                " and this result, which takes it to hold, is too favourable"
+            ),
+            "slack": (
+                "anchor {number:d} goes slack at {time_s:.3f s}, as the motion of the crack shortens it, and "
+                "{then}: from then on its prestress holds nothing, and static checks that count it do not apply to "
+                "the dam after the earthquake"
+            ),
+        },
     ),
     "anchor-unlimited": (
         "caution",
@@ -228,20 +228,30 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "not-converged": (
         "grave",
         "flexible.evidence",
-        "the residual slip has not converged: {slip_m:.4g mm} ± {uncertainty_m:.3g mm}, where "
-        "{allowed_m:.3g mm} are allowed; {most} moves it most, and {stopped}",
+        {
+            "crack": (
+                "the residual slip has not converged: {slip_m:.4g mm} ± {uncertainty_m:.3g mm}, where "
+                "{allowed_m:.3g mm} are allowed; {most} moves it most, and {stopped}"
+            ),
+            "further-crack": (
+                "the slip of the crack at {elevation_m:.4g m} has not converged, or its runs scatter: {slip_m:.4g "
+                "mm} ± {uncertainty_m:.3g mm}"
+            ),
+        },
     ),
-    "anchors-hold": (
+    "friction-not-enough": (
         "caution",
-        "anchors",
-        "friction, weight and prestress alone do not hold the dam before the earthquake: {why}; it moves at first "
-        "until its anchors hold it",
-    ),
-    "steps-hold": (
-        "caution",
-        "crack.kinks",
-        "friction on the straight line from heel to toe alone does not hold the dam before the earthquake (sliding "
-        "safety factor {factor:.3f}): the steps of its crack do, as long as none shears off",
+        "crack.friction",
+        {
+            "anchors": (
+                "friction, weight and prestress alone do not hold the dam before the earthquake: {why}; it moves at"
+                " first until its anchors hold it"
+            ),
+            "steps": (
+                "friction on the straight line from heel to toe alone does not hold the dam before the earthquake "
+                "(sliding safety factor {factor:.3f}): the steps of its crack do, as long as none shears off"
+            ),
+        },
     ),
     "slides-by-itself": (
         "grave",
@@ -278,32 +288,37 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "the case gives no rock: rock as stiff as the concrete ({modulus_pa:.3g GPa}) is assumed below the elastic "
         "dam; a block [rock] has that of the site",
     ),
-    "rock-not-assumed": (
+    "surroundings-not-assumed": (
         "grave",
         "rock",
-        "the case gives no rock, and none could be assumed ({why}): on a rigid plane nothing carries away the "
-        "vibration that sliding feeds, so that the slip may be far off either way; give a block [rock], or say "
-        'rock = "rigid" if that is meant',
-    ),
-    "sound-not-assumed": (
-        "grave",
-        "reservoir.compressible",
-        "the water is a mass that moves with the dam, as no sound could be assumed in it ({why}), and carries away "
-        "nothing of the vibration that sliding feeds; say {field} = false if that is meant",
+        {
+            "rock": (
+                "the case gives no rock, and none could be assumed ({why}): on a rigid plane nothing carries away "
+                "the vibration that sliding feeds, so that the slip may be far off either way; give a block [rock],"
+                ' or say rock = "rigid" if that is meant'
+            ),
+            "sound": (
+                "the water is a mass that moves with the dam, as no sound could be assumed in it ({why}), and "
+                "carries away nothing of the vibration that sliding feeds; say {field} = false if that is meant"
+            ),
+        },
     ),
     "surroundings-left-out": (
         "note",
         "rock",
-        "{share:.2g %} of {cases:d} computed dams like this one slide less far on elastic rock with sound in the "
-        "water, half of all {times:.2g|to} times as far; here the rock is rigid and the water a mass, as the case has "
-        'it: without rock = "rigid" and reservoir.compressible = false both carry waves',
-    ),
-    "surroundings-unlike": (
-        "note",
-        "rock",
-        "the rock is rigid and the water a mass here, and the dams studied with elastic rock and sound are not like "
-        'this one ({why}): its slip may be off either way; a run without rock = "rigid" and '
-        "reservoir.compressible = false shows which",
+        {
+            "studied": (
+                "{share:.2g %} of {cases:d} computed dams like this one slide less far on elastic rock with sound "
+                "in the water, half of all {times:.2g|to} times as far; here the rock is rigid and the water a "
+                'mass, as the case has it: without rock = "rigid" and reservoir.compressible = false both carry '
+                "waves"
+            ),
+            "unknown": (
+                "the rock is rigid and the water a mass here, and the dams studied with elastic rock and sound are "
+                'not like this one ({why}): its slip may be off either way; a run without rock = "rigid" and '
+                "reservoir.compressible = false shows which"
+            ),
+        },
     ),
     "outline-simplified": (
         "note",
@@ -328,13 +343,6 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "flexible.modes",
         "the modes kept leave an error of {error:.2g %} in the flexibility of the crack; raise {field}",
     ),
-    "tension-exceeds": (
-        "grave",
-        "concrete.tensile_strength",
-        "a tension of {stress_pa:.3g MPa} {where}, {z_m:.3g m} up, at {time_s:.2f s} exceeds the "
-        "{strength_pa:.3g MPa} that the concrete bears in an earthquake, over {share:.2g %} of the section: the "
-        "assumption that nothing cracks further does not hold",
-    ),
     "cavitation": (
         "caution",
         "reservoir.compressible",
@@ -346,32 +354,35 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "concrete.tensile_strength",
         "a tension of {stress_pa:.3g MPa} in the concrete is compared with no strength: give {field}",
     ),
-    "tension-before": (
+    "tension-exceeds": (
         "grave",
         "concrete.tensile_strength",
-        "a tension of {stress_pa:.3g MPa} before the earthquake exceeds the {strength_pa:.3g MPa} that the concrete "
-        "bears: the dam is cracked elsewhere, too, or its loads are not these",
+        {
+            "before": (
+                "a tension of {stress_pa:.3g MPa} before the earthquake exceeds the {strength_pa:.3g MPa} that the "
+                "concrete bears: the dam is cracked elsewhere, too, or its loads are not these"
+            ),
+            "shaken": (
+                "a tension of {stress_pa:.3g MPa} {where}, {z_m:.3g m} up, at {time_s:.2f s} exceeds the "
+                "{strength_pa:.3g MPa} that the concrete bears in an earthquake, over {share:.2g %} of the section:"
+                " the assumption that nothing cracks further does not hold"
+            ),
+        },
     ),
-    "anchor-misses": (
+    "off-the-dam": (
         "caution",
         "anchors",
-        "{field}: anchor {number:d} does not cross the crack, and holds nothing there",
+        {
+            "anchor": "{field}: anchor {number:d} does not cross the crack, and holds nothing there",
+            "anchor-head": "{field}: the head of anchor {number:d} is {distance_m:.3g m} outside the dam",
+            "drains": "{field}: the drains do not cross the crack, whose water they leave as it is without drains",
+        },
     ),
     "anchor-head-wet": (
         "note",
         "anchors",
         "{field}: the head of anchor {number:d} is on the {side} face {depth_m:.3g m} below the water, at an elevation "
         "of {elevation_m:.4g m}",
-    ),
-    "anchor-head-outside": (
-        "caution",
-        "anchors",
-        "{field}: the head of anchor {number:d} is {distance_m:.3g m} outside the dam",
-    ),
-    "drains-miss": (
-        "caution",
-        "uplift.drain_x",
-        "{field}: the drains do not cross the crack, whose water they leave as it is without drains",
     ),
     "faces-penetrate": (
         "caution",
@@ -390,21 +401,20 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "contact has created energy, {gained_j:.3g J} in a turnover of {turnover_j:.3g J}{why}",
     ),
     # decoupled chain, spread
-    "sampling-matters": (
+    "slip-sensitive": (
         "caution",
         "",
-        "the slip depends on details: it is {coarser_slip_m:.4g mm} where the motion of the crack is sampled every "
-        "{coarser_step_s:.3g ms} instead of {step_s:.3g ms}",
-    ),
-    "spread-failures": (
-        "caution",
-        "",
-        "{failed:d} of the {runs:d} runs with slightly different shaking ended without a result",
-    ),
-    "spread-large": (
-        "caution",
-        "",
-        "the residual slip depends on details: it is {slips_m:.4g mm|to} when the shaking is scaled by {scales:g|to}",
+        {
+            "sampling": (
+                "the slip depends on details: it is {coarser_slip_m:.4g mm} where the motion of the crack is "
+                "sampled every {coarser_step_s:.3g ms} instead of {step_s:.3g ms}"
+            ),
+            "failures": "{failed:d} of the {runs:d} runs with slightly different shaking ended without a result",
+            "shaking": (
+                "the residual slip depends on details: it is {slips_m:.4g mm|to} when the shaking is scaled by "
+                "{scales:g|to}"
+            ),
+        },
     ),
 }
 
@@ -417,6 +427,8 @@ class Notice:
     ----------
     code
         Key of :data:`CATALOGUE`.
+    kind
+        Which of the sentences of the code; empty where it has one.
     quantities
         Names with numbers in SI, or words.
     field
@@ -426,16 +438,27 @@ class Notice:
     """
 
     code: str
+    kind: str
     quantities: tuple[tuple[str, Any], ...]
     field: str
     time_s: float | None
 
-    def __init__(self, code: str, *, field: str | None = None, time_s: float | None = None, **quantities: Any) -> None:
-        _, usual, template = CATALOGUE[code]
+    def __init__(
+        self,
+        code: str,
+        kind: str = "",
+        /,
+        *,
+        field: str | None = None,
+        time_s: float | None = None,
+        **quantities: Any,
+    ) -> None:
+        usual, template = CATALOGUE[code][1], templates(code)[kind]
         names = _names(template) - {"field", "time_s"}
         if names != set(quantities):
             raise TypeError(f"{code} takes {', '.join(sorted(names)) or 'nothing'}, not {', '.join(quantities)}")
         object.__setattr__(self, "code", code)
+        object.__setattr__(self, "kind", kind)
         object.__setattr__(self, "quantities", tuple(quantities.items()))
         object.__setattr__(self, "field", usual if field is None else field)
         object.__setattr__(self, "time_s", time_s)
@@ -445,10 +468,15 @@ class Notice:
         """How grave it is."""
         return CATALOGUE[self.code][0]
 
+    @property
+    def name(self) -> str:
+        """Its code, and behind it its kind, if it has one."""
+        return f"{self.code} {self.kind}".rstrip()
+
     def text(self, units: str = "si") -> str:
         """Return its sentence in units ``"si"`` or ``"us"``."""
         places = {"field": self.field, "time_s": self.time_s}
-        return Sentence.of(CATALOGUE[self.code][2], **places, **dict(self.quantities)).text(units)
+        return Sentence.of(templates(self.code)[self.kind], **places, **dict(self.quantities)).text(units)
 
     def __str__(self) -> str:
         return self.text()
@@ -461,6 +489,7 @@ class Notice:
         numbers = {name: value for name, value in pairs if not isinstance(value, str | Sentence)}
         return {
             "code": self.code,
+            "kind": self.kind or None,
             "text": self.text(),
             "severity": self.severity,
             "field": self.field or None,
@@ -469,11 +498,19 @@ class Notice:
         }
 
 
+@cache
+def templates(code: str) -> dict[str, str]:
+    """Return the sentences of a code by their kind, which is ``""`` for the only one."""
+    sentences = CATALOGUE[code][2]
+    return {"": sentences} if isinstance(sentences, str) else sentences
+
+
 def by_gravity(notices: Iterable[Notice]) -> tuple[Notice, ...]:
     """Return notices, the grave ones first and those of fields without an effect last."""
     ranks = {"grave": 0, "caution": 1, "note": 2}
     return tuple(sorted(notices, key=lambda notice: 3 if notice.code in _OF_FIELDS else ranks[notice.severity]))
 
 
-def _names(template: str) -> set[str]:
-    return {name for _, name, _, _ in Formatter().parse(template) if name}
+@cache
+def _names(template: str) -> frozenset[str]:
+    return frozenset(name for _, name, _, _ in Formatter().parse(template) if name)

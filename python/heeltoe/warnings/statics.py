@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from heeltoe.warnings.input import Severity
+from heeltoe.warnings.input import Row
 
-#: Code -> (how grave, field of the case, sentence).
-OF_STATICS: dict[str, tuple[Severity, str, str]] = {
+#: By code: how grave, field of the case, sentence.
+OF_STATICS: dict[str, Row] = {
     "slip-unknown": (
         "caution",
         "statics.residual_slip",
@@ -23,19 +23,21 @@ OF_STATICS: dict[str, tuple[Severity, str, str]] = {
         "the usual loads open the crack by {length_m:.2f m}, and water follows; the critical accelerations keep the "
         "case's uplift, as the time histories do at the start",
     ),
-    "kinks-add": (
+    "kinks-beside-line": (
         "caution",
         "crack.kinks",
-        "{field}: sliding and critical accelerations count the friction on the straight line from heel to toe alone, "
-        "a factor of {along:.3f} under the usual loads; its pieces, which rise at up to {angle_deg:.3g} degrees, would "
-        "bear {bear}. Stresses and openings are those on the straight line",
-    ),
-    "kinks-take": (
-        "caution",
-        "crack.kinks",
-        "{field}: {name}: the resultant acts where the crack falls, and its pieces bear a sliding factor of "
-        "{factor:.3f}, less than the {along:.3f} of friction on the straight line from heel to toe: the smaller one "
-        "counts. Stresses and openings are those on the straight line",
+        {
+            "add": (
+                "{field}: sliding and critical accelerations count the friction on the straight line from heel to "
+                "toe alone, a factor of {along:.3f} under the usual loads; its pieces, which rise at up to "
+                "{angle_deg:.3g} degrees, would bear {bear}. Stresses and openings are those on the straight line"
+            ),
+            "take": (
+                "{field}: {name}: the resultant acts where the crack falls, and its pieces bear a sliding factor of"
+                " {factor:.3f}, less than the {along:.3f} of friction on the straight line from heel to toe: the "
+                "smaller one counts. Stresses and openings are those on the straight line"
+            ),
+        },
     ),
     "anchors-after-slip": (
         "grave",
