@@ -29,17 +29,22 @@ _FACES, _FILE = ("upstream", "downstream"), ("file", "layer", "unit")
 
 _no_change = partial(InputError, "wrong-quantity", kind="a change of a field, PATH=VALUE", example="crack.friction=1.0")
 _OF_A_FILE = tuple(f"motion.{name}" for name in FILE_OPTIONS)
+_FIT = ("crack.fit", "crack.band")
 _COEFFICIENTS = ("crack.friction", "crack.static_friction", "crack.kinetic_friction")
 
 # An override says how it shall be now: what the file says in the other form of the same thing goes.
 _REPLACES = {
     # Channel, unit and time step belong to the file that goes; taken for another one's they would spoil it silently.
-    "motion.file": ("motion.points", *_OF_A_FILE),
-    "motion.points": ("motion.file", *_OF_A_FILE),
+    "motion.file": ("motion.points", "motion.direction", *_OF_A_FILE),
+    "motion.points": ("motion.file", "motion.direction", *_OF_A_FILE),
     "motion.vertical.file": tuple(f"motion.vertical.{name}" for name in ("points", *FILE_OPTIONS)),
     "motion.vertical.points": tuple(f"motion.vertical.{name}" for name in ("file", *FILE_OPTIONS)),
-    "motion.cross_valley.file": tuple(f"motion.cross_valley.{name}" for name in ("points", *FILE_OPTIONS)),
-    "motion.cross_valley.points": tuple(f"motion.cross_valley.{name}" for name in ("file", *FILE_OPTIONS)),
+    **{
+        f"motion.cross_valley.{one}": tuple(
+            f"motion.cross_valley.{name}" for name in (other, "direction", *FILE_OPTIONS)
+        )
+        for one, other in (("file", "points"), ("points", "file"))
+    },
     **{
         f"section.{name}": tuple(f"section.{other}" for other in others)
         for name, others in {
@@ -54,12 +59,13 @@ _REPLACES = {
     "uplift.drain_x": ("uplift.drain_position",),
     "statics.criteria": ("statics.criteria_file",),
     "statics.criteria_file": ("statics.criteria",),
-    "crack.friction": ("crack.static_friction", "crack.kinetic_friction", "crack.law"),
-    "crack.static_friction": ("crack.friction", "crack.law"),
-    "crack.kinetic_friction": ("crack.friction", "crack.law"),
+    # The band, and the fit that may have given it, are about the friction before.
+    "crack.friction": ("crack.static_friction", "crack.kinetic_friction", "crack.law", *_FIT),
+    "crack.static_friction": ("crack.friction", "crack.law", *_FIT),
+    "crack.kinetic_friction": ("crack.friction", "crack.law", *_FIT),
     "crack.fit": (*_COEFFICIENTS, "crack.law", "crack.band"),
-    "crack.law": _COEFFICIENTS,
-    "crack.law.name": _COEFFICIENTS,
+    "crack.law": (*_COEFFICIENTS, "crack.fit"),
+    "crack.law.name": (*_COEFFICIENTS, "crack.fit"),
 }
 
 # One of a list, by its place; a few digits, since no list is longer.

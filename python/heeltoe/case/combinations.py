@@ -190,6 +190,11 @@ def _cohesive_law(case: Featured) -> FeatureFields:
         yield "crack.law.cohesion", None
 
 
+def _law_by_stress(case: Featured) -> FeatureFields:
+    if case.crack.law is not None and case.crack.law.name in ("barton-bandis", "lift joint"):
+        yield "crack.law.name", case.crack.law.name
+
+
 def _cohesion_of_checks(case: Featured) -> FeatureFields:
     if case.statics.cohesion:
         yield "statics.cohesion", None
@@ -214,6 +219,12 @@ FEATURES = {
         Feature("roughness", ("crack.roughness",), "remove roughness", _of_cracks("roughness")),
         Feature(
             "a friction law", ("crack.law", "further_cracks.law"), "give coefficients of friction", _of_cracks("law")
+        ),
+        Feature(
+            "a friction law by the normal stress",
+            ("crack.law.name",),
+            "give a law that goes by slip or speed",
+            _law_by_stress,
         ),
         Feature("a bonded joint", ("crack.bond", "further_cracks.bond"), "remove bond", _of_cracks("bond")),
         Feature(
@@ -402,19 +413,30 @@ RULES = (
             ("an inclined crack", "its block slides on a level crack"),
             ("several cracks", "two blocks slide along the stream alone"),
             ("roughness", "asperities rise along the stream alone"),
-            ("a friction law", "the path of a law is that of a slip along the stream"),
+            ("a friction law by the normal stress", "what it bears at rest bends with the normal force"),
             ("a bonded joint", "the bond of a block is judged along the stream alone"),
-            ("uplift that changes during shaking", "its loads are constant"),
             ("an anchor with stiffness", "its loads are constant"),
-            ("rotation beyond small angles", "its block does not rotate"),
+            ("rotation beyond small angles", "its block rotates by small angles"),
+        )
+    ),
+    *(
+        Rule("shaking across the valley", other, ("flexible",), why)
+        for other, why in (
+            ("several cracks", "its parts are one or two across the valley"),
+            ("kinks", "friction across the valley is that of a straight crack"),
+            ("a friction law", "the path of a law is that of a slip along the stream"),
+            ("a bonded joint", "a bond breaks along the stream alone"),
+            ("an anchor with stiffness", "its anchors resist along the stream alone"),
             ("aftershocks", "it is followed through one motion"),
+            ("penalty contact", _NO_PENALTY),
+            ("all nodes watched twice", "nodes that meet would share their friction"),
         )
     ),
     Rule(
         "shaking across the valley",
         "",
         ("decoupled", "table", "map", "rotation"),
-        "the rigid model alone follows it, in runs and studies",
+        "the rigid and the flexible model alone follow it, in runs and studies",
     ),
     Rule("shaking across the valley", "", ("motions",), "the motions of the study replace that of the case"),
     Rule(

@@ -23,7 +23,7 @@ PLACES = ("from", "mode", "to", "mean", "std", "median", "lower", "upper")
 class Distribution(Fields):
     """Values that are drawn. Quantities have units as in a case file."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True, populate_by_name=True)
+    model_config = ConfigDict(populate_by_name=True)
 
     distribution: Literal["uniform", "normal", "lognormal", "triangular"] = "uniform"
     """How the values are distributed."""

@@ -36,8 +36,8 @@ READ_BY: dict[str, frozenset[str]] = {
     "concrete.tensile_strength": frozenset({"flexible"}),
     "concrete.dynamic_tension": frozenset({"flexible"}),
     "crack.restitution": _BLOCKS,
-    "crack.side_gap": frozenset({"rigid"}),
-    "motion.cross_valley": frozenset({"rigid"}),
+    "crack.side_gap": frozenset({"rigid", "flexible"}),
+    "motion.cross_valley": frozenset({"rigid", "flexible"}),
     "crack.rocking_loss": _BLOCKS,
     "crack.roughness": _BLOCKS | {"statics"},
     "crack.roughness.wear": _BLOCKS,
@@ -310,7 +310,7 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
         "statics.residual_friction is given" if slid else "nothing slides in these checks",
         ("crack.kinetic_friction", "further_cracks.kinetic_friction"),
     )
-    shaken_across = case.motion is not None and case.motion.cross_valley is not None
+    shaken_across = any(motion.cross_valley is not None for motion in (case.motion, *case.aftershocks) if motion)
     yield not shaken_across, "there is no motion.cross_valley", ("crack.side_gap",)
     laws = {
         "crack": case.crack.law,

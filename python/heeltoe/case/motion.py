@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 from typing import Annotated, Literal, Self
 
@@ -9,11 +10,13 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from heeltoe.case.fields import LARGEST_ACCELERATION, Channel, Fields, Time, TimeSpan, Truth
 from heeltoe.case.processing import ProcessingStep
-from heeltoe.case.quantities import AccelerationField, DimensionlessNumber
+from heeltoe.case.quantities import AccelerationField, Angle, DimensionlessNumber, PeakField
 from heeltoe.case.sentences import collected
 from heeltoe.errors.error import InputError, shown
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
 
+#: A direction, clockwise from north.
+Azimuth = Annotated[Angle, Field(ge=-2.0 * math.pi - 1e-9, le=2.0 * math.pi + 1e-9)]
 #: How the numbers of a plain table run.
 Layout = Literal["rows", "columns"]
 #: Fields that belong to a motion from a file.
@@ -48,6 +51,11 @@ class Source(Fields):
     multiplied, 1 over it where it is a sensitivity, or 1 where they contain it."""
     processing: tuple[ProcessingStep, ...] = ()
     """Steps of processing in their order, before the motion is scaled to `pga`."""
+
+    def peak(self, gravity: float, stream: float) -> float | None:
+        """Return the wanted peak [m/s2]; `stream` is that of the motion along the stream, of which it may be
+        a share."""
+        return None if self.pga is None else self.pga.si(gravity)
 
     def source_text(self) -> str:
         """Say in a few words where the motion comes from."""
@@ -84,14 +92,38 @@ class Source(Fields):
         if self.unit is not None:
             acceleration_unit(self.unit, "unit")
         # The case's own g plays no part in what is plausible.
-        if self.pga is not None and not 0.0 < self.pga.si(STANDARD_GRAVITY) <= LARGEST_ACCELERATION:
+        peak = self.peak(STANDARD_GRAVITY, STANDARD_GRAVITY)
+        if peak is not None and not 0.0 < peak <= LARGEST_ACCELERATION:
             raise InputError("out-of-range", "pga", str(self.pga), bound="above 0 g and up to 10 g")
         return self
 
 
-class Motion(Source):
+class HorizontalSource(Source):
+    """A horizontal ground motion."""
+
+    direction: Azimuth | None = None
+    """Where the component counts positive, clockwise from north, if neither its record nor its name states it; for
+    `motion.azimuth`."""
+
+
+class CrossSource(HorizontalSource):
+    """A ground motion across the valley."""
+
+    pga: PeakField | None = None  # type: ignore[assignment]  # wider than that of other motions
+    """Scale the motion to this peak acceleration, or to this share of that along the stream: "30 %" is what rules of
+    combination take."""
+
+    def peak(self, gravity: float, stream: float) -> float | None:
+        """Return the wanted peak [m/s2], as :meth:`Source.peak`."""
+        return self.pga * stream if isinstance(self.pga, float) else super().peak(gravity, stream)
+
+
+class Motion(HorizontalSource):
     """The ground motion: horizontal, positive downstream, with vertical and cross-valley ones on request."""
 
+    azimuth: Azimuth | None = None
+    """Direction of the stream, clockwise from north: the motion and that across the valley, whose own directions are
+    those of their records, are rotated into along and across it before they are scaled."""
     duration: TimeSpan | None = None
     """Length of the run, counted from where the record begins; the whole record where it is not given."""
     sign: Literal["recorded", "reversed"] | None = None
@@ -112,9 +144,10 @@ class Motion(Source):
     one is. "none" leaves it out."""
 
     cross_valley: Annotated[
-        Source | None,
+        CrossSource | None,
         BeforeValidator(
-            lambda value: None if value == NO_MOTION else value, json_schema_input_type=Source | Literal["none"] | None
+            lambda value: None if value == NO_MOTION else value,
+            json_schema_input_type=CrossSource | Literal["none"] | None,
         ),
     ] = None
     """The horizontal motion across the valley of the same earthquake, positive to the left bank; without a peak of its
@@ -133,6 +166,17 @@ class Motion(Source):
     def _check_place(self) -> Self:
         if self.at == "rock":
             raise InputError("motion-in-rock", "at", '"rock"')
+        return self
+
+    @model_validator(mode="after")
+    @collected
+    def _check_azimuth(self) -> Self:
+        if self.azimuth is not None and self.cross_valley is None:
+            raise InputError("needs-other", "azimuth", other="cross_valley, the other horizontal component")
+        if self.azimuth is None:
+            for name, source in (("", self), ("cross_valley.", self.cross_valley)):
+                if source is not None and source.direction is not None:
+                    raise InputError("needs-other", f"{name}direction", other="azimuth")
         return self
 
     @property

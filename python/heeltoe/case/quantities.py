@@ -38,6 +38,13 @@ def _rotation(value: object) -> float:
     return parse(value, "angle" if with_unit else "number", "")
 
 
+def _peak(value: object) -> Acceleration | float:
+    """Return a peak acceleration, or the share of another one that a text with a per cent sign is."""
+    if isinstance(value, float) or (isinstance(value, str) and value.rstrip().endswith("%")):
+        return parse(value, "number", "")
+    return parse_acceleration(value, "")
+
+
 Length = Annotated[float, *_quantity("length")]
 """A length [m]."""
 Slip = Annotated[float, *_quantity("length", str(DIMENSIONS["slip"].example), "slip")]
@@ -84,3 +91,14 @@ AccelerationField = Annotated[
     _schema("acceleration"),
 ]
 """An :class:`Acceleration`."""
+PeakField = Annotated[
+    Acceleration | float,
+    PlainValidator(collected(lambda value: _peak(value))),
+    PlainSerializer(
+        lambda peak: f"{100.0 * peak:.15g} %" if isinstance(peak, float) else str(peak),
+        return_type=str,
+        when_used="json-unless-none",
+    ),
+    _schema("acceleration"),
+]
+"""An :class:`Acceleration`, or a share of another peak: ``"30 %"`` is 0.3."""

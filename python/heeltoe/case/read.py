@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 from heeltoe.case.changes import Changes, apply
-from heeltoe.case.crack.fit_file import FIT_MEANING
 from heeltoe.case.distribution import Distribution
 from heeltoe.case.fields_file import read_fields
 from heeltoe.case.joints import JOINTS, JOINTS_MEANING, Joints
@@ -73,10 +72,9 @@ def case_schema() -> dict[str, object]:
     properties: dict[str, Any] = {}
     for name, field in schema["properties"].items():
         properties |= {CRACKS: cracks, JOINTS: joints, name: field} if name == "crack" else {name: field}
-    # Values that reading puts in the place of a distribution and of a file.
+    # Values that reading puts in the place of a distribution.
     drawn = Distribution.model_json_schema()["properties"]
     schema["$defs"]["Band"]["properties"] |= {name: drawn[name] for name in drawn if name != "count"}
-    schema["$defs"]["Crack"]["properties"]["fit"] = {"type": "string", "minLength": 1, "description": FIT_MEANING}
     required = [name for name in schema["required"] if name != "crack"]
     forms = [{"required": [name]} for name in (CRACKS, "crack", JOINTS)]
     return schema | {"properties": properties, "required": required, "oneOf": forms}

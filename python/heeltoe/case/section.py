@@ -47,10 +47,11 @@ class Section(Fields):
     polygon: tuple[tuple[Length, Length], ...] | None = None
     """Corners [x, z] in order around the section, either way."""
     file: str | None = Field(default=None, strict=True, min_length=1)
-    """A drawing (DXF) or a table of corners (CSV), relative to the case file; read once, into `polygon`."""
+    """A drawing (DXF), a mesh (.msh, .inp) or a table of corners (CSV), relative to the case file; read once, into
+    `polygon`."""
     layer: str | None = Field(default=None, strict=True, min_length=1)
-    """Layer of a drawing with the closed outline of the section; needed where there are several, or other lines. Beside
-    `polygon`: where this was drawn, which answers name."""
+    """Layer of a drawing with the closed outline of the section, or element sets of a mesh; needed where there are
+    several, or other lines. Beside `polygon`: where this was drawn, which answers name."""
     unit: str | None = Field(default=None, strict=True, min_length=1)
     """Unit of the numbers in the file, in place of the one that it states."""
 

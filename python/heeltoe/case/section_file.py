@@ -1,4 +1,4 @@
-"""The corners of a section from a file: a drawing in DXF, or a table in CSV, recognised by its content."""
+"""The corners of a section from a file: a drawing in DXF, a mesh, or a table in CSV, recognised by its content."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 
 from heeltoe.base.input_files import read_bounded
+from heeltoe.case.section_mesh import corners_of_mesh, is_mesh
 from heeltoe.errors.error import InputError, shown
 from heeltoe.units.parse import parse
 
@@ -19,10 +20,10 @@ _no_section = partial(
     InputError,
     "source-unreadable",
     "section.file",
-    reason="it is neither a drawing in DXF nor a table of numbers",
+    reason="it is neither a drawing in DXF nor a mesh nor a table of numbers",
     expected="one of them",
 )
-_EXPECTED = "a drawing in DXF or a table in CSV"
+_EXPECTED = "a drawing in DXF, a mesh (.msh, .inp) or a table in CSV"
 #: What is read of a section's block where that names a file.
 FILE_FIELDS = ("file", "layer", "unit")
 # Heights of dams [m], beyond which a drawing is not believed in its unit.
@@ -69,14 +70,15 @@ def with_section_read(fields: Mapping[str, object], directory: Path | None) -> M
 
 
 def read_corners(path: Path, layer: str | None = None, unit: str | None = None) -> tuple[Corners, str]:
-    """Return the corners (x, z) of a section in a file [m], and the layer of a drawing that they are on.
+    """Return the corners (x, z) of a section in a file [m], and the layer or sets that they are on.
 
     Parameters
     ----------
     path
         Of the file.
     layer
-        Layer of a drawing with its closed outline; needed where there are several, or other lines.
+        Layer of a drawing with its closed outline, or sets of elements of a mesh; needed where there are several, or
+        other lines.
     unit
         Of the numbers, in place of the one that the file states.
 
@@ -98,6 +100,7 @@ def read_corners(path: Path, layer: str | None = None, unit: str | None = None) 
         raise InputError(
             "too-large", "section.file", f"{_LARGEST // 10**6} MB", expected="the outline of the section alone"
         )
+    meshed = is_mesh(content)
     if _DXF.match(content):
         # It is read once more, which a pipe does not bear.
         if not path.is_file():
@@ -105,9 +108,11 @@ def read_corners(path: Path, layer: str | None = None, unit: str | None = None) 
         from heeltoe.case.section_drawing import corners_of_drawing
 
         corners, stated, drawn_on = corners_of_drawing(path, layer)
+    elif meshed:
+        corners, stated, drawn_on = corners_of_mesh(content, layer), "", layer or ""
     else:
         if layer is not None:
-            raise InputError("needs-other", "section.layer", other="a drawing (DXF)")
+            raise InputError("needs-other", "section.layer", other="a drawing (DXF) or a mesh")
         (corners, stated), drawn_on = _corners_of_table(content), ""
     if len(corners) > 1 and corners[0] == corners[-1]:
         corners = corners[:-1]
@@ -125,8 +130,9 @@ def read_corners(path: Path, layer: str | None = None, unit: str | None = None) 
     levels = [z * one for _, z in corners]
     height = max(levels) - min(levels)
     # Programs write the unit of their template, often millimetres, whatever the drawing is in.
-    if drawn_on and unit is None and not _LOWEST <= height <= _HIGHEST:
-        raise InputError("drawing-height", "section.unit", f"{height:.4g} m", unit=stated)
+    # A mesh states none, and is seldom in another unit than metres or millimetres.
+    if (meshed or (drawn_on and unit is None)) and not _LOWEST <= height <= _HIGHEST:
+        raise InputError("drawing-height", "section.unit", f"{height:.4g} m", unit=unit or stated)
     return [(x * one, z * one) for x, z in corners], drawn_on
 
 

@@ -7,15 +7,17 @@ from pathlib import Path
 
 from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
-from heeltoe.case.motion import FILE_OPTIONS, Motion, Source
+from heeltoe.case.motion import FILE_OPTIONS, HorizontalSource, Motion, Source
 from heeltoe.errors.error import InputError
-from heeltoe.motion.check import check, check_moved, check_pair, check_record, check_scaling
+from heeltoe.motion.check import check, check_lag, check_moved, check_pair, check_record, check_scaling
+from heeltoe.motion.direction import check_right_angle, direction_of, rotated
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import process
 from heeltoe.motion.records import HeaderFactor
 from heeltoe.motion.records.catalog import PREFIX, find
 from heeltoe.motion.scenario import synthetic
-from heeltoe.motion.sequence import joined
+from heeltoe.motion.sequence import Components, joined
+from heeltoe.motion.start import begun_together
 from heeltoe.warnings.notice import Notice
 
 # Records as they were read: many runs differ in all else.
@@ -55,33 +57,37 @@ def resolve(
     return resolve_components(shaking, gravity, base_directory, field)[:2]
 
 
-def resolve_components(
-    shaking: Motion, gravity: float, base_directory: Path, field: str = "motion"
-) -> tuple[GroundMotion, GroundMotion | None, GroundMotion | None]:
+def resolve_components(shaking: Motion, gravity: float, base_directory: Path, field: str = "motion") -> Components:
     """Return the ground motions of a case along the stream, upward and across the valley, as :func:`resolve` does."""
     horizontal = read_source(shaking, gravity, base_directory, field)
+    vertical = cross = None
+    if shaking.vertical is not None:
+        vertical = read_source(shaking.vertical, gravity, base_directory, f"{field}.vertical", upward=True)
+    if shaking.cross_valley is not None:
+        cross = read_source(shaking.cross_valley, gravity, base_directory, f"{field}.cross_valley")
+    horizontal, vertical, cross = together(horizontal, vertical, cross, field)
+    by_processing = _scale_of_processing(shaking, gravity, base_directory, field)
+    scaled_by = by_processing
+    if shaking.azimuth is not None and cross is not None and shaking.cross_valley is not None:
+        if by_processing != 1.0 and not _scales(shaking.cross_valley):
+            cross = cross.scaled(by_processing, f"scaled by {by_processing:.6g} like the horizontal motion")
+        # Both have it from here on.
+        scaled_by = 1.0
+        beside = f"{field}.cross_valley"
+        directions = _direction(horizontal, shaking, field), _direction(cross, shaking.cross_valley, beside)
+        check_right_angle(horizontal, directions, f"{beside}.direction")
+        horizontal, cross = rotated(horizontal, cross, directions, shaking.azimuth)
     factor = 1.0
     if shaking.pga is not None and (horizontal.pga > 0.0 or not shaking.allow_zero):
         peak = shaking.pga.si(gravity)
         factor = peak / horizontal.pga if horizontal.pga else 1.0
         horizontal = horizontal.scaled_to(peak, f"scaled by {factor:.6g} to a peak of {shaking.pga}")
-    by_processing = _scale_of_processing(shaking, gravity, base_directory, field)
     horizontal = horizontal.with_warnings(*check_scaling(horizontal, factor * by_processing, field))
-    factor *= by_processing
-    vertical = None
-    if shaking.vertical is not None:
-        vertical = read_source(shaking.vertical, gravity, base_directory, f"{field}.vertical", upward=True)
-        vertical = _beside(vertical, shaking.vertical, horizontal, factor, gravity)
-    cross = None
-    if shaking.cross_valley is not None:
-        cross = read_source(shaking.cross_valley, gravity, base_directory, f"{field}.cross_valley")
-        cross = _beside(cross, shaking.cross_valley, horizontal, factor, gravity, f"{field}.cross_valley")
-    # Records whose lengths before the earthquake differ begin together.
-    leads = [motion.lead for motion in (horizontal, vertical, cross) if motion is not None]
-    for lead in leads:
-        horizontal = horizontal.led_by(lead)
-        vertical = None if vertical is None else vertical.led_by(lead)
-        cross = None if cross is None else cross.led_by(lead)
+    if vertical is not None and shaking.vertical is not None:
+        vertical = _beside(vertical, shaking.vertical, horizontal, factor * by_processing, gravity)
+    if cross is not None and shaking.cross_valley is not None:
+        beside = f"{field}.cross_valley"
+        cross = _beside(cross, shaking.cross_valley, horizontal, factor * scaled_by, gravity, beside)
     if vertical is not None and shaking.vertical is not None:
         vertical = _finish(vertical, shaking.vertical, shaking.duration)
         vertical = vertical.with_warnings(*check(vertical, gravity, allow_zero=True, field=f"{field}.vertical"))
@@ -97,6 +103,37 @@ def resolve_components(
     return horizontal, vertical, cross
 
 
+def together(
+    horizontal: GroundMotion, vertical: GroundMotion | None, cross: GroundMotion | None, field: str
+) -> Components:
+    """Return the components of one earthquake on one clock, by the headers of their records and by the leads of
+    filters; a component across the valley that yet shakes at another time has a warning.
+
+    Raises
+    ------
+    InputError
+        Where their headers say that they were not recorded together.
+    """
+    by_field = {field: horizontal, f"{field}.vertical": vertical, f"{field}.cross_valley": cross}
+    known = {place: motion for place, motion in by_field.items() if motion is not None}
+    lead = max(motion.lead for motion in known.values())
+    begun = begun_together(list(known.values()), list(known))
+    placed = dict(zip(known, (motion.led_by(lead) for motion in begun), strict=True))
+    horizontal, cross = placed[field], placed.get(f"{field}.cross_valley")
+    if cross is not None:
+        cross = cross.with_warnings(*check_lag(horizontal, cross, f"{field}.cross_valley"))
+    return horizontal, placed.get(f"{field}.vertical"), cross
+
+
+def _direction(motion: GroundMotion, source: HorizontalSource, field: str) -> float:
+    """Return the direction of a component by the case, else by its record or its name [rad]."""
+    direction = direction_of(motion) if source.direction is None else source.direction
+    if direction is None:
+        remedy = f'neither {motion.name} nor its name states it; give for example {field}.direction = "180 deg"'
+        raise InputError("missing", f"{field}.direction", remedy=remedy)
+    return direction
+
+
 def _beside(
     motion: GroundMotion,
     source: Source,
@@ -107,22 +144,18 @@ def _beside(
 ) -> GroundMotion:
     """Scale another component of the same earthquake: as its own block says, or as the horizontal one is, and look
     whether both are of one."""
-    if source.pga is not None and motion.pga > 0.0:
-        motion = motion.scaled_to(source.pga.si(gravity), f"scaled to a peak of {source.pga}")
+    peak = source.peak(gravity, horizontal.pga)
+    if peak is not None and peak > 0.0 and motion.pga > 0.0:
+        asked = f"{100.0 * source.pga:g} % of the horizontal one" if isinstance(source.pga, float) else str(source.pga)
+        motion = motion.scaled_to(peak, f"scaled to a peak of {asked}")
     elif not _scales(source) and factor != 1.0:
         motion = motion.scaled(factor, f"scaled by {factor:.6g} like the horizontal motion")
     return motion.with_warnings(*check_pair(horizontal, motion, field=field))
 
 
-def cross_of(case: Case) -> GroundMotion | None:
-    """Return the ground motion of a case across the valley, as :func:`resolve_components` does; None without one."""
-    if case.motion is None or case.motion.cross_valley is None:
-        return None
-    return resolve_components(case.motion, case.gravity, case.base_directory)[2]
-
-
-def resolve_all(case: Case) -> tuple[GroundMotion, GroundMotion | None]:
-    """Return the ground motions of a case, as :func:`resolve` does, with those of its aftershocks after them.
+def resolve_all(case: Case) -> Components:
+    """Return the ground motions of a case, as :func:`resolve_components` does, with those of its aftershocks after
+    them.
 
     Raises
     ------
@@ -132,13 +165,15 @@ def resolve_all(case: Case) -> tuple[GroundMotion, GroundMotion | None]:
     if case.motion is None:
         raise InputError("motion-of-suite", "motions") if case.motions else InputError("motion-missing", "motion")
     if not case.aftershocks:
-        return resolve(case.motion, case.gravity, case.base_directory)
+        return resolve_components(case.motion, case.gravity, case.base_directory)
     motions = {"motion": case.motion, **{f"aftershocks[{k}]": motion for k, motion in enumerate(case.aftershocks)}}
-    pairs = []
-    for field, motion in motions.items():
-        across, up = resolve(motion, case.gravity, case.base_directory, field)
-        pairs.append((across, up, motion.duration or across.duration))
-    return joined(pairs, [aftershock.pause for aftershock in case.aftershocks])
+    earthquakes = [
+        resolve_components(motion, case.gravity, case.base_directory, field) for field, motion in motions.items()
+    ]
+    lengths = [
+        motion.duration or along.duration for motion, (along, _, _) in zip(motions.values(), earthquakes, strict=True)
+    ]
+    return joined(earthquakes, lengths, [aftershock.pause for aftershock in case.aftershocks])
 
 
 def read_source(

@@ -223,7 +223,9 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # factor = 1.0                     # of a file with a factor in its header: that one, or 1 where the values contain it
 # processing = [{{ step = "band-pass", low = "0.1 Hz", high = "25 Hz" }}, {{ step = "baseline" }}]   # before scaling
 # vertical = {{ file = "elcentro-1940-up-nga" }}   # of the same earthquake, positive up; pga, channel etc. as above
-# cross_valley = {{ file = "elcentro-1940-270-nga" }}   # across the valley, positive to the left bank; rigid model
+# cross_valley = {{ file = "elcentro-1940-270-nga" }}   # across the valley, positive to the left bank
+# azimuth = "30 deg"               # of the stream, clockwise from north: both horizontal components are rotated to it
+# direction = "180 deg"            # of a component whose record and name do not state theirs
 # at = "surface"                   # a motion of the free surface, not deconvolved to a depth within the rock
 # allow_zero = true                # accept a motion that is zero throughout
 # Or draw the motion, instead of file; the same time twice is a jump:

@@ -132,7 +132,7 @@ def _about_the_anchors(case: Case) -> Iterator[Notice]:
     inside = case.uplift.drain_x is None or drains(case.uplift.drain_x, section)[0]
     at = case.uplift_at_crack
     if not inside:
-        yield Notice("drains-miss")
+        yield Notice("off-the-dam", "drains", field="uplift.drain_x")
     elif at.pattern == "drained" and (at.drain_efficiency or 0.0) < (at.drain_position or 0.0):
         why = (
             "with {efficiency:g} the head at the drains is higher than without drains: drains without effect are "
@@ -148,12 +148,12 @@ def _about_the_anchors(case: Case) -> Iterator[Notice]:
         field, number = f"anchors[{place}]", place + 1
         crossings = [crosses(anchor, alone.cut) for alone in case.single_crack_cases]
         if all(crossing is not None and not crossing.crossed for crossing in crossings):
-            yield Notice("anchor-misses", field=field, number=number)
+            yield Notice("off-the-dam", "anchor", field=field, number=number)
             continue
         head, _ = anchor_line(anchor, section, 0.0)
         away = float(shapely.distance(whole, shapely.Point(head)))
         if away > near:
-            yield Notice("anchor-head-outside", field=field, number=number, distance_m=away)
+            yield Notice("off-the-dam", "anchor-head", field=field, number=number, distance_m=away)
         for side, (face, water) in faces.items():
             below = section.base_elevation + water.depth - head[1] if water else 0.0
             if below > near and on_face(face, head, near):

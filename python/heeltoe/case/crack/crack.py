@@ -16,7 +16,7 @@ from heeltoe.case.dam import UPLIFT_OPTIONS, Uplift
 from heeltoe.case.fields import STEEPEST, Fields, Fraction, FrictionCoefficient
 from heeltoe.case.quantities import Angle, DimensionlessNumber, Length
 from heeltoe.case.sentences import gathered
-from heeltoe.errors.error import InputError
+from heeltoe.errors.error import InputError, shown
 
 #: Largest sum of the angles of friction and of the asperities along the mean plane of a crack [rad].
 STEEPEST_STRENGTH = math.radians(85.0)
@@ -151,6 +151,16 @@ class Crack(CrackFields):
     """Asperities that the block climbs and wears; the coefficients are then those of the flanks."""
     band: Band | None = None
     """Other frictions: a run for each, and which of them the limits judge."""
+    fit: str | None = Field(default=None, strict=True, min_length=1)
+    """File that `heeltoe law fit` has written, law-fit.toml, relative to the case file; read once, into the friction
+    and `band`."""
+
+    @model_validator(mode="after")
+    @gathered
+    def _fit_read(self) -> Iterator[InputError]:
+        if self.fit is not None:
+            # What a file says is put in the place of these fields before they are read.
+            yield InputError("section-file-unread", "fit", shown(self.fit))
 
     @model_validator(mode="after")
     @gathered
