@@ -10,6 +10,7 @@ import numpy as np
 from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import UNCORRECTED, GroundMotion
 from heeltoe.motion.measures import level_of
+from heeltoe.motion.start import lag_of
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings.notice import Notice
 
@@ -80,8 +81,8 @@ def check_record(
         raise InputError("motion-peak", field, f"{peak:.4g} g", name=motion.name)
     notices = []
 
-    def say(code: str, time_s: float | None = None, **quantities: float | str) -> None:
-        notices.append(Notice(code, field=field, time_s=time_s, name=motion.name, **quantities))
+    def say(code: str, kind: str = "", /, time_s: float | None = None, **quantities: float | str) -> None:
+        notices.append(Notice(code, kind, field=field, time_s=time_s, name=motion.name, **quantities))
 
     # A file without a header may tell by its name.
     component = motion.component or motion.name.replace("_", " ")
@@ -100,25 +101,27 @@ def check_record(
             quantities = {"name": motion.name, "moment": f"{moment:.4g} s", "ratio": f"{lone:.3g}"}
             raise InputError("motion-spike", field, f"{value / gravity:.4g} g", **quantities)
         if doubted > _DOUBTED:
-            say("motion-spike", moment, peak_g=value / gravity, ratio=doubted)
+            say("motion-flaw", "spike", moment, peak_g=value / gravity, ratio=doubted)
         if motion.dt > _COARSE:
-            say("motion-coarse", step_s=motion.dt)
+            say("motion-flaw", "coarse", step_s=motion.dt)
     if (steps > 5.0 * motion.dt).any():
         gap = int(steps.argmax())
-        say("motion-gap", float(motion.time[gap]), gap_s=float(steps[gap]))
+        say("motion-flaw", "gap", float(motion.time[gap]), gap_s=float(steps[gap]))
     level, _ = level_of(motion)
     shaken = float(np.abs(motion.acceleration - level).max())
     if _has_gravity(level, gravity):
         say("motion-gravity", level_g=level / gravity)
     # An offset shows in the mean too, a wave that is cut off does not.
     elif shaken > 0.0 and min(abs(level), abs(float(motion.acceleration.mean()))) > _OFFSET * shaken:
-        say("motion-offset", level_g=level / gravity, share=abs(level) / shaken)
+        say("motion-flaw", "offset", level_g=level / gravity, share=abs(level) / shaken)
     top = np.abs(motion.acceleration) >= motion.pga * (1.0 - 1e-12)
     if motion.pga > 0.0 and (top[:-3] & top[1:-2] & top[2:-1] & top[3:]).any():
-        say("motion-clipped")
+        say("motion-flaw", "clipped")
     for place, value in (("starts", motion.acceleration[0]), ("ends", motion.acceleration[-1])):
         if motion.format != "points" and abs(value) > _JUMP * motion.pga:
-            say("motion-jumps", place=place, jump_g=float(value) / gravity, share=float(abs(value)) / motion.pga)
+            say(
+                "motion-flaw", "jumps", place=place, jump_g=float(value) / gravity, share=float(abs(value)) / motion.pga
+            )
     return tuple(notices)
 
 
@@ -186,12 +189,32 @@ def check_pair(horizontal: GroundMotion, vertical: GroundMotion, field: str | No
     return (
         Notice(
             "components-unsure",
-            missing=", ".join(missing),
-            lengths_s=(horizontal.duration, vertical.duration),
-            steps_s=(horizontal.dt, vertical.dt),
+            why=Sentence.of(
+                "{missing} could not be compared; they last {lengths_s:.4g s|and}, with steps of {steps_s:.3g s|and}",
+                missing=", ".join(missing),
+                lengths_s=(horizontal.duration, vertical.duration),
+                steps_s=(horizontal.dt, vertical.dt),
+            ),
             field=field,
         ),
     )
+
+
+def check_lag(along: GroundMotion, cross: GroundMotion, field: str) -> tuple[Notice, ...]:
+    """Return a warning where one of two horizontal components of records shakes clearly later than the other, though
+    both are to shake the dam together; `field` is that of the second."""
+    if not {along.format, cross.format}.isdisjoint({"points", "synthetic"}):
+        return ()
+    lag = lag_of(along, cross)
+    if lag is None:
+        return ()
+    way = "after" if lag > 0.0 else "before"
+    why = Sentence.of(
+        "it shakes {lag_s:.3g s} {way} that, by the correlation of their sizes; cut the one that begins earlier",
+        lag_s=abs(lag),
+        way=way,
+    )
+    return (Notice("components-unsure", why=why, field=field),)
 
 
 def _bare(text: str) -> str:
@@ -208,7 +231,7 @@ def check_scaling(motion: GroundMotion, factor: float, field: str = "motion") ->
     """Return a warning where a record is made much stronger than it was; whatever was drawn or made may be."""
     if motion.format in ("points", "synthetic") or not factor > _MOST_SCALED:
         return ()
-    return (Notice("motion-scaled", field=field, name=motion.name, factor=factor, most=_MOST_SCALED),)
+    return (Notice("motion-unlike-records", "scaled", field=field, name=motion.name, factor=factor, most=_MOST_SCALED),)
 
 
 def check(
@@ -243,8 +266,8 @@ def check(
         raise InputError("motion-peak", field, f"{peak:.4g} g", name=motion.name)
     notices = []
 
-    def say(code: str, **quantities: float | Sentence) -> None:
-        notices.append(Notice(code, field=field, name=motion.name, **quantities))  # type: ignore[arg-type]
+    def say(code: str, kind: str = "", /, **quantities: float | Sentence) -> None:
+        notices.append(Notice(code, kind, field=field, name=motion.name, **quantities))  # type: ignore[arg-type]
 
     if peak > 3.0:
         say(
@@ -253,5 +276,5 @@ def check(
     if peak < 1e-3:
         say("motion-peak-unusual", peak=Sentence.of("{peak_g:.2g g} only", peak_g=peak))
     if motion.format != "points" and motion.pgv > 0.0 and abs(motion.end_velocity) > 0.2 * motion.pgv:
-        say("motion-drifts", share=abs(motion.end_velocity) / motion.pgv)
+        say("motion-flaw", "drifts", share=abs(motion.end_velocity) / motion.pgv)
     return tuple(notices)

@@ -84,6 +84,9 @@ class GroundMotion(Shown, ReadOnlyArrays):
         What a filter has put before the first value of the record [s]; components of one earthquake go together by it.
     parts
         The motions that it is made of, one after the other; none of a single one.
+    begins
+        When the first value of the record was taken, by the clock of its file [s since 1970]; None where it does not
+        state it.
     """
 
     name: str
@@ -101,6 +104,7 @@ class GroundMotion(Shown, ReadOnlyArrays):
     warnings: tuple[Notice, ...] = ()
     lead: float = 0.0
     parts: tuple[Part, ...] = ()
+    begins: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("time", "acceleration"):
@@ -307,18 +311,22 @@ class GroundMotion(Shown, ReadOnlyArrays):
 
     def led_by(self, lead: float) -> GroundMotion:
         """Return the motion with the ground at rest before it, so that its record begins `lead` [s] after its start."""
-        more = lead - self.lead
+        return replace(self.after_rest(lead - self.lead, "to go with the other component"), lead=max(lead, self.lead))
+
+    def after_rest(self, more: float, why: str) -> GroundMotion:
+        """Return the motion with the ground at rest for `more` [s] before it, for a reason in words; unchanged where
+        that is not positive."""
         if more <= 0.0:
             return self
         at_rest = [0.0] if self.acceleration[0] == 0.0 else [0.0, 0.0]
         time = np.concatenate([[0.0] if len(at_rest) == 1 else [0.0, more], self.time + more])
-        step = f"{more:.4g} s of rest before it, to go with the other component"
+        step = f"{more:.4g} s of rest before it, {why}"
         return replace(
             self,
             time=time,
             acceleration=np.concatenate([at_rest, self.acceleration]),
-            lead=lead,
             processing=(*self.processing, step),
+            begins=None if self.begins is None else self.begins - more,
         )
 
     @property

@@ -33,13 +33,22 @@ def step_means(shaking: Shaking, count: int) -> Floats:
     ndarray, shape (count, 2)
         Horizontal and vertical [m/s2].
     """
+    return _means(shaking, (shaking.horizontal, shaking.up), count)
+
+
+def cross_means(shaking: Shaking, count: int) -> Floats:
+    """Return the same across the valley, (count,) [m/s2]."""
+    return _means(shaking, (shaking.cross,), count)[:, 0]
+
+
+def _means(shaking: Shaking, components: Sequence[Floats | None], count: int) -> Floats:
     time, end = shaking.time, shaking.end
-    means = np.zeros((count, 2))
+    means = np.zeros((count, len(components)))
     moments = np.linspace(0.0, end, count + 1)
     piece = np.clip(np.searchsorted(time, moments, side="right") - 1, 0, time.size - 2)
     since = moments - time[piece]
     length = time[piece + 1] - time[piece]
-    for column, series in enumerate((shaking.horizontal, shaking.up)):
+    for column, series in enumerate(components):
         if series is None:
             continue
         velocity = np.concatenate([[0.0], np.cumsum(np.diff(time) * (series[1:] + series[:-1]) / 2.0)])

@@ -242,6 +242,7 @@ def cut_significant(motion: GroundMotion, start: float = 0.05, end: float = 0.95
         time=np.concatenate([[first], motion.time[inside], [last]]) - first,
         acceleration=np.concatenate([edges[:1], motion.acceleration[inside], edges[1:]]),
         lead=0.0,
+        begins=_begins_later(motion, first - motion.lead),
         processing=(*motion.processing, step),
     )
 
@@ -263,8 +264,14 @@ def cut_to_window(motion: GroundMotion, start: float = 0.0, end: float | None = 
         time=np.concatenate([[0.0], left.time[inside] - first]),
         acceleration=np.concatenate([[edge], left.acceleration[inside]]),
         lead=motion.lead if start == 0.0 else 0.0,
+        begins=_begins_later(motion, start),
         processing=(*motion.processing, step),
     )
+
+
+def _begins_later(motion: GroundMotion, seconds: float) -> float | None:
+    """Return when a motion begins that has lost the first seconds of its record."""
+    return None if motion.begins is None else motion.begins + seconds
 
 
 def scale_to_arias(motion: GroundMotion, intensity: float, gravity: float = STANDARD_GRAVITY) -> GroundMotion:
@@ -298,4 +305,6 @@ def scale_time(motion: GroundMotion, factor: float, *, allow: bool = False) -> G
     stretched = replace(
         motion, time=motion.time * factor, lead=motion.lead * factor, processing=(*motion.processing, step)
     )
-    return stretched.with_warnings(Notice("motion-stretched", name=motion.name, factor=factor))
+    return stretched.with_warnings(
+        Notice("motion-unlike-records", "stretched", field="motion.processing", name=motion.name, factor=factor)
+    )

@@ -185,7 +185,7 @@ def synthetic(name: str, *, gravity: float = STANDARD_GRAVITY, field: str = "mot
         motion = motion.resampled(order["step"])
     notices = [Notice("motion-generated", field=field, name=motion.name)]
     if not (6.0 <= magnitude <= 7.6 and 10.0 <= distance <= 100.0 and vs30 >= 600.0):
-        notices.append(Notice("motion-beyond-relations", field=field, name=motion.name))
+        notices.append(Notice("motion-unlike-records", "beyond-relations", field=field, name=motion.name))
     return motion.with_warnings(*notices)
 
 

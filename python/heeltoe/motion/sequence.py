@@ -10,8 +10,8 @@ import numpy as np
 from heeltoe.base.arrays import Floats
 from heeltoe.motion.ground_motion import GroundMotion, Part
 
-#: Ground motions of one earthquake, horizontal and vertical, and how long they last [s].
-Pair = tuple[GroundMotion, GroundMotion | None, float]
+#: Ground motions of one earthquake: horizontal, vertical and across the valley.
+Components = tuple[GroundMotion, GroundMotion | None, GroundMotion | None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,29 +21,36 @@ class _Placed:
     lasts: float
 
 
-def joined(pairs: Sequence[Pair], pauses: Sequence[float]) -> tuple[GroundMotion, GroundMotion | None]:
+def joined(earthquakes: Sequence[Components], lengths: Sequence[float], pauses: Sequence[float]) -> Components:
     """Join motions, each straight between the moments that it had.
 
     Parameters
     ----------
-    pairs
+    earthquakes
         In their order.
+    lengths
+        How long each lasts [s].
     pauses
         How long the ground stands still before each but the first [s].
 
     Returns
     -------
-    horizontal, vertical
-        From the beginning of the first to the end of the last, each with its own `parts`; the second is None where none
-        of them has any, and at rest through those that have none.
+    horizontal, vertical, cross
+        From the beginning of the first to the end of the last, each with its own `parts`; the others are None where no
+        earthquake has any, and at rest through those that have none.
     """
     begins = [0.0]
-    for (_, _, lasts), pause in zip(pairs, pauses, strict=False):
+    for lasts, pause in zip(lengths, pauses, strict=False):
         begins.append(begins[-1] + lasts + pause)
-    end = begins[-1] + pairs[-1][2]
-    across = [_Placed(motion, begin, lasts) for (motion, _, lasts), begin in zip(pairs, begins, strict=True)]
-    up = [_Placed(motion, begin, lasts) for (_, motion, lasts), begin in zip(pairs, begins, strict=True) if motion]
-    return _whole(across, end), _whole(up, end) if up else None
+    end = begins[-1] + lengths[-1]
+
+    def placed(component: int) -> list[_Placed]:
+        places = zip((earthquake[component] for earthquake in earthquakes), begins, lengths, strict=True)
+        return [_Placed(motion, begin, lasts) for motion, begin, lasts in places if motion is not None]
+
+    horizontal, *others = (placed(component) for component in range(3))
+    vertical, cross = (_whole(motions, end) if motions else None for motions in others)
+    return _whole(horizontal, end), vertical, cross
 
 
 def _whole(placed: Sequence[_Placed], end: float) -> GroundMotion:

@@ -57,6 +57,8 @@ class RawRecord:
         Numbers that the file states of them, to be held against what was read; the durations in s.
     named_units
         Units the file names where it does not say which one is that of the values.
+    begins
+        When the first value was taken, by the clock of the file [s since 1970]; None where it does not state it.
     factor
         Factor of the header, without saying whether the values contain it.
     """
@@ -76,6 +78,7 @@ class RawRecord:
     durations: tuple[Written, ...] = ()
     named_units: frozenset[str] = frozenset()
     factor: float | None = None
+    begins: float | None = None
 
 
 def numbers(lines: list[str], name: str, first_line: int, width: int = 0) -> Floats:

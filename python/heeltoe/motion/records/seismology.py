@@ -134,10 +134,10 @@ def _of_counts(trace: Any, name: str, stations: list[bytes]) -> RawRecord:
     values = np.asarray(trace.data, dtype=np.float64)
     about = {"station": f"{trace.stats.network}.{trace.stats.station}", "component": str(trace.stats.channel)}
     about["date"] = trace.stats.starttime.strftime("%Y-%m-%d %H:%M:%S")
-    step = float(trace.stats.delta)
+    step, begins = float(trace.stats.delta), float(trace.stats.starttime.timestamp)
     if not stations and trace.data.dtype.kind == "f":
         # Somebody has turned it to a unit that miniSEED has no place for.
-        return RawRecord(values, time_step=step, about=about, format="miniSEED")
+        return RawRecord(values, time_step=step, about=about, begins=begins, format="miniSEED")
     sensitivity, part, direction = _sensitivity(trace, name, stations)
     if direction:
         about["component"] = f"{direction} ({about['component']})"
@@ -151,6 +151,7 @@ def _of_counts(trace: Any, name: str, stations: list[bytes]) -> RawRecord:
         time_step=step,
         unit="m/s^2",
         about=about,
+        begins=begins,
         processing=processing,
         uncorrected="it is in counts, as its instrument gave it",
         format="miniSEED",
@@ -217,6 +218,7 @@ def _of_sac(trace: Any, name: str) -> RawRecord:
             "component": str(trace.stats.channel),
             "date": trace.stats.starttime.strftime("%Y-%m-%d %H:%M:%S"),
         },
+        begins=float(trace.stats.starttime.timestamp),
         warnings=peaked(values, f"{max(map(abs, extremes)):.6e}", name) if known else (),
         # Some programs write a sensitivity there, others what they have multiplied by or want to.
         factor=scale if np.isfinite(scale) and scale not in (_NO_NUMBER, 0.0, 1.0) else None,

@@ -110,6 +110,7 @@ def to_motion(raw: RawRecord, name: str, channels: int, options: Options) -> Gro
         channel=raw.channel,
         processing=(*raw.processing, *scaled, *done),
         warnings=(*raw.warnings, *held, *measured, *unsure, *unsure_too),
+        begins=raw.begins,
         **raw.about,  # type: ignore[arg-type]
     )
 

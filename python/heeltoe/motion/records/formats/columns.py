@@ -42,6 +42,7 @@ from heeltoe.motion.records.quantities import (
 from heeltoe.motion.records.raw import COUNT, NUMBER, RawRecord, counted, doubtful, numbers, real
 from heeltoe.motion.records.stated import IN_A_SENTENCE, Stated, read_stated, seconds_in
 from heeltoe.motion.records.words import TIME, folded
+from heeltoe.motion.start import moment_of
 from heeltoe.warnings.notice import Notice
 
 FORMAT = "columns"
@@ -139,6 +140,7 @@ def read(lines: list[str], name: str, layout: str | None = None, field: str = "m
     stands = table.time is None or any(map(is_direction, names or ())) or surely_time_in(bare)
     _check_sides(series, stands or bool(stated.steps) or clock.counts, name)
     about, processing = _about(bare)
+    begins = next((moment_of(line) for line in bare if line.lower().startswith("initial time")), None)
     done = (*processing, *(("decimal commas read",) if commas else ()), *clock.processing)
     largest = max(range(len(series)), key=lambda k: float(np.abs(series[k][0]).max(initial=0.0)))
     return [
@@ -155,6 +157,7 @@ def read(lines: list[str], name: str, layout: str | None = None, field: str = "m
             durations=stated.durations,
             named_units=frozenset() if unit else frozenset(units_of(said).union(*map(units_in, table.names))),
             factor=_factor(bare, name, f"{field}.factor"),
+            begins=begins,
         )
         for k, (acceleration, direction, unit) in enumerate(series)
     ]

@@ -12,6 +12,7 @@ from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_data, labelled
 from heeltoe.motion.records.raw import RawRecord, check_series, leading, numbers, stated, word_of_unit
+from heeltoe.motion.start import moment_of
 
 FORMAT = "ESM ASC"
 
@@ -50,6 +51,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         },
         processing=tuple(_processing(header)),
         warnings=check_series(values, name, count, peak),
+        begins=moment_of(header.get("date_time_first_sample_yyyymmdd_hhmmss", "")),
         uncorrected=f"its header says {baseline.lower()}" if "not removed" in baseline.lower() else "",
     )
     return [record]

@@ -20,6 +20,7 @@ from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import find_data
 from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, doubtful, numbers, real
+from heeltoe.motion.start import moment_of
 
 FORMAT = "K-NET"
 
@@ -78,6 +79,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         about=_about(header),
         processing=(f"mean of {offset:.5g} gal taken out",),
         warnings=warnings,
+        begins=moment_of(header.get("record time", "")),
     )
     return [record]
 
