@@ -324,12 +324,12 @@ def run_rigid_plane(
     Parameters
     ----------
     across
-        (3,) mass across the valley [kg/m] and the distances of the neighbours to the left and to the right [m],
-        infinite where there are none.
+        (5,) mass across the valley [kg/m], the distances of the neighbours to the left and to the right [m], infinite
+        where there are none, and place and velocity across the valley at the start [m, m/s].
     cross
         (n,) acceleration of the ground to the left bank [m/s2].
 
-    The others are those of :func:`run_rigid`. A run in which a corner would lift ends as ``lifts across``.
+    The others are those of :func:`run_rigid`.
     """
 
 def run_rigid_stack(
@@ -377,6 +377,8 @@ def run_rigid_varying(
     settle: float,
     event_limit: int,
     jam: bool,
+    across: Sequence[float] | None = None,
+    cross: Floats | None = None,
 ) -> BlockRun:
     """Run one block whose loads or geometry change as it moves, by integration between events.
 
@@ -627,6 +629,13 @@ class DamSummary:
     cracked_from_toe: Final[float]
     cracked_length: Final[float]
     softening_length: Final[float]
+    cross_slip: Final[float]
+    cross_slip_max: Final[float]
+    cross_slip_min: Final[float]
+    cross_slip_path: Final[float]
+    side_contacts: Final[float]
+    time_at_side: Final[float]
+    side_impulse: Final[float]
 
     def by_name(self) -> dict[str, float]:
         """Return the numbers by their names, for tables."""
@@ -661,6 +670,8 @@ class DamFrames:
     cracked_downstream: Final[Floats]
     cracked_length: Final[Floats]
     softening_length: Final[Floats]
+    slip_cross: Final[Floats]
+    friction_cross: Final[Floats]
 
     def by_name(self) -> dict[str, Floats]:
         """Return the columns by their names, for tables."""
@@ -737,6 +748,8 @@ class DamRun:
     crest
         (s + 1,) where the point of the first part is that was wanted, at the start and after each step, from anywhere
         [m]; empty where none was.
+    crest_cross
+        The same across the valley [m].
     outcome, final_state
         By name.
     """
@@ -756,6 +769,7 @@ class DamRun:
     extremes: Final[tuple[StressExtremes, ...]]
     worked: Final[WornContacts]
     crest: Final[Floats]
+    crest_cross: Final[Floats]
 
     @property
     def outcome(self) -> str: ...
@@ -814,6 +828,11 @@ class CrackedDam:
     def under(self, rising: Sequence[RisingWater]) -> CrackedDam:
         """Return the same dam with water that changes in its runs; springs know none."""
 
+    def crossed(self, parts: Sequence[ReducedBody], gap: tuple[float, float]) -> CrackedDam:
+        """Return the same dam with its parts across the valley, whose shapes (m, k) and positions (k,) have one
+        component for each crack node, and how far it may slip to the left and to the right bank until a neighbour stops
+        it [m]."""
+
     def still(self) -> AtRest | None:
         """Return the state before the earthquake with the crack let go; None where friction does not hold the dam."""
 
@@ -833,6 +852,8 @@ class CrackedDam:
         penalty: tuple[float, float, float] | None = None,
         ending: Ending | None = None,
         until_rest: tuple[int, int, float, float] | None = None,
+        across: Floats | None = None,
+        crest_across: Floats | None = None,
     ) -> DamRun:
         """Shake it, with exact contact or with springs at the contacts.
 
@@ -859,6 +880,11 @@ class CrackedDam:
             After how many steps the run looks for the first time whether the dam is at rest, every how many steps it
             does from then on, over which last seconds, and how far [m] slip and openings change less in them: there it
             ends. It needs frames.
+        across
+            (n,) mean acceleration to the left bank of each step [m/s2], of a dam that has its parts that way; springs
+            know none.
+        crest_across
+            As `crest`, of the first of these parts.
         """
 
     def run_many(
@@ -871,6 +897,7 @@ class CrackedDam:
         threads: int = 0,
         penalty: tuple[float, float, float] | None = None,
         ending: Ending | None = None,
+        across: Floats | None = None,
     ) -> tuple[dict[str, Floats], ...]:
         """Shake it once for each pair of factors, (n, 2), on `threads` cores (0 for all); the numbers of each crack,
-        (n,) by the names of :class:`DamSummary`."""
+        (n,) by the names of :class:`DamSummary`. The first factor of a pair is that across the valley, too."""

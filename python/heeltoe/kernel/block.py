@@ -115,7 +115,7 @@ def run_block(
     start: Sequence[Sequence[float]] | None = None,
     varying: Varying | None = None,
     worn: tuple[float, bool] | None = None,
-    across: tuple[float, float, float] | None = None,
+    across: tuple[float, float, float, float, float] | None = None,
 ) -> BlockRun:
     """Run one block through one motion: exactly from event to event, or by integration where something varies.
 
@@ -137,13 +137,14 @@ def run_block(
     worn
         How far a crack whose friction goes by a law has slipped [m] and whether its bond is whole, where it is not new.
     across
-        Mass that moves across the valley [kg/m] and how far the neighbours to the left and to the right are [m], where
-        the ground shakes that way; nothing varies then.
+        Mass that moves across the valley [kg/m], how far the neighbours to the left and to the right are [m], and place
+        and velocity that way at the first moment, where the ground shakes that way. Friction by a law and the uplift
+        of an open crack alone vary then.
     """
     time, horizontal, up = shaking.time, shaking.horizontal, shaking.up
     settle, most, jam = limits.settle, limits.event_limit, limits.jam
-    if across is not None and shaking.cross is not None:
-        cross = shaking.cross
+    cross = shaking.cross
+    if varying is None and across is not None and cross is not None:
         return _kernel.run_rigid_plane(block, across, time, horizontal, up, cross, moments, start, settle, most, jam)
     if varying is None:
         return _kernel.run_rigid(block, time, horizontal, up, moments, start, settle, most, jam)
@@ -167,6 +168,8 @@ def run_block(
         settle,
         most,
         jam,
+        across,
+        cross,
     )
 
 

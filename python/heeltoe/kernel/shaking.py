@@ -46,6 +46,10 @@ class Shaking:
         """Duration of the run [s]."""
         return float(self.time[-1])
 
+    def along_stream(self) -> Shaking:
+        """Return the same motion without that across the valley."""
+        return replace(self, cross=None, before=None if self.before is None else self.before.along_stream())
+
     def scaled(self, factor: float) -> Shaking:
         """Return the same motion, weaker or stronger."""
         up, turning, cross = (

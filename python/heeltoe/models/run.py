@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal, TypeVar
 from heeltoe.case.combinations import check, supports
 from heeltoe.case.field_usage import unused_fields
 from heeltoe.case.model import Case
-from heeltoe.case.shaking import cross_of, resolve_all
+from heeltoe.case.shaking import resolve_all
 from heeltoe.case.warnings import case_warnings
 from heeltoe.errors.error import InputError, expect
 from heeltoe.errors.sanitize import near
@@ -30,6 +30,7 @@ from heeltoe.models.friction_band import (
 from heeltoe.models.rigid.omitted import omitted
 from heeltoe.models.runner import (
     about_the_end,
+    beside_one_component,
     block_until_rest,
     numbers_of_sign,
     twin_of,
@@ -267,6 +268,8 @@ def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
     if case.concrete.modulus is None:
         return ("rigid",), "the case gives no concrete.modulus, without which the dam can only be a rigid block"
     block = "decoupled" if case.crack.elevation > 0.0 else "rigid"
+    if case.motion is not None and case.motion.cross_valley is not None and not supports(case, block):
+        return ("flexible",), "no block beside it is followed where the ground shakes across the valley"
     return (block, "flexible"), "the case gives concrete.modulus, so that the dam can vibrate as it does"
 
 
@@ -463,8 +466,7 @@ def earthquake(
             expect(component, GroundMotion, "a ground motion", name)
     cross = None
     if motion is None:
-        motion, vertical = resolve_all(case)
-        cross = cross_of(case)
+        motion, vertical, cross = resolve_all(case)
     elif not motion.parts and case.motion is not None:
         motion = motion.with_warnings(
             *(notice for notice in _left_out(case, vertical) if notice not in motion.warnings)
@@ -504,8 +506,6 @@ def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *
     others = [notice for component in beside for notice in component.warnings]
     end = about_the_end(response, asked="silence" in case.analysis.model_fields_set)
     warnings = (*case_warnings(case), *response.motion.warnings, *others, *response.warnings, *end, *unused)
-    if response.elastic and case.motion is not None and case.motion.cross_valley is not None:
-        warnings = (*warnings, Notice("cross-valley-left-out"))
     response = replace(response, limits=check_limits(case.limits, response, judgement))
     if not response.started:
         return replace(response, chosen=chosen, warnings=by_gravity(warnings))
@@ -575,7 +575,6 @@ def _slid_off(response: Response, judgement: Judgement) -> tuple[Notice, ...]:
 
 
 def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Response:
-    from heeltoe.models.rigid.across import beside_one_component
     from heeltoe.models.rigid.model import run_rigid
 
     def run(through: Earthquake) -> Response:
@@ -587,7 +586,9 @@ def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Res
 
     response = with_outcome(*block_until_rest(run, lambda ran: ran, earthquake, case.analysis.silence))
     if earthquake.cross is not None:
-        response = beside_one_component(response, run(replace(earthquake, cross=None).silent(response.silence_s)))
+        alone = run(replace(earthquake, cross=None).silent(response.silence_s))
+        slip = alone.residual_slip_m if alone.ok else None
+        response = beside_one_component(response, str(alone.outcome), slip)
     # Of bounces that amplify the last digit no run is the answer: a twin shows it.
     twin = twin_of(case, response, run, earthquake)
     if twin is None:

@@ -22,7 +22,7 @@ from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import JOINT_METER_M, OPENINGS
 from heeltoe.result.judge import LimitCheck, slides_off
 from heeltoe.result.limits import check_limits, judge_response
-from heeltoe.result.numbers import AnchorForce, SignNumbers
+from heeltoe.result.numbers import AnchorForce, CrackNumbers, CrossValley, SignNumbers, WithoutCrossValley
 from heeltoe.result.outcome import Outcome, decide
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest, last_of, rests_from
@@ -42,10 +42,43 @@ _AS_FAST, _AS_FAST_VIBRATING, _LEAST_SILENCE = 1.0 - 1e-6, 0.99, 2.0
 #: Where in the free motion after the record the slip is looked at to see that.
 _QUARTERS = (0.25, 0.5, 0.75)
 
+# Joints of a real dam close before a monolith has slid so far across the valley [m].
+_JOINTS_M = 0.02
+
 T = TypeVar("T")
 R = TypeVar("R", bound=Response)
 Table = dict[str, Floats]
 Words = NDArray[Any]
+
+
+def beside_one_component(response: R, outcome: str, slip: float | None, own: float | None = None) -> R:
+    """Add to a response what the dam does without the shaking across the valley, and what a reader must know.
+
+    Parameters
+    ----------
+    response
+        With what the part above its only crack does across the valley.
+    outcome, slip
+        How the run without that shaking ends, and its residual slip [m]; None without a result.
+    own
+        Residual slip of the run that is compared with it, where that is not the one of the response [m].
+    """
+    numbers = response.numbers
+    across = getattr(numbers, "cross_valley", None)
+    if not isinstance(numbers, CrackNumbers) or not isinstance(across, CrossValley):
+        return response
+    factor = None
+    if response.ok and slip is not None and abs(slip) >= JOINT_METER_M:
+        factor = (numbers.residual_slip_m if own is None else own) / slip
+    across = replace(
+        across, without_cross_valley=WithoutCrossValley(outcome=outcome, residual_slip_m=slip, factor=factor)
+    )
+    farthest = max(across.peak_slip_cross_left_m, -across.peak_slip_cross_right_m)
+    notices = [Notice("cross-valley-upright")]
+    if farthest > _JOINTS_M:
+        notices.append(Notice("cross-valley-far", slip_m=farthest))
+    response = replace(response, warnings=(*response.warnings, *notices))
+    return response.with_crack(of_crack=replace(numbers, cross_valley=across))
 
 
 def outcomes_of(
@@ -323,14 +356,16 @@ def about_the_anchors(anchors: Sequence[AnchorForce]) -> Iterator[Notice]:
         if anchor.slack_s is not None:
             at_end = Sentence.of("pulls with {tension_n:.4g MN/m} at the end", tension_n=anchor.final_tension_n)
             yield Notice(
-                "anchor-slack",
+                "anchor-fails",
+                "slack",
                 number=number,
                 time_s=anchor.slack_s,
                 then=at_end if anchor.final_tension_n else Sentence("is slack at the end"),
             )
         if anchor.yields_s is not None:
             yield Notice(
-                "anchor-overloaded",
+                "anchor-fails",
+                "overloaded",
                 number=number,
                 time_s=anchor.yields_s,
                 force_n=anchor.peak_force_n,

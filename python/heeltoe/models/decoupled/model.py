@@ -26,6 +26,7 @@ from heeltoe.models.runner import block_until_rest, with_outcome
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.result.contract import JOINT_METER_M, ground_histories
+from heeltoe.result.histories import AT_CRACK, AT_CRACK_UP, GROUND_UP
 from heeltoe.result.numbers import BondedMotion, Chain, CrackLevel, CrackMotionConvergence, CrackSpectrum
 from heeltoe.result.response import Response
 from heeltoe.warnings.notice import Notice
@@ -204,10 +205,10 @@ def _histories(block: Response, felt: CrackMotion, earthquake: Earthquake) -> di
     histories = dict(block.histories)
     moments = histories["time_s"]
     result = ground_histories(earthquake.shaking, moments)
-    histories.pop("vertical_ground_acceleration_m_s2", None)
+    histories.pop(GROUND_UP, None)
     for name, accelerogram in (
-        ("crack_acceleration_m_s2", felt.horizontal),
-        ("vertical_crack_acceleration_m_s2", felt.vertical),
+        (AT_CRACK, felt.horizontal),
+        (AT_CRACK_UP, felt.vertical),
         ("crack_rotation_acceleration_rad_s2", felt.rotation),
     ):
         result[name] = np.interp(moments, accelerogram.time, accelerogram.acceleration)
@@ -220,7 +221,8 @@ def _warnings(level: CrackLevel) -> tuple[Notice, ...]:
         return ()
     return (
         Notice(
-            "sampling-matters",
+            "slip-sensitive",
+            "sampling",
             coarser_slip_m=convergence.coarser_residual_slip_m,
             coarser_step_s=convergence.coarser_step_s,
             step_s=convergence.step_s,

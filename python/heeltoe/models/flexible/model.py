@@ -32,9 +32,9 @@ from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import analysing, frame_step_of
 from heeltoe.models.flexible.run.slip_history import Worn, law_warnings, worn_of
 from heeltoe.models.flexible.warnings import judge_outcome, stands, warnings_of
-from heeltoe.models.runner import STEP, until_rest, where_of
+from heeltoe.models.runner import STEP, beside_one_component, until_rest, where_of
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import CRACKED, headlines
+from heeltoe.result.contract import CRACKED, WIDTH, headlines
 from heeltoe.result.crest import CrestMotion, crest_peaks
 from heeltoe.result.judge import CREST_LIMITS, Judgement, judge, leading_crack
 from heeltoe.result.limits import allowances
@@ -97,7 +97,7 @@ def run_flexible(
     growth = at_first.result() if is_first else _growth(shaken, run, outcome, leads)
     rock = assumed_rock(case, block, begun.earthquake, frame_step, leads) if outcome.has_result else None
     numbers = dam_numbers(shaken, run, growth, tension, rock)
-    return FlexibleResponse(
+    response = FlexibleResponse(
         model="flexible",
         title=case.title,
         outcome=outcome,
@@ -119,7 +119,19 @@ def run_flexible(
         silence_s=earthquake.silence,
         envelope=envelope,
         crest=crest.motion(case.gravity),
+        cross=earthquake.cross,
     )
+    return response if shaken.across is None else _beside_one_component(response, shaken, run, block)
+
+
+def _beside_one_component(response: FlexibleResponse, shaken: ShakenDam, run: DamRun, block: Block) -> FlexibleResponse:
+    """Add to a response of this run what the same dam does at the same step without the shaking across the valley."""
+    case, dam, summary = shaken.case, shaken.dam, run.summary
+    alone = ShakenDam(case, dam, shaken.shaking.along_stream())
+    without = alone.run(summary.end_time / summary.steps, frame_step_of(shaken.shaking.end, None), stresses=False)
+    outcome, _ = judge_outcome(dam, block, without, response.silence_s)
+    slip = without.summary.slip if outcome.has_result else None
+    return beside_one_component(response, str(outcome), slip, summary.slip)
 
 
 def assumed_rock(case: Case, block: Block, earthquake: Earthquake, frame_step: float, leads: int) -> AssumedRock | None:
@@ -215,7 +227,7 @@ class Rested(NamedTuple):
         joint = [line.bond is not None for line in dam.lines]
         columns = {
             **headlines({name: np.array([[row[name] for row in rows]]) for name in rows[0]}),
-            "crack_width_m": width,
+            WIDTH: width,
             CRACKED: np.where(joint, np.minimum([row["cracked_length"] for row in rows], width), 0.0),
         }
         if any(getattr(case.limits, name) is not None for name in CREST_LIMITS):

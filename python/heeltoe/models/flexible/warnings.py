@@ -129,9 +129,11 @@ def _most_loaded(case: Case, run: DamRun) -> list[AnchorForce]:
 def _about_the_rock(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
     around = case.surroundings
     if around.rigid_since:
-        yield Notice("rock-not-assumed", why=Sentence(around.rigid_since))
+        yield Notice("surroundings-not-assumed", "rock", why=Sentence(around.rigid_since))
     if around.mass_since:
-        yield Notice("sound-not-assumed", why=Sentence(around.mass_since))
+        yield Notice(
+            "surroundings-not-assumed", "sound", field="reservoir.compressible", why=Sentence(around.mass_since)
+        )
     if dam.rock_error > ENOUGH_OF_ROCK:
         yield Notice("rock-coarse", error=dam.rock_error, highest_hz=band_of(case))
     if case.foundation is not None and may_have_no_limit(case, dam):
@@ -171,10 +173,13 @@ def _about_the_joints(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
 def _about_the_start(case: Case, dam: FlexibleDam, block: Block) -> Iterator[Notice]:
     safety, held = block.sliding_safety_factor, _held(block)
     if held is not None:
-        yield Notice("anchors-hold", why=instability(held))
+        yield Notice("friction-not-enough", "anchors", field="anchors", why=instability(held))
     elif safety is not None and safety < 1.0:
         steps = climbs(case.crack.kinks) and dam.start.stands
-        yield Notice("steps-hold" if steps else "slides-by-itself", factor=safety)
+        if steps:
+            yield Notice("friction-not-enough", "steps", field="crack.kinks", factor=safety)
+        else:
+            yield Notice("slides-by-itself", factor=safety)
     elif not dam.start.stands:
         yield Notice("no-rest", why=_unrest(dam)[0])
 
@@ -190,7 +195,8 @@ def _about_the_evidences(evidences: Sequence[EvidenceNumbers], dam: FlexibleDam,
         section = dam.sections[place]
         for _ in _about_the_evidence(evidence):
             yield Notice(
-                "further-crack-uncertain",
+                "not-converged",
+                "further-crack",
                 elevation_m=section.heel[1] - section.base_elevation,
                 slip_m=evidence.residual_slip_m.value,
                 uncertainty_m=evidence.residual_slip_m.uncertainty,
@@ -207,6 +213,7 @@ def _about_the_evidence(evidence: EvidenceNumbers) -> Iterator[Notice]:
         spent = "the budget ended the refinement"
         yield Notice(
             "not-converged",
+            "crack",
             slip_m=slip.value,
             uncertainty_m=slip.uncertainty,
             allowed_m=evidence.allowed_m,

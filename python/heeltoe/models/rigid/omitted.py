@@ -11,6 +11,7 @@ from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.mechanics.beam import Swing, swing_of
 from heeltoe.models.rigid.criterion import FAR_M, LEAST_M, Fit, Likeness, fits
+from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.units.sentences import Sentence
@@ -60,7 +61,7 @@ def omitted(case: Case, response: Response) -> tuple[Notice, ...]:
         return ()
     like = _farther(dam, swing)
     strongest = max(swing.accelerations.max(), swing.at_crack.max())
-    if like.code == "rigid-unlike" and strongest <= _NOTICED * swing.peak:
+    if like.kind == "unknown" and strongest <= _NOTICED * swing.peak:
         return ()
     return _swings(dam, swing, moduli), like
 
@@ -97,13 +98,13 @@ def _farther(dam: _Dam, swing: Swing) -> Notice:
     mean_period = swing.mean_period
     why = dam.unlike or ("its motion jumps, and has no mean period" if mean_period is None else None)
     if why is not None or mean_period is None:
-        return Notice("rigid-unlike", why=why, remedy=dam.remedy)
+        return Notice("rigid-unlike-dam", "unknown", why=why, remedy=dam.remedy)
     likes = [_likeness(dam, swing, mean_period, place) for place in range(swing.periods.size)]
     regime = likes[0].regime
     elastic, numbers = fits()["flexible"][regime], [like.numbers() for like in likes]
     outside = next((beyond for inputs in numbers if (beyond := elastic.outside(inputs)) is not None), None)
     if outside is not None:
-        return Notice("rigid-unlike", why=outside, remedy=dam.remedy)
+        return Notice("rigid-unlike-dam", "unknown", why=outside, remedy=dam.remedy)
     if regime == "holds":
         shares = [
             elastic.beyond(inputs, FAR_M / like.displacement) for inputs, like in zip(numbers, likes, strict=True)
@@ -111,20 +112,20 @@ def _farther(dam: _Dam, swing: Swing) -> Notice:
         # No share of some hundred cases is known better than that.
         bounds = _ends(np.clip(shares, 0.01, 0.99))
         known: dict[str, Any] = {"least_m": LEAST_M, "far_m": FAR_M, "cases": elastic.cases}
-        return Notice("rigid-holds", shares=bounds, remedy=dam.remedy, **known)
+        return Notice("rigid-unlike-dam", "holds", shares=bounds, remedy=dam.remedy, **known)
     chain: Sentence | str = ""
     if dam.elevation > 0.0:
         times = _band(fits()["decoupled"][regime], numbers)
         chain = Sentence.of(", the decoupled chain {times:g|to} times", times=times)
     share, cases = elastic.held_back["height" if dam.elevation > 0.0 else "base"]
     times = _band(elastic, numbers)
-    return Notice("rigid-slides", times=times, chain=chain, share=share, cases=cases, remedy=dam.remedy)
+    return Notice("rigid-unlike-dam", "slides", times=times, chain=chain, share=share, cases=cases, remedy=dam.remedy)
 
 
 def _likeness(dam: _Dam, swing: Swing, mean_period: float, place: int) -> Likeness:
     block = dam.block
     return Likeness(
-        slip=abs(block.residual_slip_m),
+        slip=abs(RESIDUAL_SLIP.of(block)),
         rotation=max(block.rocking_downstream_rad, block.rocking_upstream_rad),
         first_period=float(swing.periods[place]),
         mean_period=mean_period,

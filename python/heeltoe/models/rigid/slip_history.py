@@ -47,6 +47,8 @@ def law_histories(case: Case, block: Block, run: BlockRun) -> dict[str, Floats]:
     stress = (column.normal_force_heel + column.normal_force_toe) / block.width
     closed = (column.gap_heel == 0.0) & (column.gap_toe == 0.0)
     speed = abs(column.slip_velocity)
+    if run.crossing is not None:
+        speed = np.hypot(speed, run.crossing.kept[:, 1])
     at_rest, sliding = shear_stress(law_of(case.crack.law), stress, worn.path, speed, worn.bonded * closed)
     strength: Floats = np.where(speed > 0.0, sliding, at_rest)
     return {"slip_path_m": worn.path, "friction_strength_n": block.width * strength}

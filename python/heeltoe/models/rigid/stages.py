@@ -69,8 +69,10 @@ def _parts(shaking: Shaking) -> Iterator[Shaking]:
     places = _Cut.of(shaking).places
     for first, last in zip((0, *places), (*places, shaking.time.size - 1), strict=True):
         here = slice(first, last + 1)
-        up, turning = (None if component is None else component[here] for component in (shaking.up, shaking.turning))
-        yield Shaking(shaking.time[here], shaking.horizontal[here], up, turning)
+        up, turning, cross = (
+            None if component is None else component[here] for component in (shaking.up, shaking.turning, shaking.cross)
+        )
+        yield Shaking(shaking.time[here], shaking.horizontal[here], up, turning, cross)
 
 
 def _wanted(shaking: Shaking, moments: Floats) -> Sequence[Floats]:

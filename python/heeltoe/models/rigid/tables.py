@@ -27,7 +27,7 @@ from heeltoe.result.contract import (
     time_by_mode,
 )
 from heeltoe.result.crest import LOOKS_S, CrestMotion, CrestSeries, crest_series
-from heeltoe.result.histories import EventLog, Histories, computed_columns
+from heeltoe.result.histories import ROTATION, EventLog, Histories, computed_columns
 from heeltoe.result.numbers import AnchorForce, BlockNumbers, CrossValley, Energy
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.quantity import computed
@@ -261,7 +261,7 @@ def histories_of(
         # The gaps go with its sine.
         rotation = np.arcsin(np.clip(rotation, -1.0, 1.0))
         rate = rate / np.maximum(np.cos(rotation), 1e-9)
-    result |= computed_columns(Histories, column) | {"rotation_rad": rotation, "rotation_velocity_rad_s": rate}
+    result |= computed_columns(Histories, column) | {ROTATION: rotation, "rotation_velocity_rad_s": rate}
     if run.crossing is not None:
         slip, velocity, friction = run.crossing.kept.T
         result |= {"slip_cross_m": slip, "slip_cross_velocity_m_s": velocity, "friction_cross_n": friction}

@@ -31,6 +31,14 @@ def walk(
     return walk_with_drainage(case, block, shaking, moments, limits)[0]
 
 
+def across_of(case: Case, block: Block, before: BlockRun | None) -> tuple[float, float, float, float, float]:
+    """Return what moves across the valley: its mass, the gaps on either side, and where the run before has left it."""
+    left, right = case.crack.side_gap or (math.inf, math.inf)
+    there = None if before is None or before.crossing is None else before.crossing.summary
+    place, speed = (0.0, 0.0) if there is None else (there.slip, there.slip_velocity)
+    return block.concrete_mass, left, right, place, speed
+
+
 def _loose(block: Block) -> list[list[float]] | None:
     """Return the place and the velocity that a block moves off from which anchors alone will hold; None of one that
     stands, or that nothing holds, as the walk finds out by itself."""
@@ -56,7 +64,7 @@ def walk_with_drainage(
     def run(now: Case, block: Block, shaking: Shaking, moments: Floats, before: BlockRun | None) -> BlockRun:
         # Nothing varies below a block that does not move.
         what = varying(now, block) if not holds and (varies(now) or shaking.turning is not None) else None
-        across = None if shaking.cross is None else (block.concrete_mass, *(now.crack.side_gap or (math.inf, math.inf)))
+        across = None if shaking.cross is None else across_of(now, block, before)
         start, worn = (_loose(block), None) if before is None else start_of(before)
         if what is not None and before is not None and before.rough is not None:
             dilation, _, work = before.rough.end

@@ -28,7 +28,7 @@ def law_warnings(case: Case, block: Block) -> list[Notice]:
         return []
     stress = block.normal_force / block.width
     why = range_of(law, stress)
-    notices = [] if why is None else [Notice("law-range", stress_pa=stress, why=why, where="")]
+    notices = [] if why is None else [Notice("law-range", "mean", stress_pa=stress, why=why, where="")]
     if law.name in ("barton-bandis", "lift joint"):
         notices.append(Notice("law-by-mean", law=law.name))
     return notices
@@ -71,7 +71,7 @@ def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:
         notices.append(Notice("energy-open", residual=raw.energy_residual))
     why = instability(block)
     if why is not None and anchors_hold(block):
-        notices.append(Notice("anchors-hold", why=why))
+        notices.append(Notice("friction-not-enough", "anchors", field="anchors", why=why))
     notices += about_the_anchors(anchors_of(case, run))
     if case.analysis.rotation == "small":
         notices += _about_the_rotation(block, run)

@@ -288,15 +288,19 @@ def _of_pieces(cases: Sequence[LoadCase]) -> Iterator[Notice]:
     along, angle = along_line(usual), math.degrees(usual.steepest_rise_rad)
     if usual.pieces_bear == "any push":
         bear = Sentence("any push until something shears off")
-        yield Notice("kinks-add", along=along, angle_deg=angle, bear=bear)
+        yield Notice("kinks-beside-line", "add", along=along, angle_deg=angle, bear=bear)
     elif usual.pieces_bear == "more":
         factor = usual.sliding_factor_on_pieces
         bear = Sentence.of("a factor of {factor:.3f} if nothing shears off", factor=factor)
-        yield Notice("kinks-add", along=along, angle_deg=angle, bear=bear)
+        yield Notice("kinks-beside-line", "add", along=along, angle_deg=angle, bear=bear)
     for load_case in cases:
         if load_case.pieces_bear == "less":
             yield Notice(
-                "kinks-take", name=load_case.name, along=along_line(load_case), factor=load_case.sliding_factor
+                "kinks-beside-line",
+                "take",
+                name=load_case.name,
+                along=along_line(load_case),
+                factor=load_case.sliding_factor,
             )
 
 

@@ -152,9 +152,9 @@ def _build(case: Case) -> BondedDam:
 def _modes(case: Case, bonded: Dam, circular: float) -> tuple[tuple[Modes, ...], list[float]]:
     """Return the modes of each body and the error that those left out make."""
     if case.flexible.modes is None:
-        result = [enough_modes(body, circular) for body in bonded.bodies]
+        result = [enough_modes(Basis.of(body), circular) for body in bonded.bodies]
     else:
-        bases = [Basis(body) for body in bonded.bodies]
+        bases = [Basis.of(body) for body in bonded.bodies]
         modes = [basis.modes(case.flexible.modes) for basis in bases]
         result = [(own, basis.error(own, circular)) for own, basis in zip(modes, bases, strict=True)]
     return tuple(modes for modes, _ in result), [error for _, error in result]

@@ -46,6 +46,8 @@ class Damping:
         Share of critical damping that these modes really get while the crack sticks.
     between
         (m, m) what couples the modes of the lowest part [1/s], where the rock is one body with it; (0, 0) elsewhere.
+    factor
+        How many times as much as the case asks for this is.
     """
 
     sticking: tuple[Floats, ...]
@@ -57,6 +59,7 @@ class Damping:
     periods: Floats
     ratios: Floats
     between: Floats = field(default_factory=lambda: np.empty((0, 0)))
+    factor: float = 1.0
 
     def scaled(self, factor: float) -> Damping:
         """Return this damping multiplied by `factor`."""
@@ -70,6 +73,7 @@ class Damping:
             self.periods,
             factor * self.ratios,
             factor * self.between,
+            factor * self.factor,
         )
 
     def founded(self, held: Floats, bent: Floats) -> Damping:
@@ -101,18 +105,49 @@ def damping_of(case: Case, dam: BondedDam) -> Damping:
     dam
         The elastic bodies in their modes.
     """
-    modes = dam.modes
-    choice, ratio = case.flexible.damping, case.concrete.damping
-    omega, bonded = _bonded(dam, _MODAL + 1 if choice == "modal" else SHOWN_MODES)
+    choice = case.flexible.damping
+    omega, bonded = _bonded(dam, bonded_count(choice))
+    lags = _crack_motions(dam, dam.modes) if choice in ("relative", "modal") else []
+    dry = choice == "relative" and not case.flexible.damping_on_water
+    water = _water_motion(dam, dam.modes, lags) if dry else ()
+    return spread_damping(case, dam.modes, omega, bonded, lags, water)
+
+
+def bonded_count(choice: str) -> int:
+    """Return how many modes of the bonded dam a choice of damping is made from."""
+    return _MODAL + 1 if choice == "modal" else SHOWN_MODES
+
+
+def spread_damping(
+    case: Case,
+    modes: tuple[Modes, ...],
+    omega: Floats,
+    bonded: tuple[Floats, ...],
+    lags: list[list[Floats]],
+    water: tuple[Floats, ...] = (),
+) -> Damping:
+    """Return the damping that a case asks for, of parts that move in one way.
+
+    Parameters
+    ----------
+    case
+        With ``flexible.damping`` and ``concrete.damping``.
+    modes
+        Of each part.
+    omega, bonded
+        (j,) circular frequencies of the bonded dam [1/s], and these modes (j, m) in those of each part.
+    lags
+        For each crack rows for each part: the rigid motion that the part above would lack to follow the face below.
+    water
+        Rows of the motion of water that is not to be damped, for each part.
+    """
+    choice, ratio, dry = case.flexible.damping, case.concrete.damping, bool(water)
     periods = 2.0 * math.pi / omega[:SHOWN_MODES]
     coefficients: tuple[float, float] | None = rayleigh(periods[0], periods[min(2, len(periods) - 1)], ratio)
     if choice == "stiffness":
         coefficients = (0.0, 2.0 * ratio / omega[0])
     elif choice == "modal":
         coefficients = None
-    lags = _crack_motions(dam, modes) if choice in ("relative", "modal") else []
-    dry = choice == "relative" and not case.flexible.damping_on_water
-    water = _water_motion(dam, modes, lags) if dry else ()
     if dry:
         coefficients = _dry_rayleigh(omega, 1.0 - _norms(water, bonded), ratio)
     mass, stiffness = coefficients or (0.0, 2.0 * ratio / omega[-1])

@@ -364,6 +364,28 @@ def _matrices(mesh: BodyMesh, elasticity: Floats) -> tuple[Sparse, Sparse, Float
     )
 
 
+def scalar_matrices(case: Case, mesh: BodyMesh) -> tuple[Sparse, Sparse]:
+    """Return stiffness [N/m per m] and mass [kg per m] of antiplane shear, (n, n): one displacement of each node at
+    right angles to the section."""
+    import skfem
+    from skfem.helpers import dot, grad
+
+    quads, vertices, facets = _skfem_mesh(mesh)
+    basis = skfem.Basis(quads, skfem.ElementQuadS2(), intorder=5)
+
+    def energy(u: Any, v: Any, _: Any) -> Any:
+        return dot(grad(u), grad(v))
+
+    def inertia(u: Any, v: Any, _: Any) -> Any:
+        return u * v
+
+    order = np.empty(len(mesh.nodes), dtype=np.int64)
+    order[vertices], order[facets] = basis.nodal_dofs[0], basis.facet_dofs[0]
+    shear = (case.concrete.modulus or 0.0) / (2.0 * (1.0 + case.concrete.poisson))
+    stiffness, mass = (skfem.BilinearForm(form).assemble(basis)[order][:, order] for form in (energy, inertia))
+    return (shear * stiffness).tocsc(), (case.concrete.density * mass).tocsc()
+
+
 def _skfem_mesh(mesh: BodyMesh) -> tuple[Any, Integers, Integers]:
     """Return the mesh for scikit-fem and, for its vertices and its facets, the numbers of our nodes."""
     import skfem

@@ -76,22 +76,53 @@ class Basis:
 
     Parameters
     ----------
-    body
-        Free, or held at its base.
+    stiffness, mass
+        Of a body that is free, or held somewhere, (n, n).
+    rigid
+        (n, r) its rigid motions, orthonormal in the mass; none where it is held.
+    held, crack
+        Which of its n unknowns are held, and which those of its crack.
+    loads
+        (n, l) forces whose static shapes are wanted.
+    bent
+        (n,) any motion of a free body that is not rigid.
     """
 
-    def __init__(self, body: Body) -> None:
-        size = body.mesh.nodes.size
-        self._size, self._free = size, np.setdiff1d(np.arange(size), dofs(body.mesh.fixed))
+    def __init__(
+        self,
+        stiffness: Sparse,
+        mass: Sparse,
+        *,
+        rigid: Floats,
+        held: Integers,
+        crack: Integers,
+        loads: Floats,
+        bent: Floats,
+    ) -> None:
+        size = mass.shape[0]
+        self._size, self._free = size, np.setdiff1d(np.arange(size), held)
         self._stiffness, self._mass = (
-            matrix[self._free][:, self._free] if body.mesh.fixed.size else matrix
-            for matrix in (body.stiffness, body.mass)
+            matrix[self._free][:, self._free] if held.size else matrix for matrix in (stiffness, mass)
         )
-        self._rigid = np.empty((self._free.size, 0)) if body.mesh.fixed.size else _rigid_shapes(body)
+        self._rigid, self._bent = rigid[self._free], bent[self._free]
+        self._crack, self._loads = np.searchsorted(self._free, crack), loads[self._free]
+
+    @classmethod
+    def of(cls, body: Body) -> Basis:
+        """Return that of a body in the plane of the section."""
+        size, held = body.mesh.nodes.size, body.mesh.fixed.size
         following = [body.load_per_vertical] if body.load_per_vertical.any() else []
-        moved = [body.mass @ np.tile(np.eye(2), (size // 2, 1))] if body.mesh.fixed.size else []
-        self._crack = np.searchsorted(self._free, dofs(body.mesh.crack))
-        self._loads = np.column_stack([body.load, *following, *moved])[self._free]
+        moved = [body.mass @ np.tile(np.eye(2), (size // 2, 1))] if held else []
+        rigid = np.empty((size, 0)) if held else _rigid_shapes(body)
+        return cls(
+            body.stiffness,
+            body.mass,
+            rigid=rigid,
+            held=dofs(body.mesh.fixed),
+            crack=dofs(body.mesh.crack),
+            loads=np.column_stack([body.load, *following, *moved]),
+            bent=np.zeros(size) if held else rigid[:, 2] ** 2,
+        )
 
     def modes(self, keep: int | None = None) -> Modes:
         """Return as many vibration modes, all where no number is given or the static shapes make it as many."""
@@ -133,8 +164,7 @@ class Basis:
         """A millionth of a Rayleigh quotient, which bounds the lowest squared frequency of a free body."""
         if not self._rigid.size:
             return 0.0
-        shape = self._rigid[:, 2] ** 2
-        shape -= _projected(shape, self._rigid, self._mass)
+        shape = self._bent - _projected(self._bent, self._rigid, self._mass)
         return 1e-6 * float(shape @ (self._stiffness @ shape) / (shape @ (self._mass @ shape)))
 
     def _compliance(self, square: float) -> tuple[Integers, Floats]:
@@ -201,12 +231,12 @@ class Basis:
 
 def reduce(body: Body, keep: int | None = None) -> Modes:
     """Return the modes of a body, see :class:`Basis`: all of them by default."""
-    return Basis(body).modes(keep)
+    return Basis.of(body).modes(keep)
 
 
-def enough_modes(body: Body, circular: float) -> tuple[Modes, float]:
+def enough_modes(basis: Basis, circular: float) -> tuple[Modes, float]:
     """Return as many of the lowest modes of a body, with its static shapes, as its crack needs, and their error."""
-    basis, keep = Basis(body), FIRST_KEPT
+    keep = FIRST_KEPT
     while True:
         modes = basis.modes(keep)
         error = basis.error(modes, circular)

@@ -44,7 +44,7 @@ class RockBody:
     omega_squared, damping
         As those of :class:`heeltoe.models.flexible.surroundings.rock.ReducedRock`, (m,) and (m, m).
     shapes
-        (m, 2 k) motion of the nodes of the surface, all downstream, then all upward.
+        (m, 2 k) motion of the nodes of the surface, all downstream, then all upward; (m, k) across the valley.
     points
         (k, 2) where these are, x and z [m].
     error
@@ -118,7 +118,7 @@ def founded(case: Case, bonded: BondedDam, *, larger: float = 1.0, shapes_of: fl
     if case.foundation is None or not lowest.mesh.fixed.size:
         return None
     nodes = base_nodes(lowest)
-    rock = _rock_below(lowest.mesh.nodes[nodes], case, larger, shapes_of)
+    rock = rock_below(lowest.mesh.nodes[nodes], case, larger, shapes_of)
     load = np.concatenate([body.load for body in bonded.bodies])
     # Of the whole dam, for the settlement, and of the part alone.
     every = base_shapes(bonded, load.size - lowest.load.size + dofs(nodes)) @ rock.shapes
@@ -147,7 +147,9 @@ def founded(case: Case, bonded: BondedDam, *, larger: float = 1.0, shapes_of: fl
     )
 
 
-def rock_body(case: Case, lowest: Body, *, larger: float = 1.0, shapes_of: float | None = None) -> RockBody | None:
+def rock_body(
+    case: Case, lowest: Body, *, larger: float = 1.0, shapes_of: float | None = None, across: bool = False
+) -> RockBody | None:
     """Return the rock below the part of the dam that stands on it by a crack; None on a rigid plane, and where the dam
     is bonded to the rock.
 
@@ -161,6 +163,8 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0, shapes_of: float
         Factor on the extent of the rock that is meshed, and on the band in which it answers well.
     shapes_of
         Modulus [Pa] of rock that is the same in all else, whose shapes this rock takes; its own where it is not given.
+    across
+        Whether it moves across the valley, one component of each node, and not in the section.
 
     Raises
     ------
@@ -180,15 +184,25 @@ def rock_body(case: Case, lowest: Body, *, larger: float = 1.0, shapes_of: float
     ahead = [base[0] - (BEYOND - k / 2.0) * first for k in range(2 * BEYOND)]
     behind = [base[-1] + (k + 1) / 2.0 * last for k in range(2 * BEYOND)]
     points = np.vstack([*ahead, base, *behind])
-    reduced = _rock_below(points, case, larger, shapes_of, beyond=2 * BEYOND)
+    reduced = rock_below(points, case, larger, shapes_of, beyond=2 * BEYOND, across=across)
     count = reduced.omega_squared.size
-    shapes = reduced.shapes.T.reshape(count, -1, 2).swapaxes(1, 2).reshape(count, -1)
+    components = len(reduced.mirror)
+    shapes = reduced.shapes.T.reshape(count, -1, components).swapaxes(1, 2).reshape(count, -1)
     still = np.zeros(count)
     return RockBody(reduced.omega_squared, reduced.damping, np.ascontiguousarray(shapes), points, reduced.error, still)
 
 
-def _rock_below(points: Floats, case: Case, larger: float, shapes_of: float | None, *, beyond: int = 0) -> ReducedRock:
-    """Return the rock of a case below nodes (x, z), `beyond` of which lie beyond the heel, and as many beyond the toe.
+def rock_below(
+    points: Floats,
+    case: Case,
+    larger: float = 1.0,
+    shapes_of: float | None = None,
+    *,
+    beyond: int = 0,
+    across: bool = False,
+) -> ReducedRock:
+    """Return the rock of a case below nodes (x, z), `beyond` of which lie beyond the heel, and as many beyond the toe,
+    in the section or `across` the valley.
 
     The same rock lies below dams that differ in all else, and below the meshes of a dam, of which coarser ones tie its
     base to fewer nodes. Rock with the shapes of another modulus answers well up to a frequency that goes with the root
@@ -206,8 +220,8 @@ def _rock_below(points: Floats, case: Case, larger: float, shapes_of: float | No
     fine = float(f"{_SAME * np.ptp(base[:, 0]):.0e}")
     base = fine * np.round(base / fine)
     below = _KEPT.get(
-        (base.tobytes(), material, extent, highest),
-        lambda: reduced_rock(base, material, highest=highest, extent=extent),
+        (base.tobytes(), material, extent, highest, across),
+        lambda: reduced_rock(base, material, highest=highest, extent=extent, across=across),
     )
     if shapes_of is not None:
         below = below.stiffer(case.foundation.modulus / shapes_of)

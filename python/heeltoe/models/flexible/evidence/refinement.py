@@ -23,7 +23,7 @@ from heeltoe.models.flexible.evidence.evidence import (
     most_moved_by,
     worth_of,
 )
-from heeltoe.models.flexible.evidence.trials import SCALES, SOFTENING, Level, Trials
+from heeltoe.models.flexible.evidence.trials import CROSS_SLIP, SCALES, SOFTENING, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import FEWEST_ACROSS
 from heeltoe.result.contract import CRACKED, HEADLINES, RESIDUAL_SLIP
@@ -357,5 +357,6 @@ class _Stand:
             budget=BUDGET,
             budget_spent=spent,
             cracked_length_m=cracked,
+            residual_slip_cross_m=None if trials.dam_of(0).across is None else worth(CROSS_SLIP),
             **headline_worths,
         )

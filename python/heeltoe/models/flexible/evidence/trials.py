@@ -24,6 +24,8 @@ from heeltoe.result.outcome import Outcome, decide
 
 #: Length of a joint that softens [m], beside the headline numbers.
 SOFTENING = "softening_length_m"
+#: Slip across the valley at the end [m], beside them, too.
+CROSS_SLIP = "residual_slip_cross_m"
 #: Factors on the shaking: as it is, and up to 1 % either way.
 SCALES = (1.0, 0.99, 0.995, 1.005, 1.01)
 #: Rock and water that reach farther do so by this factor, and answer well up to a frequency that is higher by it.
@@ -183,7 +185,11 @@ class Trials:
         lines = headlines({item.column: np.array([row[item.column] for row in rows]) for item in HEADLINES})
         width = self.dam_of(level.mesh).dam.sections[crack].crack_width
         softening = np.array([row["softening_length"] for row in rows])
-        return lines | {CRACKED: np.minimum([row["cracked_length"] for row in rows], width), SOFTENING: softening}
+        return lines | {
+            CRACKED: np.minimum([row["cracked_length"] for row in rows], width),
+            SOFTENING: softening,
+            CROSS_SLIP: np.array([row["cross_slip"] for row in rows]),
+        }
 
     def failed(self, level: Level, scales: Sequence[float]) -> int:
         """Return how many of these runs, all made before, end without a result."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.kernel.dam import DAM_STATES, DamRun
+from heeltoe.kernel.dam import DAM_STATES, DamRun, DamSummary
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import StaticState, build_block, static_state
 from heeltoe.models.flexible.body.bond import zone_mesh
@@ -31,6 +31,7 @@ from heeltoe.result.numbers import (
     BeforeShaking,
     BondState,
     CrackEnergy,
+    CrossValley,
     ElasticCrack,
     ElasticDam,
     ElasticGive,
@@ -43,8 +44,10 @@ from heeltoe.result.numbers import (
 )
 from heeltoe.result.quantity import computed
 
-# Columns of the histories that cracks with a friction law alone have, and those with a bond.
+# Columns of the histories that cracks with a friction law alone have, those of a ground that shakes across the valley,
+# too, and those with a bond.
 _OF_LAWS = ("slip_path_m", "friction_strength_n")
+_ACROSS = ("slip_cross_m", "friction_cross_n")
 _CRACKED = ("cracked_upstream_m", "cracked_downstream_m", "cracked_length_m")
 _OF_BONDS = ("softening_length_m", "fracture_energy_j")
 
@@ -121,10 +124,24 @@ def crack_numbers(
         evidence=evidence,
         friction_law=None if worn is None else law_result(worn, run, place),
         joint=bond_of(case, dam, run, place),
+        cross_valley=_across(raw) if run.crest_cross.size else None,
     )
     # Where single runs scatter, what is shown first is the mean of several.
     means: dict[str, Any] = {} if evidence is None else trusted(evidence)
     return replace(numbers, **means)
+
+
+def _across(raw: DamSummary) -> CrossValley:
+    """Return what the part above a crack does across the valley."""
+    return CrossValley(
+        residual_slip_cross_m=raw.cross_slip + 0.0,
+        peak_slip_cross_left_m=raw.cross_slip_max + 0.0,
+        peak_slip_cross_right_m=raw.cross_slip_min + 0.0,
+        slip_path_m=raw.cross_slip_path,
+        side_contacts=int(raw.side_contacts),
+        time_at_side_s=raw.time_at_side,
+        side_contact_impulse_n_s=raw.side_impulse,
+    )
 
 
 def bond_of(case: Case, dam: FlexibleDam, run: DamRun, place: int) -> BondState | None:
@@ -223,8 +240,16 @@ def histories_of(
     columns = computed_columns(Histories, run.all_frames[place])
     # The kernel adds lengths of a face that its loads have strained.
     columns |= {name: np.minimum(columns[name], bonded_width or 0.0) for name in _CRACKED}
-    without = (*(() if law else _OF_LAWS), *(() if bonded_width is not None else (*_CRACKED, *_OF_BONDS)))
+    crosses = run.crest_cross.size > 0
+    without = (
+        *(() if law else _OF_LAWS),
+        *(() if crosses else _ACROSS),
+        *(() if bonded_width is not None else (*_CRACKED, *_OF_BONDS)),
+    )
     kept = {name: column for name, column in columns.items() if name not in without}
+    if crosses:
+        moments = run.summary.end_time / run.summary.steps * np.arange(run.crest_cross.size)
+        kept["crest_cross_m"] = np.interp(run.frames.time, moments, run.crest_cross)
     return ground_histories(shaking, run.frames.time) | kept
 
 

@@ -60,13 +60,15 @@ def tension_warnings(tension: Tension | None) -> Iterator[Notice]:
         return
     if strength.exceeds_before_shaking:
         yield Notice(
-            "tension-before",
+            "tension-exceeds",
+            "before",
             stress_pa=tension.before_shaking_pa,
             strength_pa=strength.static_pa,
         )
     if strength.exceeds:
         yield Notice(
             "tension-exceeds",
+            "shaken",
             time_s=tension.time_s,
             stress_pa=tension.stress_pa,
             strength_pa=strength.dynamic_pa,

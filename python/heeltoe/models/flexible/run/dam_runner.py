@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -13,6 +14,7 @@ from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.kernel.dam import CrackedDam, DamRun, Ending
 from heeltoe.kernel.shaking import Shaking
+from heeltoe.models.flexible.body.across import AcrossDam, across_dam
 from heeltoe.models.flexible.body.cost import wave_bodies
 from heeltoe.models.flexible.body.modes import part_periods
 from heeltoe.models.flexible.body.reduced import FlexibleDam
@@ -20,7 +22,7 @@ from heeltoe.models.flexible.body.step import longest_step
 from heeltoe.models.flexible.body.stress_places import StressRows
 from heeltoe.models.flexible.body.uplift_and_anchors import rising_water
 from heeltoe.models.runner import STEP
-from heeltoe.motion.moments import step_ends, step_means
+from heeltoe.motion.moments import cross_means, step_ends, step_means
 from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.result.rest import LAST_S
 
@@ -147,8 +149,11 @@ class ShakenDam:
         frames about every `frame_step`, and with them the extremes of the `stresses`; with `pauses`, on through silence
         until the dam is at rest."""
         count, step, ground = self._ground(step)
+        across = self._across_means(step, ground)
         if pauses is not None:
-            ground = np.vstack([ground, np.zeros((pauses.times * pauses.steps, 2))])
+            silence = pauses.times * pauses.steps
+            ground = np.vstack([ground, np.zeros((silence, 2))])
+            across = None if across is None else np.append(across, np.zeros(silence))
         stride, rows, crest = 0, None, None
         if frame_step is not None:
             stride = max(1, min(count, round(frame_step / step)))
@@ -165,6 +170,8 @@ class ShakenDam:
             penalty=self._penalty(),
             ending=ending,
             until_rest=None if pauses is None else (count, pauses.steps, LAST_S, JOINT_METER_M),
+            across=None if across is None else factor * across,
+            crest_across=None if self.across is None else self.across.crest,
         )
 
     def pauses(self, step: float, seconds: float, longest: float) -> Pauses | None:
@@ -197,6 +204,7 @@ class ShakenDam:
             threads=threads,
             penalty=self._penalty(),
             ending=ending,
+            across=self._across_means(step, ground),
         )
 
     @cached_property
@@ -209,7 +217,26 @@ class ShakenDam:
     def _shaken_dam(self) -> CrackedDam:
         dam, drainage = self.dam, self.shaking.drainage
         # The drainage follows the slip of the only crack.
-        return dam.kernel.under(rising_water(self.case, 0, dam.faces(0), dam.rock, drainage))
+        under = dam.kernel.under(rising_water(self.case, 0, dam.faces(0), dam.rock, drainage))
+        if self.across is None:
+            return under
+        return under.crossed(self.across.parts, self.case.crack.side_gap or (math.inf, math.inf))
+
+    @cached_property
+    def across(self) -> AcrossDam | None:
+        """The dam across the valley; None where the ground does not shake that way."""
+        cross = self.shaking.cross
+        return None if cross is None or not cross.any() else across_dam(self.case, self.dam)
+
+    def _across_means(self, step: float, ground: Floats) -> Floats | None:
+        """Return the ground's mean acceleration across the valley in each step [m/s2], silence at the end included."""
+        if self.across is None:
+            return None
+        shaking = self.shaking.before or self.shaking
+        means = np.zeros(len(ground))
+        count = round(shaking.end / step)
+        means[:count] = cross_means(shaking, count)
+        return means
 
     def _ground(self, step: float) -> tuple[int, float, Floats]:
         """Return the number of steps of about this length in the whole run, their length [s], and the kernel's input

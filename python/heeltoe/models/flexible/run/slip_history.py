@@ -124,12 +124,14 @@ def law_warnings(worn: Worn, where: Sentence | str = "") -> list[Notice]:
     mean = worn.mean(worn.stress)
     why = range_of(worn.law, mean)
     if why is not None:
-        return [Notice("law-range", stress_pa=mean, why=why, where=where)]
+        return [Notice("law-range", "mean", stress_pa=mean, why=why, where=where)]
     outside: dict[str, float] = {}
     for stress, length in zip(worn.stress[worn.pressed], worn.length[worn.pressed], strict=True):
         why = range_of(worn.law, float(stress))
         if why is not None:
             outside[why] = outside.get(why, 0.0) + float(length) / float(worn.length.sum())
     return [
-        Notice("law-range-part", share=share, why=why, where=where) for why, share in outside.items() if share > _PART
+        Notice("law-range", "part", share=share, why=why, where=where)
+        for why, share in outside.items()
+        if share > _PART
     ]

@@ -43,10 +43,10 @@ def left_out(case: Case, slip: float, peak: float) -> Iterator[Notice]:
     depth = 0.0 if case.reservoir is None else case.reservoir.depth / height
     why = _unlike(case, height, depth, peak / case.gravity)
     if why is not None:
-        yield Notice("surroundings-unlike", why=why)
+        yield Notice("surroundings-left-out", "unknown", why=why)
         return
     *_, (_, _, cases, share, times) = (item for item in CLASSES if item[0] <= depth)
-    yield Notice("surroundings-left-out", cases=cases, share=share, times=times)
+    yield Notice("surroundings-left-out", "studied", cases=cases, share=share, times=times)
 
 
 def _unlike(case: Case, height: float, depth: float, peak: float) -> Sentence | None:

@@ -13,8 +13,10 @@ same layer in wavelengths, and has gone where the elements grow too large for it
 
     x'' + C x' + Omega^2 x = S^T f,    u_base = S x,
 
-symmetric and passive. The shapes are static ones for a force on every node of the base and those of smooth tractions up
-to the highest frequency."""
+symmetric and passive. The shapes are static ones for a force on every node of the base and those of smooth tractions at
+frequencies from the lowest mode of all these elements, near ``c_s`` over the distance of the last ring, to the highest
+frequency. Even steps of the root of the frequency lie close together down there, where an earthquake still moves a dam
+far below all modes of its own."""
 
 from __future__ import annotations
 
@@ -48,6 +50,8 @@ from heeltoe.models.flexible.surroundings.reduction import (
 
 #: Distance of the last ring in half widths of the base.
 EXTENT = 100.0
+# Signs of the components of a motion in a mirror at the middle of the base: x and z, and that at right angles to both.
+_IN_PLANE, _ACROSS_VALLEY = (-1.0, 1.0), (1.0,)
 #: The level surface goes on beyond heel and toe by so many edges of the mesh, on which a dam that slides stands.
 BEYOND = 1
 # Elements across the base at least, and over the shortest shear wave.
@@ -60,16 +64,13 @@ _GRADIENT, _START = 0.05, 4.0
 _PATTERNS = 4
 # What is far counts less in the choice of shapes: weights fall with this power of the distance.
 _FADING = 0.5
-# Sampled frequencies at least, and for each time that half the base is as long as the shortest wave over 2 pi; terms of
-# each beyond the answer, the lowest over the highest, and the growth of the motions over their frequency.
-_SAMPLED, _BY_WAVES, _MOMENTS, _LOWEST, _GROWTH = 4, 0.65, 3, 0.03, 0.5
-# Far below all modes of a dam an earthquake still moves it, and rock that waves leave grows softer and softer: one
-# more frequency over the highest.
-_SLOW = 0.005
-# Frequencies for each of these at which shapes are chosen, with the growth where they are chosen and checked; those
-# between the lowest ones over the highest, where a large box has modes of its own; shapes at most beside the static
-# ones.
-_CHOSEN, _LITTLE_GROWTH, _BETWEEN, _MOST = 6, 0.03, (0.009, 0.016), 200
+# Sampled frequencies at least; some, and more for each time that half the base is as long as the shortest wave over 2
+# pi; terms of each beyond the answer, and the growth of the motions over their frequency.
+_LEAST, _SAMPLED, _BY_WAVES, _MOMENTS, _GROWTH = 5, 3, 0.65, 4, 0.5
+# Frequencies for each of these at which shapes are chosen, up to which part of the highest, and the growth where they
+# are chosen and checked: with more of it the peaks between them are flat, and their error is not seen. Shapes at most
+# beside the static ones.
+_CHOSEN, _ABOVE, _LITTLE_GROWTH, _MOST = 6, 1.05, 0.01, 200
 # Of nodes that are as far on the other side but for such a part of half a base the rock is the same on both sides.
 _SAME = 1e-7
 # Singular values below this part of the largest are what both sides differ by in rounding.
@@ -126,7 +127,8 @@ class RockMaterial:
 
 @dataclass(frozen=True, eq=False)
 class FullRock:
-    """Rock in all its finite elements; N unknowns, of which those of the base come first, x and z of its nodes in turn.
+    """Rock in all its finite elements; N unknowns, of which those of the base come first, x and z of its nodes in turn,
+    or one at right angles to the section for each.
 
     Attributes
     ----------
@@ -135,10 +137,12 @@ class FullRock:
     damping_material, damping_radiation
         What the material takes and what leaves as waves, (N, N) [N s/m per m].
     base
-        (2 n,) unknowns of the nodes of the base: 0 to 2 n - 1.
+        (c n,) unknowns of the nodes of the base, c components of each: 0 to c n - 1.
     points, axis
         Where the unknowns are, x from the middle of the base and z [m], (N, 2), and whether they move along x, 0, or
-        along z, 1, (N,).
+        along z, 1, (N,); 0 where there is but one component.
+    mirror
+        (c,) sign of each component in a mirror at the middle of the base.
     """
 
     mass: Sparse
@@ -148,6 +152,7 @@ class FullRock:
     base: Integers
     points: Floats
     axis: Integers
+    mirror: tuple[float, ...] = _IN_PLANE
 
     @property
     def body(self) -> LinearBody:
@@ -176,6 +181,8 @@ class ReducedRock:
     halves
         How many of the shapes are the same on both sides of the middle of the base, and how many opposite, where the
         rock is the same there and nothing couples them; elsewhere how many there are.
+    mirror
+        (c,) sign of each of the components of a node in a mirror at the middle of the base.
     """
 
     omega_squared: Floats
@@ -186,6 +193,7 @@ class ReducedRock:
     highest: float
     error: float
     halves: tuple[int, ...]
+    mirror: tuple[float, ...] = _IN_PLANE
 
     def compliance(self, omega: float, forces: Complexes) -> Complexes:
         """Return the displacements of the base under forces (2 n, k) on it, both like exp(i omega t)."""
@@ -213,7 +221,7 @@ class ReducedRock:
         nodes, shares = edge_shares(fewer[:, 0], base[:, 0])
         share = np.zeros((len(base), len(fewer)))
         share[np.arange(len(base))[:, None], nodes] = shares
-        tie = np.kron(share, np.eye(2))
+        tie = np.kron(share, np.eye(len(self.mirror)))
         # What of the motion of the base is none of these edges: all motions but those of it remain.
         off = scipy.linalg.null_space(tie.T).T @ self.shapes
         squares, shapes, own, leaving = [], [], [], []
@@ -224,17 +232,17 @@ class ReducedRock:
             kept = free @ mixed
             squares.append(np.maximum(square, 0.0))
             tied = np.linalg.lstsq(tie, self.shapes[:, part] @ kept, rcond=None)[0]
-            shapes.append(tied if len(self.halves) == 1 else _same_sides(tied, opposite=half == 1))
+            shapes.append(tied if len(self.halves) == 1 else _same_sides(tied, self.mirror, opposite=half == 1))
             own.append(congruent(self.damping_material[part, part], kept))
             leaving.append(congruent(self.damping_radiation[part, part], kept))
-        return _joined(squares, shapes, own, leaving, self.highest, self.error)
+        return _joined(squares, shapes, own, leaving, (self.highest, self.error), self.mirror)
 
 
-def _same_sides(shapes: Floats, *, opposite: bool) -> Floats:
-    """Return shapes (2 n, m) at the base that are the same on both sides of the middle, or opposite, but for rounding,
+def _same_sides(shapes: Floats, mirror: tuple[float, ...], *, opposite: bool) -> Floats:
+    """Return shapes (c n, m) at the base that are the same on both sides of the middle, or opposite, but for rounding,
     without rounding: the kernel sees by that which nodes move alike."""
-    sides = shapes.reshape(-1, 2, shapes.shape[1])
-    mirrored = sides[::-1] * [[-1.0], [1.0]]
+    sides = shapes.reshape(-1, len(mirror), shapes.shape[1])
+    mirrored = sides[::-1] * np.array(mirror)[:, None]
     exact: Floats = (sides - mirrored if opposite else sides + mirrored) / 2.0
     return exact.reshape(shapes.shape)
 
@@ -244,10 +252,11 @@ def _joined(
     shapes: list[Floats],
     own: list[Floats],
     leaving: list[Floats],
-    highest: float,
-    error: float,
+    worth: tuple[float, float],
+    mirror: tuple[float, ...],
 ) -> ReducedRock:
-    """Return rock of halves that do not move each other, with their shapes at the base."""
+    """Return rock of halves that do not move each other, with their shapes at the base; `worth` has the highest
+    frequency and the error."""
     taken_own, taken_leaving = scipy.linalg.block_diag(*own), scipy.linalg.block_diag(*leaving)
     return ReducedRock(
         np.concatenate(squares),
@@ -255,14 +264,20 @@ def _joined(
         taken_own,
         taken_leaving,
         np.hstack(shapes),
-        highest,
-        error,
+        *worth,
         tuple(square.size for square in squares),
+        mirror,
     )
 
 
 def reduced_rock(
-    base: Floats, material: RockMaterial, *, highest: float = 15.0, extent: float = EXTENT, enough: float = ENOUGH
+    base: Floats,
+    material: RockMaterial,
+    *,
+    highest: float = 15.0,
+    extent: float = EXTENT,
+    enough: float = ENOUGH,
+    across: bool = False,
 ) -> ReducedRock:
     """Return the rock below a base in few unknowns.
 
@@ -278,11 +293,17 @@ def reduced_rock(
         Distance of the last ring in half widths of the base.
     enough
         Relative error that the reduction may leave.
+    across
+        Whether it moves at right angles to the section, by antiplane shear, and not in the section.
     """
-    return _reduced(full_rock(base, material, highest=highest, extent=extent), base, material, highest, enough)
+    half = float(np.ptp(base[:, 0])) / 2.0
+    full = full_rock(base, material, highest=highest, extent=extent, across=across)
+    return _reduced(full, base, material, _rates(material, extent * half, half, highest), highest, enough)
 
 
-def full_rock(base: Floats, material: RockMaterial, *, highest: float = 15.0, extent: float = EXTENT) -> FullRock:
+def full_rock(
+    base: Floats, material: RockMaterial, *, highest: float = 15.0, extent: float = EXTENT, across: bool = False
+) -> FullRock:
     """Return the rock below a base in all its finite elements; parameters as in :func:`reduced_rock`."""
     import skfem
     from skfem.helpers import dot
@@ -292,37 +313,42 @@ def full_rock(base: Floats, material: RockMaterial, *, highest: float = 15.0, ex
     middle, half = (base[0, 0] + base[-1, 0]) / 2.0, (base[-1, 0] - base[0, 0]) / 2.0
     points, elements = _rings(refined - middle, count, half, extent)
     mesh = skfem.MeshQuad(points.T.copy(), elements.T.copy())
-    basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementQuad2()), intorder=4)
+    element = skfem.ElementQuad2() if across else skfem.ElementVector(skfem.ElementQuad2())
+    mirror = _ACROSS_VALLEY if across else _IN_PLANE
+    basis = skfem.Basis(mesh, element, intorder=4)
     shear = material.shear
     distance = np.maximum(np.hypot(*basis.global_coordinates()) - half, 0.0)
     rise = _GRADIENT / material.shear_speed * distance**2 / (distance + _START * half)
 
     far = skfem.FacetBasis(
         mesh,
-        skfem.ElementVector(skfem.ElementQuad2()),
+        element,
         facets=_last_ring(mesh, extent * half),
         intorder=4,
     )
 
-    def across(u: Any, v: Any, w: Any) -> tuple[Any, Any]:
+    def parted(u: Any, v: Any, w: Any) -> tuple[Any, Any]:
+        if across:
+            return 0.0, u * v
         normal, along = dot(u, w.n) * dot(v, w.n), dot(u, v)
         return normal, along - normal
 
     def springs(u: Any, v: Any, w: Any) -> Any:
-        normal, along = across(u, v, w)
+        normal, along = parted(u, v, w)
         return shear / np.hypot(*w.x) * (normal + along / 2.0)
 
     def dashpots(u: Any, v: Any, w: Any) -> Any:
-        normal, along = across(u, v, w)
+        normal, along = parted(u, v, w)
         return material.density * (material.pressure_speed * normal + material.shear_speed * along)
 
-    tie, places, axis = _tie(basis, base, middle, half)
+    tie, places, axis = _tie(basis, base, middle, half, len(mirror))
 
     def tied(matrix: Any) -> Sparse:
         return sparse.csc_matrix(tie.T @ matrix @ tie)
 
     none = sparse.csc_matrix((tie.shape[1], tie.shape[1]))
-    strains, moved = _strains(basis, material), _motions(basis)
+    strains = _shears(basis, material) if across else _strains(basis, material)
+    moved = _motions(basis, len(mirror))
     stiffness = tied(_products(basis, strains, basis.dx))
     mass = tied(_products(basis, (moved, moved), material.density * basis.dx))
     # The springs stand for rock, too.
@@ -336,9 +362,10 @@ def full_rock(base: Floats, material: RockMaterial, *, highest: float = 15.0, ex
         stiffness,
         own,
         leaving,
-        np.arange(2 * len(base)),
+        np.arange(len(mirror) * len(base)),
         places,
         axis,
+        mirror,
     )
 
 
@@ -354,9 +381,18 @@ def _strains(basis: Any, material: RockMaterial) -> tuple[Floats, Floats]:
     return strain, law @ strain
 
 
-def _motions(basis: Any) -> Floats:
-    """Return the motion in x and z of each shape of the elements at their points of integration, (e, q, 2, s)."""
-    values = np.stack([np.broadcast_to(np.asarray(field[0]), (2, *basis.dx.shape)) for field in basis.basis])
+def _shears(basis: Any, material: RockMaterial) -> tuple[Floats, Floats]:
+    """Return what :func:`_strains` does of antiplane shear: the strains xy and zy, (e, q, 2, s), and their stresses."""
+    gradient = np.stack([field[0].grad for field in basis.basis])
+    strain = np.ascontiguousarray(gradient.transpose(2, 3, 1, 0))
+    return strain, material.shear * strain
+
+
+def _motions(basis: Any, components: int) -> Floats:
+    """Return the motion in x and z of each shape of the elements at their points of integration, (e, q, 2, s), or that
+    of its only component."""
+    shape = (components, *basis.dx.shape)
+    values = np.stack([np.broadcast_to(np.asarray(field[0]), shape) for field in basis.basis])
     return np.ascontiguousarray(values.transpose(2, 3, 1, 0))
 
 
@@ -444,46 +480,50 @@ def _last_ring(mesh: Any, distance: float) -> Integers:
     return facets
 
 
-def _tie(basis: Any, base: Floats, middle: float, half: float) -> tuple[Sparse, Floats, Integers]:
+def _tie(basis: Any, base: Floats, middle: float, half: float, components: int) -> tuple[Sparse, Floats, Integers]:
     """Return all displacements by the unknowns, which follow the nodes of the base where the dam stands, and of the
     unknowns the places and axes."""
     places = basis.doflocs
     under = (np.abs(places[1]) < 1e-9 * half) & (np.abs(places[0]) < half * (1.0 + 1e-9))
     axis = np.empty(places.shape[1], dtype=np.int64)
-    for number in (0, 1):
+    for number in range(components):
         for dofs in (basis.nodal_dofs, basis.facet_dofs, basis.interior_dofs):
             axis[dofs[number]] = number
     led, free = np.flatnonzero(under), np.flatnonzero(~under)
     nodes, shares = edge_shares(base[:, 0] - middle, places[0, led])
-    first = 2 * len(base)
+    first = components * len(base)
     rows = np.concatenate([np.repeat(led, 3), free])
-    columns = np.concatenate([(2 * nodes + axis[led][:, None]).reshape(-1), first + np.arange(free.size)])
+    columns = np.concatenate([(components * nodes + axis[led][:, None]).reshape(-1), first + np.arange(free.size)])
     values = np.concatenate([shares.reshape(-1), np.ones(free.size)])
     shape = (places.shape[1], first + free.size)
-    nodes_of_base = np.repeat(base - [middle, base[0, 1]], 2, axis=0)
+    nodes_of_base = np.repeat(base - [middle, base[0, 1]], components, axis=0)
     return (
         sparse.csr_matrix((values, (rows, columns)), shape),
         np.vstack([nodes_of_base, places[:, free].T]),
-        np.concatenate([np.tile([0, 1], len(base)), axis[free]]),
+        np.concatenate([np.tile(np.arange(components), len(base)), axis[free]]),
     )
 
 
-def _reduced(full: FullRock, base: Floats, material: RockMaterial, highest: float, enough: float) -> ReducedRock:
+def _reduced(
+    full: FullRock, base: Floats, material: RockMaterial, rates: Rates, highest: float, enough: float
+) -> ReducedRock:
     # The norm of the shapes weighs mass and stiffness where a wave is as long as the base is wide.
     half = np.ptp(base[:, 0]) / 2.0
     weight = (1.0 + np.hypot(*full.points.T) / half) ** -_FADING
     weight[full.base] = 1.0
     norm = norm_of(full.body, np.pi / 2.0 * material.shear_speed / half, weight)
-    pushed = np.zeros((full.mass.shape[0], 2 * _PATTERNS))
-    pushed[full.base] = smooth_tractions(base)
-    halves, rates = _halves(full, half), _rates(material, half, highest)
+    tractions = smooth_tractions(base) if full.mirror == _IN_PLANE else smooth_tractions(base)[::2, ::2]
+    pushed = np.zeros((full.mass.shape[0], tractions.shape[1]))
+    pushed[full.base] = tractions
+    halves = _halves(full, half)
     parts = [_part(full, spread, pushed, norm, rates, _MOST // len(halves), enough) for spread in halves]
     own, leaving = (
         [congruent(matrix, shapes) for _, shapes, _ in parts]
         for matrix in (full.damping_material, full.damping_radiation)
     )
     shapes = [shapes[full.base] for _, shapes, _ in parts]
-    return _joined([squares for squares, _, _ in parts], shapes, own, leaving, highest, max(part[2] for part in parts))
+    worth = (highest, max(part[2] for part in parts))
+    return _joined([squares for squares, _, _ in parts], shapes, own, leaving, worth, full.mirror)
 
 
 def _part(
@@ -503,20 +543,21 @@ def _part(
     return squares, spread @ shapes, error
 
 
-def _rates(material: RockMaterial, half: float, highest: float) -> Rates:
+def _rates(material: RockMaterial, reach: float, half: float, highest: float) -> Rates:
+    """Return the rates at which rock out to a last ring [m] below half a base [m] is looked at."""
     if material.massless:
         return Rates([], [], [], 0)
     limit = 2.0 * np.pi * highest
+    lowest = material.shear_speed / reach
 
-    def rates(growth: float, highest: float, count: int, between: tuple[float, ...] = ()) -> list[complex]:
-        ratios = (_SLOW, *between, *np.geomspace(_LOWEST, highest, count))
-        return [complex(growth, 1.0) * limit * ratio for ratio in ratios]
+    def rates(growth: float, above: float, count: int) -> list[complex]:
+        roots = np.linspace(math.sqrt(lowest), math.sqrt(above * limit), count)
+        return [complex(growth, 1.0) * omega for omega in roots**2]
 
-    count = max(_SAMPLED, 2 + math.ceil(_BY_WAVES * limit * half / material.shear_speed))
-    # Between those that are sampled.
-    checked = rates(_LITTLE_GROWTH, 1.0, 2 * count - 1)[2::4]
-    chosen = rates(_LITTLE_GROWTH, 1.05, _CHOSEN * count, _BETWEEN)
-    return Rates(rates(_GROWTH, 1.0, count), chosen, checked, _MOMENTS)
+    count = max(_LEAST, _SAMPLED + math.ceil(_BY_WAVES * limit * half / material.shear_speed))
+    # Every second of those that lie between the sampled ones, beginning with the lowest.
+    checked = rates(_LITTLE_GROWTH, 1.0, 2 * count - 1)[1::4]
+    return Rates(rates(_GROWTH, 1.0, count), rates(_LITTLE_GROWTH, _ABOVE, _CHOSEN * count), checked, _MOMENTS)
 
 
 def _halves(full: FullRock, half: float) -> list[Sparse]:
@@ -529,7 +570,7 @@ def _halves(full: FullRock, half: float) -> list[Sparse]:
     if np.hypot(*away.T).max() > _SAME * half:
         return everything
     # Downstream is upstream in a mirror.
-    turned = np.where(full.axis == 0, -1.0, 1.0)
+    turned = np.array(full.mirror)[full.axis]
     halves = []
     for sign in (1.0, -1.0):
         first = np.flatnonzero((np.arange(count) < twin) | ((np.arange(count) == twin) & (turned == sign)))
