@@ -64,7 +64,7 @@ def meaning(dam: ResponseData, block: ResponseData, units: str = "si", *, brief:
         return (
             f"They slide alike, but differ in the {_numbers_of(apart[0], dam, block, units)}. Trust the flexible model."
         )
-    far, near = (abs(response.residual_slip_m) for response in (dam, block))
+    far, near = (abs(RESIDUAL_SLIP.of(response)) for response in (dam, block))
     if slips[0] is not RESIDUAL_SLIP:
         return (
             f"They end alike, but differ in the {_numbers_of(slips[0], dam, block, units)}. Trust the flexible model."
@@ -106,8 +106,8 @@ def _numbers_of(of: Quantity, dam: ResponseData, block: ResponseData, units: str
 
 def _slips_differ(dam: ResponseData, block: ResponseData) -> tuple[str, str, bool]:
     """Say how the slips differ and why, and whether a source shows it."""
-    far, near = (abs(response.residual_slip_m) for response in (dam, block))
-    opposite = dam.residual_slip_m * block.residual_slip_m < 0.0
+    far, near = (abs(RESIDUAL_SLIP.of(response)) for response in (dam, block))
+    opposite = RESIDUAL_SLIP.of(dam) * RESIDUAL_SLIP.of(block) < 0.0
     if block.model == "decoupled":
         return _slips_of_the_chain(far, near, opposite), _CHAIN, False
     if opposite:

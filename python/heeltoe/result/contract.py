@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.result.histories import GROUND, GROUND_UP
 from heeltoe.result.numbers import CrackNumbers, SlipByMode, TimeByMode
 from heeltoe.result.quantity import LEAST_M as LEAST_M
 from heeltoe.result.quantity import LEAST_RAD as LEAST_RAD
@@ -73,9 +74,9 @@ def headlines(table: Mapping[str, N]) -> dict[str, N]:
 def ground_histories(shaking: Shaking, moments: Floats) -> dict[str, Floats]:
     """Return the first columns of all histories: the moments (n,) [s], and how the ground accelerates then [m/s2]."""
     horizontal = np.interp(moments, shaking.time, shaking.horizontal)
-    histories = {"time_s": moments, "ground_acceleration_m_s2": horizontal}
+    histories = {"time_s": moments, GROUND: horizontal}
     if shaking.up is not None:
-        histories["vertical_ground_acceleration_m_s2"] = np.interp(moments, shaking.time, shaking.up)
+        histories[GROUND_UP] = np.interp(moments, shaking.time, shaking.up)
     if shaking.cross is not None:
         histories["cross_ground_acceleration_m_s2"] = np.interp(moments, shaking.time, shaking.cross)
     return histories

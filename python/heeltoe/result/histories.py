@@ -47,10 +47,15 @@ class Histories(Columns):
     slip_m: Annotated[Floats, Number("Slip of the part above the crack, positive downstream.", "m")]
     slip_velocity_m_s: Annotated[Floats, Number("Its velocity.", "m/s")]
     slip_acceleration_m_s2: Annotated[Floats, Number("Its acceleration.", "m/s²")]
-    slip_cross_m: Annotated[Floats, Number("Slip of a block across the valley, positive to the left bank.", "m")]
+    slip_cross_m: Annotated[Floats, Number("Slip across the valley, positive to the left bank.", "m")]
     slip_cross_velocity_m_s: Annotated[Floats, Number("Velocity of that slip.", "m/s")]
     friction_cross_n: Annotated[
-        Floats, Number("Friction on a block across the valley, positive to the left bank.", "N per metre of dam")
+        Floats,
+        Number(
+            "Force across the valley on the part above the crack: friction, and on an elastic one the push of "
+            "neighbours.",
+            "N per metre of dam",
+        ),
     ]
     gap_heel_m: Annotated[Floats, Number("Opening of the crack at the upstream face.", "m")]
     gap_toe_m: Annotated[Floats, Number("Opening of the crack at the downstream face.", "m")]
@@ -63,6 +68,10 @@ class Histories(Columns):
             "positive downstream.",
             "m",
         ),
+    ]
+    crest_cross_m: Annotated[
+        Floats,
+        Number("Displacement of the crest across the valley relative to the ground, positive to the left bank.", "m"),
     ]
     crest_acceleration_m_s2: Annotated[
         Floats, Number("Its horizontal acceleration with that of the ground, the mean over two steps.", "m/s²")
@@ -106,6 +115,10 @@ class Histories(Columns):
     mode: Annotated[tuple[str, ...], Number("Mode of motion: rest, sliding, rocking, slide-rocking, drifting.")]
 
 
+#: Columns that others draw, limit or compare: of the crack, of the ground, and of the crack below a block of the chain.
+SLIP, ROTATION = "slip_m", "rotation_rad"
+GROUND, GROUND_UP = "ground_acceleration_m_s2", "vertical_ground_acceleration_m_s2"
+AT_CRACK, AT_CRACK_UP = "crack_acceleration_m_s2", "vertical_crack_acceleration_m_s2"
 #: Columns of the openings, at the upstream face before the downstream one.
 GAPS = tuple(name for name in Histories.__annotations__ if name.startswith("gap_"))
 

@@ -19,7 +19,7 @@ from heeltoe.base.arrays import Floats, Integers
 from heeltoe.base.blocks import Block, Number
 from heeltoe.result.contract import CRACKED, JOINT_METER_M, OPENINGS, PEAKS, RESIDUAL_SLIP, ROTATIONS, WIDTH
 from heeltoe.result.crest import ACCELERATION, CREST_PEAKS, DISPLACEMENT
-from heeltoe.result.histories import GAPS
+from heeltoe.result.histories import GAPS, ROTATION, SLIP
 from heeltoe.result.outcome import Outcome
 
 Flags = NDArray[np.bool_]
@@ -37,15 +37,15 @@ class Limit(NamedTuple):
 
 #: Everything that a case or a study can limit. `opening` stands in studies alone.
 LIMITS = {
-    "residual_slip": Limit(RESIDUAL_SLIP.label, (RESIDUAL_SLIP.key,), "slip_m"),
-    "peak_slip": Limit("peak slip", PEAKS, "slip_m"),
+    "residual_slip": Limit(RESIDUAL_SLIP.label, (RESIDUAL_SLIP.key,), SLIP),
+    "peak_slip": Limit("peak slip", PEAKS, SLIP),
     "opening": Limit("opening at either face", tuple(item.key for item in OPENINGS), ""),
     **{
         item.key.removesuffix("_m"): Limit(item.label, (item.key,), column)
         for item, column in zip(OPENINGS, GAPS, strict=True)
     },
     "cracked_length": Limit("cracked length", (CRACKED,), CRACKED),
-    "rotation": Limit("rotation", ROTATIONS, "rotation_rad", "rad"),
+    "rotation": Limit("rotation", ROTATIONS, ROTATION, "rad"),
     "crest_displacement": Limit("crest displacement", CREST_PEAKS[:1], DISPLACEMENT),
     "crest_acceleration": Limit("crest acceleration", CREST_PEAKS[1:], ACCELERATION, "g"),
 }

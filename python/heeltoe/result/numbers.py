@@ -223,6 +223,46 @@ class Mesh(Block):
     ]
 
 
+class WithoutCrossValley(Block):
+    """The same dam without the shaking across the valley."""
+
+    outcome: Annotated[str, Number("How it ends.")]
+    residual_slip_m: Annotated[float | None, Number("Its residual slip; null without a result.", "m")]
+    factor: Annotated[
+        float | None,
+        Number("Residual slip over that without the shaking across the valley; null where that is next to nothing."),
+    ]
+
+
+class CrossValley(Block):
+    """Motion of the part above a crack across the valley, positive to the left bank."""
+
+    residual_slip_cross_m: Annotated[
+        float, Number("Slip across the valley at the end, positive to the left bank.", "m")
+    ]
+    peak_slip_cross_left_m: Annotated[float, Number("Largest slip to the left bank on the way.", "m")]
+    peak_slip_cross_right_m: Annotated[
+        float, Number("Least slip across the valley on the way: negative where it is to the right bank.", "m")
+    ]
+    slip_path_m: Annotated[
+        float,
+        Number(
+            "Length of the path of the slip on the crack, along and across the valley together; none in the air.", "m"
+        ),
+    ]
+    side_contacts: Annotated[int, Number("How often it comes to rest against a neighbour.")]
+    time_at_side_s: Annotated[
+        float, Number("How long a neighbour holds it across the valley, or a node of an elastic one.", "s")
+    ]
+    side_contact_impulse_n_s: Annotated[
+        float, Number("Impulse that the neighbours take across the valley.", "N s per metre of dam")
+    ]
+    without_cross_valley: Annotated[
+        WithoutCrossValley | None,
+        Number("The same dam without that shaking; null where that was not run."),
+    ] = None
+
+
 class CrackNumbers(Block):
     """Numbers of a crack that every model has."""
 
@@ -334,43 +374,14 @@ class CrackNumbers(Block):
         list[AnchorForce] | None,
         Number("Place, largest tension and capacity of each anchor.", optional=True),
     ] = None
+    cross_valley: Annotated[
+        CrossValley | None,
+        Number("Motion across the valley; null where the ground does not shake that way."),
+    ] = None
 
 
 #: What a crack has where it is one of several.
 OF_SEVERAL = ("elevation_m", "friction", "crack_energy")
-
-
-class WithoutCrossValley(Block):
-    """The same block without the shaking across the valley."""
-
-    outcome: Annotated[str, Number("How it ends.")]
-    residual_slip_m: Annotated[float | None, Number("Its residual slip; null without a result.", "m")]
-    factor: Annotated[
-        float | None,
-        Number("Residual slip over that without the shaking across the valley; null where that is next to nothing."),
-    ]
-
-
-class CrossValley(Block):
-    """Motion of a block across the valley, positive to the left bank."""
-
-    residual_slip_cross_m: Annotated[
-        float, Number("Slip across the valley at the end, positive to the left bank.", "m")
-    ]
-    peak_slip_cross_left_m: Annotated[float, Number("Largest slip to the left bank on the way.", "m")]
-    peak_slip_cross_right_m: Annotated[
-        float, Number("Least slip across the valley on the way: negative where it is to the right bank.", "m")
-    ]
-    slip_path_m: Annotated[float, Number("Length of the path of the slip, along and across the valley together.", "m")]
-    side_contacts: Annotated[int, Number("How often the block comes to rest against a neighbour.")]
-    time_at_side_s: Annotated[float, Number("How long a neighbour holds the block across the valley.", "s")]
-    side_contact_impulse_n_s: Annotated[
-        float, Number("Impulse that the neighbours take across the valley.", "N s per metre of dam")
-    ]
-    without_cross_valley: Annotated[
-        WithoutCrossValley | None,
-        Number("The same block without that shaking; null where that was not run."),
-    ] = None
 
 
 class BlockNumbers(CrackNumbers):
@@ -392,10 +403,6 @@ class BlockNumbers(CrackNumbers):
     ]
     bond: Annotated[BlockBond | None, Number("How the bond of the joint below a rigid block fares; null of a crack.")]
     overturned_about: Annotated[str | None, Number("Corner about which a block has overturned; null where it has not.")]
-    cross_valley: Annotated[
-        CrossValley | None,
-        Number("Motion of a block across the valley; null where the ground does not shake that way."),
-    ] = None
 
 
 class CrackSpectrum(Block):
@@ -623,6 +630,10 @@ class EvidenceNumbers(Block):
     opening_downstream_m: Annotated[HeadlineWorth, Number("Uncertainty of the opening at the downstream face.", "m")]
     cracked_length_m: Annotated[
         HeadlineWorth | None, Number("Uncertainty of the cracked length of a joint; null for a crack.", "m")
+    ] = None
+    residual_slip_cross_m: Annotated[
+        HeadlineWorth | None,
+        Number("Uncertainty of the slip across the valley; null where the ground does not shake that way.", "m"),
     ] = None
 
     @property

@@ -25,7 +25,7 @@ class Outcome(StrEnum):
     paradox        no     no     no motion agrees with Coulomb friction
     event limit    no     no     a block has more events than ``analysis.event_limit``
     cycling        no     no     events follow each other without time passing
-    lifts across   no     no     a corner of a block that the ground shakes across the valley, too, would lift
+    lifts across   no     no     a corner of a block of a friction law or of changing uplift lifts, shaken across
     blown up       no     no     the time stepping makes energy
     overturned     yes    yes    a block whose rotation may be of any size lies on its side
     lost           no     yes    the part above slides or lifts farther than its crack is wide
@@ -77,8 +77,8 @@ class Outcome(StrEnum):
     )
     LIFTS_ACROSS = (
         *("lifts across", False, False),
-        "a corner of the block would lift, which is not followed while the ground shakes across the valley",
-        'set motion.cross_valley = "none" to see the rocking without it',
+        "a corner lifts while the ground shakes across the valley and friction or uplift goes by a law",
+        'set motion.cross_valley = "none", or leave out crack.law and uplift.during_shaking',
     )
     BLOWN_UP = (
         *("blown up", False, False, "energy came from nothing, as penalties can make it"),

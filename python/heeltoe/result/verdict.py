@@ -58,10 +58,10 @@ def verdict(response: ResponseData, units: str = "si", *, brief: bool = False) -
         sentences = [
             joint_sentence(response, units),
             _elastic_slip(response, units),
+            across_sentence(response, units),
             _elastic_rocking(response) if brief else _openings(response, units),
             _other_cracks(response, units, brief),
             _elastic_end(response, units, brief),
-            _left_out_across(response),
             rock_sentence(response, units),
             tension_sentence(getattr(response, "tension", None), units),
         ]
@@ -212,7 +212,7 @@ def _slip(response: ResponseData, units: str) -> str:
 
 
 def across_sentence(response: ResponseData, units: str = "si") -> str:
-    """Say what the shaking across the valley does to a block; nothing where there is none."""
+    """Say what the shaking across the valley does to a dam; nothing where there is none."""
     across: CrossValley | None = getattr(response, "cross_valley", None)
     if across is None:
         return ""
@@ -237,16 +237,6 @@ def _share_across(across: CrossValley) -> str:
     if abs(share) < 0.5:
         return "adds nothing"
     return f"adds {share:.0f} %" if share > 0.0 else f"takes off {-share:.0f} %"
-
-
-def _left_out_across(response: ResponseData) -> str:
-    """Say that an elastic dam leaves out the shaking across the valley, and what that does to the block beside it."""
-    if not any(notice.code == "cross-valley-left-out" for notice in response.warnings):
-        return ""
-    across: CrossValley | None = getattr(response.beside, "cross_valley", None)
-    adds = "" if across is None else _share_across(across)
-    block = f", which {adds} to the slip of its rigid block" if adds.startswith("adds ") else ""
-    return f"This leaves out the shaking across the valley{block}."
 
 
 def joint_sentence(response: ResponseData, units: str = "si") -> str:
@@ -464,7 +454,7 @@ def _elastic_end(response: ResponseData, units: str, brief: bool) -> str:
             return "It is at rest in the end."
         return _rest_in_silence(response) or "It has come to rest in the end."
     factor = response.static.sliding_safety_factor
-    held = any(notice.code == "steps-hold" for notice in response.warnings)
+    held = any(notice.name == "friction-not-enough steps" for notice in response.warnings)
     if factor is not None and factor < 1.0 and not held:
         return "It slides away: its static loads alone move it, and nothing stops it."
     last = last_of(response)
