@@ -89,6 +89,10 @@ class SuiteRecord(Block):
     cross_valley_factor: Annotated[
         float | None, Number("Residual slip over that; null where there is none, or it is too small to tell.")
     ] = None
+    azimuth_deg: Annotated[
+        float | None,
+        Number("Direction of the stream that is the worst, clockwise from north; null where one is given.", "deg"),
+    ] = None
     magnitude: Annotated[float | None, Number("Magnitude by the list of records or the event; null without one.")]
     distance_m: Annotated[float | None, Number("From the fault to where it was recorded, likewise.", "m")]
     vs30_m_s: Annotated[float | None, Number("Velocity of shear waves in the upper 30 m there, likewise.", "m/s")]
@@ -159,8 +163,14 @@ def _of_model(walk: Walk, model: str, judge: str) -> SuiteModel:
         signs = {sign: ways[name, sign] for sign in _SIGNS if (name, sign) in ways}
         if signs:
             sign = max(signs, key=lambda name: signs[name].judged.badness)
-            records.append(_record(motion, sign, signs, ways.get((alone(name), sign))))
-            judged.append(signs[sign].judged)
+            record, badness = _record(motion, sign, signs, ways.get((alone(name), sign))), signs[sign].judged
+            # Streams of several azimuths are one record, by the worst of them.
+            if record.azimuth_deg is not None and records and records[-1].event == record.event:
+                if badness.badness > judged[-1].badness:
+                    records[-1], judged[-1] = record, badness
+                continue
+            records.append(record)
+            judged.append(badness)
     demands = _demands(walk)
     values = {key: np.array([_counted(*row, key) for row in zip(records, judged, strict=True)]) for key in demands}
     statistics = {key: _statistics(column) for key, column in values.items()}
@@ -241,6 +251,7 @@ def _record(motion: Mapping[str, Any], sign: str, signs: Mapping[str, _Way], wit
         other_sign_residual_slip_m=None if other is None else finite(other.demands[RESIDUAL_SLIP.key]),
         without_cross_valley_slip_m=along,
         cross_valley_factor=factor,
+        azimuth_deg=motion.get("azimuth_deg"),
         magnitude=motion["traits"]["magnitude"],
         distance_m=motion["traits"]["distance_m"],
         vs30_m_s=motion.get("vs30_m_s"),

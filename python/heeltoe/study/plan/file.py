@@ -26,7 +26,7 @@ from heeltoe.case.motion import Layout
 from heeltoe.case.processing import CorrectionStep
 from heeltoe.case.quantities import AccelerationField, DimensionlessNumber, Duration, Length, Rotation, Slip, Velocity
 from heeltoe.case.sentences import collected, first_error, gathered
-from heeltoe.case.suite import PeriodField, SuiteRule
+from heeltoe.case.suite import CrossValleyField, PeriodField, SuiteRule
 from heeltoe.errors.error import InputError, shown
 from heeltoe.motion.records import HeaderFactor
 from heeltoe.units.parse import acceleration_unit
@@ -113,9 +113,10 @@ class Motions(Fields):
     `scale` is that which the geometric mean of both needs, and count as one event wherever events are counted."""
     vertical: Truth = False
     """A vertical component of each event is expected and used."""
-    cross_valley: Truth = False
+    cross_valley: CrossValleyField = False
     """Two horizontal components of each event are expected: each shakes the dams along the stream, with the other one
-    across the valley by the same factor. Blocks alone follow that."""
+    across the valley by the same factor, or with this share of the peak along the stream ("30 %"). "15 deg" rotates
+    both to streams of all azimuths in such steps; `scale` is that of the strongest. Blocks alone follow that."""
     both_signs: Truth | None = None
     """Each motion also reversed, as a run of its own: the default, unless the case says which way round its motion is
     (`motion.sign`)."""

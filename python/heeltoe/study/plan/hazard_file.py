@@ -61,7 +61,9 @@ def read_pairs(path: Path, field: str, quantity: str, measure: str, period: floa
         Where the file cannot be read, has another measure, or does not say what its numbers are.
     """
     try:
-        name, pairs = _of_json(path, field) if path.suffix.lower() == ".json" else _of_csv(path, field, quantity)
+        name, stated, pairs = (
+            _of_json(path, field) if path.suffix.lower() == ".json" else _of_csv(path, field, quantity)
+        )
     except InputError:
         raise
     except (OSError, ValueError) as error:
@@ -73,7 +75,10 @@ def read_pairs(path: Path, field: str, quantity: str, measure: str, period: floa
             expected="a CSV file, relative to the study file",
         ) from None
     found = _measure_of(name)
-    if found is not None and (found[0] != measure or (found[1] and period and not math.isclose(found[1], period))):
+    # A heading may be silent about the measure; a file of OpenQuake or NSHMP names it, such as CAV or AvgSA(0.5).
+    if (found is None and stated) or (
+        found is not None and (found[0] != measure or (found[1] and period and not math.isclose(found[1], period)))
+    ):
         wanted = measure if period is None or measure != "sa" else f"sa at {period:g} s"
         raise InputError("hazard-measure", field, shown(name), measure=wanted)
     first = next((k for k, (_, rate) in enumerate(pairs) if rate < math.inf), 0)
@@ -81,7 +86,8 @@ def read_pairs(path: Path, field: str, quantity: str, measure: str, period: floa
     return pairs[first:last]
 
 
-def _of_csv(path: Path, field: str, quantity: str) -> tuple[str, Pairs]:
+def _of_csv(path: Path, field: str, quantity: str) -> tuple[str, bool, Pairs]:
+    """Return what names the measure, whether that is its name alone, and the curve."""
     rows = read_csv_rows(path, _LARGEST)
     if rows and rows[0][0].startswith("#") and (time := _OQ_TIME.search(",".join(rows[0]))):
         return _of_openquake(rows, float(time[1]), field)
@@ -93,10 +99,10 @@ def _of_csv(path: Path, field: str, quantity: str) -> tuple[str, Pairs]:
         raise InputError("hazard-header", field)
     rate = _rate_of(header[1] if len(header) > 1 else "", field)
     pairs = [_pair(row, f"{field}: row {number}") for number, row in enumerate(rows[1:], start=1)]
-    return header[0], [(f"{strength!r} {unit}", rate(value)) for strength, value in pairs]
+    return header[0], False, [(f"{strength!r} {unit}", rate(value)) for strength, value in pairs]
 
 
-def _of_openquake(rows: Sequence[Sequence[str]], years: float, field: str) -> tuple[str, Pairs]:
+def _of_openquake(rows: Sequence[Sequence[str]], years: float, field: str) -> tuple[str, bool, Pairs]:
     """Return the curve of one site from a file of hazard curves of OpenQuake's engine."""
     measure = _OQ_MEASURE.search(",".join(rows[0]))
     if measure is None or len(rows) < 3:
@@ -110,10 +116,10 @@ def _of_openquake(rows: Sequence[Sequence[str]], years: float, field: str) -> tu
         if name.startswith("poe-")
         for strength, probability in [_pair((name.removeprefix("poe-"), cell), field)]
     ]
-    return measure[1], pairs
+    return measure[1], True, pairs
 
 
-def _of_json(path: Path, field: str) -> tuple[str, Pairs]:
+def _of_json(path: Path, field: str) -> tuple[str, bool, Pairs]:
     """Return the total curve of a response of NSHMP's web service."""
     if path.stat().st_size > _LARGEST:
         raise ValueError(f"it is larger than {_LARGEST // 10**6} MB")
@@ -130,7 +136,8 @@ def _of_json(path: Path, field: str) -> tuple[str, Pairs]:
         rate = _rate_of(known.get("ylabel", "Annual Frequency of Exceedance"), field)
         name = str(known["imt"]["value"])
         unit = _UNITS.get(name.lower(), "g")
-        return name, [(f"{float(x)!r} {unit}", rate(float(y))) for x, y in zip(values["xs"], values["ys"], strict=True)]
+        pairs = zip(values["xs"], values["ys"], strict=True)
+        return name, True, [(f"{float(x)!r} {unit}", rate(float(y))) for x, y in pairs]
     except (KeyError, TypeError, AttributeError, StopIteration, RecursionError):
         raise ValueError("it is no response of NSHMP's hazard service") from None
 

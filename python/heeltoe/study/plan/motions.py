@@ -3,6 +3,7 @@ strong as is wanted."""
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -16,15 +17,17 @@ from heeltoe.case.model import Case
 from heeltoe.case.motion import Source
 from heeltoe.case.sentences import first_error
 from heeltoe.case.shaking import read_source
-from heeltoe.case.suite import SuiteMotion
+from heeltoe.case.suite import SuiteMotion, cross_valley_of
 from heeltoe.errors.error import InputError, shown
 from heeltoe.errors.sanitize import harmless
 from heeltoe.models.run import runs_both_signs
-from heeltoe.motion.check import check_moved, check_pair, check_scaling
+from heeltoe.motion.check import check_lag, check_moved, check_pair, check_scaling
+from heeltoe.motion.direction import check_right_angle, direction_of, rotated
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.intensity import intensity
 from heeltoe.motion.matching import match_known_band
 from heeltoe.motion.records.read import is_record
+from heeltoe.motion.start import begun_together
 from heeltoe.motion.targets import Target, file_of_target, target_of
 from heeltoe.study.plan.components import NOTHING_SAID, Reading, check_asked, components_of, grouped, with_channel
 from heeltoe.study.plan.file import Event, Motions
@@ -54,6 +57,9 @@ class Shake:
         The event as the study has it; None of the motion of a case.
     cross
         Across the valley, as recorded [m/s2]; None where there is none.
+    azimuth
+        Direction of the stream to which both components are rotated, clockwise from north [deg], or from the first
+        component where the records do not state their directions; None where they are not.
     """
 
     name: str
@@ -65,6 +71,7 @@ class Shake:
     end: float = 0.0
     about: Event | None = None
     cross: GroundMotion | None = None
+    azimuth: float | None = None
 
     def factor(self, strength: Floats, measure: str) -> Floats:
         """Return the factors that make the motion so strong."""
@@ -128,9 +135,11 @@ def _shakes(motions: Motions, case: Case, directory: Path, number: int, event: E
         )
     horizontal, problems = list[GroundMotion](), Problems()
     vertical: GroundMotion | None = None
-    for place, name in enumerate(event.horizontal):
+    fields = [
+        _field_of(motions, name, f"events[{number}].horizontal[{place}]") for place, name in enumerate(event.horizontal)
+    ]
+    for name, field in zip(event.horizontal, fields, strict=True):
         with problems:
-            field = _field_of(motions, name, f"events[{number}].horizontal[{place}]")
             horizontal.append(_read(motions, case, directory, name, field))
     with problems:
         if event.vertical is not None:
@@ -139,21 +148,66 @@ def _shakes(motions: Motions, case: Case, directory: Path, number: int, event: E
     problems.tell()
     if vertical is not None:
         horizontal = [motion.with_warnings(*check_pair(motion, vertical)) for motion in horizontal]
-        # What filters put before the records is not of one length.
-        lead = max(motion.lead for motion in (*horizontal, vertical))
-        horizontal, vertical = [motion.led_by(lead) for motion in horizontal], vertical.led_by(lead)
+    if vertical is not None or motions.cross_valley:
+        horizontal, vertical = _together(horizontal, vertical, fields)
+        if motions.cross_valley:
+            horizontal[1] = horizontal[1].with_warnings(*check_lag(horizontal[0], horizontal[1], fields[1]))
     if motions.match is not None:
         target = target_of(beside_file(motions.match, directory), "motions.match", case.gravity)
         horizontal = [_matched(motion, target, case.gravity) for motion in horizontal]
     references = [_reference(motions, motion, case) for motion in horizontal]
     if motions.pairs:
         references = [float(np.sqrt(np.prod(references)))] * 2
-    across = horizontal[::-1] if motions.cross_valley else [None] * len(horizontal)
-    for motion, reference, cross in zip(horizontal, references, across, strict=True):
-        shake = Shake(motion.name, number, motion, vertical, reference=reference, about=event, cross=cross)
-        yield shake
+    for shake in _ways(motions, case, horizontal, references, fields[-1], event.name):
+        shaken = replace(shake, event=number, vertical=vertical, about=event)
+        yield shaken
         if both_signs(motions, case):
-            yield replace(shake, turned=True)
+            yield replace(shaken, turned=True)
+
+
+def _together(
+    horizontal: Sequence[GroundMotion], vertical: GroundMotion | None, fields: Sequence[str]
+) -> tuple[list[GroundMotion], GroundMotion | None]:
+    """Return the components of an event on one clock, by their headers and by the leads of filters."""
+    up = [] if vertical is None else [vertical]
+    placed = begun_together([*horizontal, *up], [*fields, "motions.vertical"])
+    lead = max(motion.lead for motion in placed)
+    placed = [motion.led_by(lead) for motion in placed]
+    return placed[: len(horizontal)], placed[-1] if up else None
+
+
+def _ways(
+    motions: Motions,
+    case: Case,
+    horizontal: Sequence[GroundMotion],
+    references: Sequence[float],
+    field: str,
+    name: str,
+) -> Iterator[Shake]:
+    """Walk how the horizontal components of an event of this name, the last of which stands in `field`, shake a dam,
+    without their vertical one."""
+    rule = cross_valley_of(motions.cross_valley)
+    if rule.step is None:
+        across = horizontal[::-1] if motions.cross_valley else [None] * len(horizontal)
+        for motion, reference, other in zip(horizontal, references, across, strict=True):
+            cross = other
+            if cross is not None and rule.share is not None and cross.pga > 0.0:
+                share = f"scaled to {100.0 * rule.share:g} % of the peak along the stream"
+                cross = cross.scaled_to(rule.share * motion.pga, share)
+            yield Shake(motion.name, 0, motion, None, reference=reference, cross=cross)
+        return
+    one, other = horizontal
+    first, second = direction_of(one), direction_of(other)
+    directions = (0.0, math.pi / 2.0) if first is None or second is None else (first, second)
+    check_right_angle(one, directions, field)
+    # The other half of the circle is the other sign of these.
+    count = round((180.0 if both_signs(motions, case) else 360.0) / rule.step)
+    turned = [rotated(one, other, directions, math.radians(place * rule.step)) for place in range(count)]
+    strongest = references[0] if motions.pairs else max(_reference(motions, along, case) for along, _ in turned)
+    for place, (along, cross) in enumerate(turned):
+        azimuth = place * rule.step
+        along = replace(along, name=f"{name} at {azimuth:g} deg")
+        yield Shake(along.name, 0, along, None, reference=strongest, cross=cross, azimuth=azimuth)
 
 
 def _matched(motion: GroundMotion, target: Target, gravity: float) -> GroundMotion:
@@ -252,7 +306,7 @@ def suite_events(
     directory: Path,
     *,
     vertical: bool,
-    cross_valley: bool = False,
+    cross_valley: bool | str = False,
     reading: Reading = NOTHING_SAID,
 ) -> tuple[list[Event], list[str]]:
     """Return each horizontal record of a suite as an event by itself, with the entry of the case that it comes from;

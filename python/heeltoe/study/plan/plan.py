@@ -286,15 +286,16 @@ class Plan:
                 key: value for axis in self.axes for key, value in axis.changes(_scalar(values[axis.path][0])).items()
             }
             for notice in case_warnings(self.case.with_(changes)):
-                if notice.code not in known:
-                    known.add(notice.code)
+                if notice.name not in known:
+                    known.add(notice.name)
                     yield f"{name}: {notice}"
             if dam >= _WARNED:
                 return
 
     def _warnings_of_motions(self) -> list[Notice]:
         """Return what motions and models warn of."""
-        notices = [notice for shake in self.shakes for notice in shake.horizontal.warnings]
+        level = [motion for shake in self.shakes for motion in (shake.horizontal, shake.cross)]
+        notices = [notice for motion in level if motion is not None for notice in motion.warnings]
         notices += self.check_motions()
         motions, own = self.study.motions, self.case.motion
         if motions is not None and own is not None and own.vertical is not None and not motions.vertical:
@@ -305,8 +306,6 @@ class Plan:
             notices += [notice for shake in self.shakes for notice in step_warnings(self.case, shake.horizontal)]
         if "flexible" in self.study.model:
             notices += rock_warnings(self.case)
-            if any(shake.cross is not None for shake in self.shakes):
-                notices.append(Notice("cross-valley-left-out"))
         if self.pilot is not None and self.pilot.evidence is not None:
             single_runs = any(self.pilot_of(motion) is None for motion in range(len(self.shakes)))
             notices += _worth(self.pilot.evidence, single_runs=single_runs)
@@ -361,6 +360,8 @@ class Plan:
                 by_name |= {f"sa({period:g})": spectral_acceleration(motion, period) for period in periods}
                 measured[shake.name] = by_name
             row = {"name": shake.name, "event": self.events[shake.event], "reversed": shake.turned}
+            if shake.azimuth is not None:
+                row["azimuth_deg"] = shake.azimuth
             rows.append({**row, "measures": measured[shake.name], "traits": self._traits(shake), **_place(shake)})
         return rows
 
@@ -625,6 +626,6 @@ def _worth(evidence: Mapping[str, Any], *, single_runs: bool) -> Iterator[Notice
     """Say what the base case's evidence says of the rows, which are single runs without evidence."""
     slip = evidence[RESIDUAL_SLIP.key]
     if evidence["value_is"] == "mean" and single_runs:
-        yield Notice("study-scatter", value_m=slip["value"], run_m=slip["run"])
+        yield Notice("study-single-runs", "scatter", value_m=slip["value"], run_m=slip["run"])
     if not evidence["converged"]:
-        yield Notice("study-uncertain", value_m=slip["value"], uncertainty_m=slip["uncertainty"])
+        yield Notice("study-single-runs", "uncertain", value_m=slip["value"], uncertainty_m=slip["uncertainty"])

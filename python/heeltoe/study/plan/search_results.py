@@ -6,6 +6,7 @@ import csv
 import math
 import os
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from heeltoe.base.input_files import read_bounded
@@ -85,17 +86,18 @@ def _rows(lines: list[str]) -> dict[str, Listed]:
         values = dict(zip(head, cells, strict=False))
         number = values.get("record sequence number", "")
         far = _number(values, "rrup")
-        about = {
-            "earthquake": ("PEER", number) if number else (),
-            "magnitude": _number(values, "magnitude"),
-            "distance_m": None if far is None else 1e3 * far,
-            "vs30_m_s": _number(values, "vs30"),
-            "pulse_period_s": _number(values, "tp-pulse"),
-        }
+        listed = partial(
+            Listed,
+            earthquake=("PEER", number) if number else (),
+            magnitude=_number(values, "magnitude"),
+            distance_m=None if far is None else 1e3 * far,
+            vs30_m_s=_number(values, "vs30"),
+            pulse_period_s=_number(values, "tp-pulse"),
+        )
         for column, way in _FILES.items():
             # Where there is no such component it has dashes.
             if name := values.get(column, "").strip("-"):
-                found[name.lower()] = Listed(way, **about)  # type: ignore[arg-type]
+                found[name.lower()] = listed(way)
     return found
 
 

@@ -45,6 +45,7 @@ class _Motion(_Model):
     vs30_m_s: Finite | None
     pulse_period_s: Finite | None
     hazard_share: Finite | None = None
+    azimuth_deg: Finite | None = None
 
 
 class _Hazard(_Model):

@@ -27,13 +27,15 @@ from heeltoe.errors.error import InputError, shown
 from heeltoe.kernel.build import build_info
 from heeltoe.models.cost import Cost
 from heeltoe.models.flexible.body.cost import check_cost
-from heeltoe.result.contract import CRACKED, HEADLINES, SLIPS_BY_MODE
+from heeltoe.result.contract import CRACKED, HEADLINES, RESIDUAL_SLIP, SLIPS_BY_MODE
 from heeltoe.result.response import Response
 from heeltoe.study.plan.axes import Axis, even
 from heeltoe.study.plan.crack_columns import column_of
 from heeltoe.study.plan.samples import Samples
 from heeltoe.units.parse import DIMENSIONS
 
+#: Column of the residual slip of the simpler model.
+BESIDE = f"beside_{RESIDUAL_SLIP.key}"
 #: More runs than this are a study, not a table.
 MOST = 32
 # So many cases of a table say what all take; seconds to read one, bytes that are kept of one.
@@ -266,7 +268,7 @@ def check_together(cases: Sequence[Case], cost: Callable[[Case], Cost | None]) -
 
 
 def _beside(block: Response) -> float | None:
-    return block.residual_slip_m if block.ok else None
+    return RESIDUAL_SLIP.of(block) if block.ok else None
 
 
 def _by_crack(cracks: Sequence[Mapping[str, Any]], count: int) -> dict[str, Any]:
@@ -292,7 +294,7 @@ def _numbers(response: Response, cracks: int, *, bonded: bool) -> dict[str, Any]
         **_by_crack([crack.to_json() for crack in response.cracks] if summary and response.several else (), cracks),
         **({name: joint.get(name) for name in ("first_cracking_s", CRACKED)} if bonded else {}),
         "largest_tension_pa": (summary.get("tension") or {}).get("stress_pa"),
-        **({} if response.beside is None else {"beside_residual_slip_m": _beside(response.beside)}),
+        **({} if response.beside is None else {BESIDE: _beside(response.beside)}),
         "limits_met": all(check.met for check in response.limits) if response.limits else None,
         "outcome": response.outcome,
     }

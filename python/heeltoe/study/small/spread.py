@@ -217,8 +217,8 @@ def _statistics(values: Floats) -> Statistics | None:
 def _warnings(spread: Spread) -> list[Notice]:
     notices = []
     if spread.failed:
-        notices.append(Notice("spread-failures", failed=spread.failed, runs=spread.runs))
+        notices.append(Notice("slip-sensitive", "failures", failed=spread.failed, runs=spread.runs))
     slip = spread.residual_slip_m
     if slip is not None and slip.std > max(_LARGE * abs(slip.mean), JOINT_METER_M):
-        notices.append(Notice("spread-large", slips_m=(slip.min, slip.max), scales=(WEAKEST, STRONGEST)))
+        notices.append(Notice("slip-sensitive", "shaking", slips_m=(slip.min, slip.max), scales=(WEAKEST, STRONGEST)))
     return notices
