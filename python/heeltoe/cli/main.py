@@ -15,6 +15,7 @@ from heeltoe.base.atomic_files import check_directory, write_text, write_whole
 from heeltoe.cli import app as app_command
 from heeltoe.cli import dam as dam_commands
 from heeltoe.cli import explain as explain_command
+from heeltoe.cli import export as export_command
 from heeltoe.cli import law as law_command
 from heeltoe.cli import motion as motion_command
 from heeltoe.cli import run as run_command
@@ -167,6 +168,7 @@ for command in (
     law_command.law,
     statics_command.statics,
     dam_commands.animate,
+    export_command.export,
     motion_command.motion,
     study_command.study,
     app_command.app,

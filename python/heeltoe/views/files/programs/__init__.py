@@ -1,0 +1,1 @@
+"""A dam in the files of other programs: one module for each."""
