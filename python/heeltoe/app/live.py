@@ -16,6 +16,7 @@ from heeltoe.models.run import AUTO, cost_of, earthquake, live, models_of, run
 from heeltoe.models.statics.after import ligament_of, slip_source
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.comparison import meaning
+from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 
@@ -94,7 +95,7 @@ def _elastic(case: Case, response: Response, units: str) -> Json:
     left = {
         "case": case.without_evidence().model_dump_json(),
         "source": slip_source(response),
-        "slips_m": {f"{crack.elevation:g}": crack.residual_slip_m for crack in response.cracks} if known else {},
+        "slips_m": {f"{crack.elevation:g}": RESIDUAL_SLIP.of(crack) for crack in response.cracks} if known else {},
         "ligaments_m": {f"{crack.elevation:g}": ligament_of(crack) for crack in response.cracks} if known else {},
     }
     return drawn(response, units) | {"dam": dam(case, response, units), "left": left}

@@ -12,11 +12,11 @@ from heeltoe.app.wording import meant
 from heeltoe.base.arrays import Floats
 from heeltoe.base.payload import Json
 from heeltoe.case.model import Case
-from heeltoe.result.contract import HEADLINES, JOINT_METER_M, LEAST_M, LEAST_RAD
-from heeltoe.result.histories import GAPS
+from heeltoe.result.contract import HEADLINES, JOINT_METER_M, LEAST_M, LEAST_RAD, RESIDUAL_SLIP
+from heeltoe.result.histories import GAPS, ROTATION, SLIP
 from heeltoe.result.judge import LimitCheck
 from heeltoe.result.response import Response
-from heeltoe.result.verdict import limited, verdict
+from heeltoe.result.verdict import band_sentence, effect_sentence, limited, verdict
 from heeltoe.units.sentences import written
 from heeltoe.units.systems import unit_system
 from heeltoe.units.write import angle, length, measured
@@ -51,7 +51,7 @@ def drawn(response: Response, units: str) -> Json:
         "curves": _curves(response, units),
         "ribbon": _ribbon(response),
         "slips": _slips(response, units),
-        "facts": law_lines(response, units),
+        "facts": [*_frictions(response, units), *law_lines(response, units)],
         "tables": [
             {"label": label, "columns": columns, "rows": rows} for label, columns, rows in _tables(response, units)
         ],
@@ -70,7 +70,7 @@ def _headline(response: Response, units: str) -> Json:
             "state": "failed",
             "limits": [{"text": _limit_text(check, units), "state": "failed"} for check in response.limits],
         }
-    slip = response.residual_slip_m
+    slip = RESIDUAL_SLIP.of(response)
     way = "" if abs(slip) < LEAST_M else " downstream" if slip > 0.0 else " upstream"
     return judged(response.limits, abs(slip), f"residual slip{way}", units)
 
@@ -125,6 +125,14 @@ def _numbers(response: Response, units: str) -> list[dict[str, str]]:
     return numbers
 
 
+def _frictions(response: Response, units: str) -> Iterator[tuple[str, str]]:
+    """Walk what other frictions do: those of a band, or a little less, which the brief verdict leaves out."""
+    if band := band_sentence(response, units):
+        yield "other frictions", band
+    if response.friction_effect is not None:
+        yield "less friction", effect_sentence(response.friction_effect, units)
+
+
 def _tables(response: Response, units: str) -> Iterator[tuple[str, Sequence[str], list[list[str]]]]:
     """Walk what a response tells row by row: of several cracks, of several motions."""
     if response.several:
@@ -138,7 +146,7 @@ def _curves(response: Response, units: str) -> Json:
     ground = h.ground_acceleration_m_s2 / response.gravity
     others = response.others
     cracks = [response, *others.values()]
-    moving = [crack.histories[name] for crack in cracks for name in ("slip_m", "rotation_rad")]
+    moving = [crack.histories[name] for crack in cracks for name in (SLIP, ROTATION)]
     kept = thinned([*moving, ground], _BINS)
     system = unit_system(units)
     # The smallest units, whatever the size: the curves of two models share an axis.
@@ -218,7 +226,7 @@ def thinned(rows: Sequence[Floats], bins: int) -> NDArray[np.int64]:
 
 
 _DAM_BINS = 200
-_COLUMNS = ("slip_m", "rotation_rad", *GAPS)
+_COLUMNS = (SLIP, ROTATION, *GAPS)
 # An elastic dam swings between the moments that matter of its cracks: of its run so many are shown.
 _MOST_FRAMES = 1500
 

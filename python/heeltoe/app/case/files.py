@@ -29,7 +29,7 @@ _RECORDS = tuple(
     for component in ("", ".vertical", ".cross_valley")
 )
 _MESHES = ("flexible.mesh_above", "flexible.mesh_below", "section.file")
-_CRITERIA = ("statics.criteria_file",)
+_TABLES = ("statics.criteria_file", "crack.fit", "cracks[].fit")
 _PLACES = re.compile(r"\[\d+\]")
 #: What the file of the case is called.
 CASE = "case.toml"
@@ -71,7 +71,7 @@ def _renamed(fields: dict[str, Any], names: dict[str, str]) -> Json:
 
 def named(fields: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any], str]]:
     """Walk the fields that name files: path, block and name in it."""
-    for path in (*_RECORDS, *_MESHES, *_CRITERIA):
+    for path in (*_RECORDS, *_MESHES, *_TABLES):
         *blocks, name = path.split(".")
         for at, block in _blocks(fields, blocks):
             if isinstance(block.get(name), str):

@@ -17,7 +17,7 @@ from heeltoe.errors.sanitize import plain
 from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.result.history import LEAST_DAMAGE, CrackHistory, node_lengths
 from heeltoe.models.flexible.result.response import FlexibleResponse
-from heeltoe.result.histories import GAPS, Histories
+from heeltoe.result.histories import AT_CRACK, GAPS, GROUND, GROUND_UP, SLIP, Histories
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Units, unit_system
@@ -321,17 +321,14 @@ def _traces(response: Response, within: NDArray[np.bool_], units: Units) -> tupl
             for (role, label, _), column in zip(named, values, strict=True)
         )
 
-    ground = "ground_acceleration_m_s2"
-    if "crack_acceleration_m_s2" in histories:
-        shaken = accelerations(
-            "acceleration", ("ground", "ground", ground), ("crack", "crack", "crack_acceleration_m_s2")
-        )
-    elif f"vertical_{ground}" in histories:
-        ways = (("ground", "horizontal", ground), ("vertical", "vertical", f"vertical_{ground}"))
+    if AT_CRACK in histories:
+        shaken = accelerations("acceleration", ("ground", "ground", GROUND), ("crack", "crack", AT_CRACK))
+    elif GROUND_UP in histories:
+        ways = (("ground", "horizontal", GROUND), ("vertical", "vertical", GROUND_UP))
         shaken = accelerations("ground acceleration", *ways)
     else:
-        shaken = accelerations("ground acceleration", ("ground", "", ground))
-    shaken += metres("slip", ("slip", "", "slip_m"))
+        shaken = accelerations("ground acceleration", ("ground", "", GROUND))
+    shaken += metres("slip", ("slip", "", SLIP))
     if max(float(histories[key][within].max()) for key in GAPS) > _NO_OPENING:
         shaken += metres("opening", *((end, end, key) for end, key in zip(("heel", "toe"), GAPS, strict=True)))
     return shaken

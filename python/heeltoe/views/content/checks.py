@@ -66,8 +66,8 @@ def static_checks(subject: Subject) -> Section | None:
         )
     ]
     if result.warnings:
-        shown = {warning.code for run in subject.runs for warning in run.response.warnings}
-        own = [warning.text(subject.units) for warning in result.warnings if warning.code not in shown]
+        shown = {warning.name for run in subject.runs for warning in run.response.warnings}
+        own = [warning.text(subject.units) for warning in result.warnings if warning.name not in shown]
         blocks += [Notes("warning", "About the static checks", tuple((text,) for text in own))] if own else []
     blocks += [
         load_cases(result, subject.numbers, "statics."),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from heeltoe.mechanics.block import StaticState
-from heeltoe.result.contract import HEADLINES, WIDTH
+from heeltoe.result.contract import HEADLINES, RESIDUAL_SLIP, WIDTH
 from heeltoe.result.numbers import (
     OF_SEVERAL,
     BlockNumbers,
@@ -107,7 +107,7 @@ def _signs(subject: Subject) -> list[Block]:
     for place, way in enumerate(signs):
         key = f"signs.{place}."
         crack = (n(f"{key}elevation_m", "length"),) if subject.result.several else ()
-        slip, opening = n(f"{key}residual_slip_m"), n(f"{key}opening_m")
+        slip, opening = n(f"{key}{RESIDUAL_SLIP.key}"), n(f"{key}opening_m")
         rows.append((way.sign, way.outcome, *crack, slip, opening, "leads" if way.governs else ""))
     crack_head = ("crack",) if subject.result.several else ()
     head = ("motion", "outcome", *crack_head, "residual slip", "largest opening", "")
@@ -123,7 +123,7 @@ def _band(subject: Subject) -> list[Block]:
     rows: list[tuple[Inline, ...]] = []
     for place, trial in enumerate(band.trials):
         key = f"friction_band.trials.{place}."
-        moved = n(f"{key}residual_slip_m"), n(f"{key}opening_m")
+        moved = n(f"{key}{RESIDUAL_SLIP.key}"), n(f"{key}opening_m")
         rows.append((trial.friction.text(subject.units), trial.outcome, *moved, "judged" if trial.judged else ""))
     caption = "The frictions that the crack may have, the best estimate first; the others without evidence."
     return [Table(("", "outcome", "residual slip", "largest opening", ""), tuple(rows), caption, "llrrl")]

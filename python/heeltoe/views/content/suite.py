@@ -27,6 +27,7 @@ _ABOUT = {
     "vs30_m_s": ("Vs30", ".3g m/s", 1.0),
     "pulse_period_s": ("pulse", ".3g s", 1.0),
     "hazard_share": ("of the hazard", ".2f", 1.0),
+    "azimuth_deg": ("worst azimuth", ".3g deg", 1.0),
     "cross_valley_factor": ("with / without across", ".3g", 1.0),
 }
 
@@ -77,6 +78,8 @@ def _governing(row: SuiteModel, units: str) -> str:
     worst = next(record for record in row.records if record.governs)
     count = len(row.records)
     signs = ", each by its worse sign," if any(r.other_sign_residual_slip_m is not None for r in row.records) else ""
+    if worst.azimuth_deg is not None:
+        signs = ", each by its worst direction,"
     end = f"where the run ends “{worst.outcome}”"
     if worst.residual_slip_m is not None:
         end = f"with a residual slip of {length(worst.residual_slip_m, units)}"

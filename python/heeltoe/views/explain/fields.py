@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections.abc import Iterator
@@ -44,6 +45,7 @@ _LIKE = {
     "motion.vertical": "motion",
     "motion.cross_valley": "motion",
     "suite.processing": "motion.processing",
+    "project.revisions": "project",
     "tailwater": "reservoir",
 }
 # The kind of a step stands in the name of its block already.
@@ -186,6 +188,9 @@ def _holds(field: FieldInfo) -> str:
         example = quantities[0].example
         written = f', for example "{example}"' if isinstance(example, str) else ""
         return f"{'a list, each ' if listed else ''}{quantities[0].kind}{written}"
+    for schema in schemas:
+        if schema.get("type") == ["boolean", "string"]:
+            return f"true or false, or a text, for example {' or '.join(map(json.dumps, schema['examples']))}"
     kinds = [kind for kind in _plain(field.annotation) if kind in _PLAIN]
     if len(set(kinds)) > 1:
         return _UNKNOWN

@@ -111,15 +111,27 @@ def keys_of_the_json() -> Iterator[Meaning]:
             meanings[name] = text
             if where not in places.setdefault(name, []):
                 places[name].append(where)
+    below: dict[str, list[str]] = {}
+    for name in meanings:
+        above = name.rpartition(".")[0]
+        for block in {above, above.removesuffix("[]")}:
+            below.setdefault(block, []).append(name)
     for name, text in meanings.items():
-        parts = tuple(key for key in meanings if re.fullmatch(rf"{re.escape(name)}(\[\])?\.[^.]+", key))
         unit = units.get(name) or unit_of(name)
         text = text.replace(f" [{unit}]", "") if unit else text
         # What every run writes need not be named again for one model.
         always = _RUN in places[name]
         homes = [home for home in dict.fromkeys(places[name]) if not (always and home.startswith(f"{_RUN}, "))]
         where = ", ".join(homes)
-        yield Meaning(name, "key of the JSON", text, unit, found_in=where, page=page_of(name, ""), parts=parts)
+        yield Meaning(
+            name,
+            "key of the JSON",
+            text,
+            unit,
+            found_in=where,
+            page=page_of(name, ""),
+            parts=tuple(below.get(name, ())),
+        )
 
 
 def numbers_of_results() -> Iterator[tuple[str, Number, str]]:

@@ -20,6 +20,7 @@ OF_A_RUN: dict[str, str] = {
     "chosen": "How the model came to be chosen; null where one was named in Python.",
     "left_out": "Omitted values by path, with the reason.",
     "warnings[].text": "The sentence, in SI.",
+    "warnings[].kind": "Which sentence of the code it is; null where the code has one.",
     "warnings[].severity": "How grave it is: note (nothing is wrong), caution, or grave (a number misleads).",
     "warnings[].quantities.*": "A number of the sentence, by its name with its unit.",
     "signs": "Results with the motion as recorded and reversed, where the case gives no sign.",

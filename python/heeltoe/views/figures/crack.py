@@ -18,6 +18,7 @@ from heeltoe.base.arrays import Floats
 from heeltoe.kernel.dam import CONTACT_STATUSES
 from heeltoe.models.flexible.result.history import LEAST_DAMAGE, CrackHistory, node_lengths
 from heeltoe.models.flexible.result.response import FlexibleResponse
+from heeltoe.result.contract import CRACKED
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.panels import panels
 from heeltoe.views.figures.style import COLOURS, align_labels, describe, styled
@@ -102,7 +103,7 @@ def joint_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     figure, (lengths, joint) = panels([1.0, 1.8], 1.55)
     describe(figure, response)
     for key, label, colour, dash in (
-        ("cracked_length_m", "in all", "#000000", "-"),
+        (CRACKED, "in all", "#000000", "-"),
         ("cracked_upstream_m", "from the upstream face", COLOURS["slip"], "--"),
         ("cracked_downstream_m", "from the downstream face", COLOURS["rotation"], ":"),
     ):

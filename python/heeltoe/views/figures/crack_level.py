@@ -11,6 +11,7 @@ from matplotlib.ticker import FuncFormatter, NullFormatter
 from matplotlib.transforms import ScaledTranslation
 
 from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.result.histories import AT_CRACK, GROUND
 from heeltoe.views.figures.spectrum import mark_periods
 from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
 from heeltoe.views.figures.time_axis import time_axis
@@ -36,8 +37,8 @@ def crack_level_figure(response: DecoupledResponse) -> Figure:
     heading(figure, response.title or "Untitled case", f"{response.motion.name}: {peak}")
     histories = top.subplots(2, 1, sharex=True, sharey=True)
     for axes, key, colour, label in (
-        (histories[0], "ground_acceleration_m_s2", COLOURS["ground"], "ground"),
-        (histories[1], "crack_acceleration_m_s2", _CRACK, "crack"),
+        (histories[0], GROUND, COLOURS["ground"], "ground"),
+        (histories[1], AT_CRACK, _CRACK, "crack"),
     ):
         axes.plot(h.time_s, h[key] / g, color=colour, linewidth=0.6)
         axes.set_ylabel(f"{label} [g]")

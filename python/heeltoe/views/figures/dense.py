@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.result.histories import SLIP
 from heeltoe.result.response import Response
 
 # A picture shows about so many moments; more need no filling in.
@@ -32,7 +33,7 @@ def filled_in(response: Response) -> Response:
         straight = np.interp(time, h.time_s, values)
         jumps = name.endswith(("_n", "_acceleration_m_s2")) and not name.startswith("ground")
         histories[name] = np.where(broken, values[place], straight) if jumps else straight
-    histories |= {"time_s": time, "slip_m": _slip(response, time)}
+    histories |= {"time_s": time, SLIP: _slip(response, time)}
     # The ground may jump between two moments; after a record it stands still.
     for name, motion in (("", response.motion), ("vertical_", response.vertical)):
         if motion is not None:

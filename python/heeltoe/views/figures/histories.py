@@ -8,8 +8,9 @@ from matplotlib.figure import Figure
 from scipy.ndimage import uniform_filter1d
 
 from heeltoe.base.arrays import Floats
+from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.crest import ACCELERATION, DISPLACEMENT
-from heeltoe.result.histories import GAPS
+from heeltoe.result.histories import GAPS, ROTATION, SLIP
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import number
@@ -166,7 +167,7 @@ def slip_by_mode_figure(response: Response, units: str = "si") -> Figure:
     curves.set_ylabel(f"slip so far [{scale.unit}]\n(+ downstream)")
     time_axis(curves, response)
     ends = {kind: response.slip_by_mode_m[key] for kind, key in named.items()}
-    for place, (kind, value) in enumerate({**ends, "all": response.residual_slip_m}.items()):
+    for place, (kind, value) in enumerate({**ends, "all": RESIDUAL_SLIP.of(response)}.items()):
         colour, hatch = MODE_COLOURS.get(kind, "#999999"), MODE_HATCHES.get(kind, "")
         bars.bar(place, scale(value), width=0.7, facecolor=colour, hatch=hatch, edgecolor="white")
         bars.annotate(
@@ -229,11 +230,11 @@ def crest_figure(response: Response, units: str = "si") -> Figure:
     shift.set_ylabel(f"crest [{scale.unit}]\n(+ downstream)")
     shift.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize=7, borderaxespad=0.0)
     beside(shift, f"largest {scale(crest.displacement_m):.4g} {scale.unit}")
-    draw_limits(shift, response, ("crest_displacement_m",), scale)
+    draw_limits(shift, response, (DISPLACEMENT,), scale)
     shakes.plot(h.time_s, h[ACCELERATION] / response.gravity, color=COLOURS["rotation"], linewidth=0.7)
     shakes.set_ylabel("acceleration\nof crest [g]")
     beside(shakes, f"largest {crest.acceleration_g:.3g} g")
-    draw_limits(shakes, response, ("crest_acceleration_m_s2",), Scale(1.0, "g"))
+    draw_limits(shakes, response, (ACCELERATION,), Scale(1.0, "g"))
     time_axis(shakes, response)
     align_labels([shaking, shift, shakes])
     return figure
@@ -297,8 +298,8 @@ def _running_mean(time: Floats, values: Floats) -> Floats:
 
 
 _PANELS = (
-    ("slip_m", "displacement", "slip [{}]\n(+ downstream)"),
-    ("rotation_rad", "rotation", "rotation [{}]\n(+ about heel)"),
+    (SLIP, "displacement", "slip [{}]\n(+ downstream)"),
+    (ROTATION, "rotation", "rotation [{}]\n(+ about heel)"),
     (GAPS[0], "displacement", "opening,\nheel [{}]"),
     (GAPS[1], "displacement", "opening,\ntoe [{}]"),
 )
@@ -318,11 +319,11 @@ def comparison_figure(dam: Response, block: Response, units: str = "si") -> Figu
         most = largest(*(response.histories[key] for response, *_ in models))
         # A rigid block that overturns leaves the axes; before that it is compared.
         cut = shown_rotation(block)
-        if cut is not None and key != "slip_m":
+        if cut is not None and key != SLIP:
             limit = cut if quantity == "rotation" else cut * block.crack_width_m
             most = max(limit, largest(dam.histories[key]))
         scale = system.scale(quantity, most)
-        if cut is not None and key != "slip_m":
+        if cut is not None and key != SLIP:
             panel.set_ylim(-1.1 * scale(most) if quantity == "rotation" else 0.0, 1.1 * scale(most))
         for response, colour, dash in models:
             panel.plot(

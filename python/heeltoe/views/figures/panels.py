@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from heeltoe.models.flexible.result.response import FlexibleResponse
-from heeltoe.result.histories import GAPS
+from heeltoe.result.histories import GAPS, ROTATION, SLIP
 from heeltoe.result.judge import LIMITS
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
@@ -69,7 +69,7 @@ def draw_slip(axes: Axes, response: Response, units: Units) -> None:
         axes.axhline(scale(edge), color=COLOURS["slip"], linewidth=0.6, linestyle=":")
     if largest(h.slip_m, ends, within) == 0.0:
         axes.set_ylim(-1.0, 1.0)
-    draw_limits(axes, response, ("slip_m",), scale)
+    draw_limits(axes, response, (SLIP,), scale)
     varied = "" if spread is None else f", {scale(ends[0]):.4g} to {scale(ends[1]):.4g} with the shaking varied"
     beside(axes, f"{slip_in_the_end(response, scale)}{varied}", colour=COLOURS["slip"])
 
@@ -134,7 +134,7 @@ def draw_rotation(axes: Axes, response: Response, units: Units) -> None:
     scale = units.scale("rotation", largest(h.rotation_rad))
     axes.plot(h.time_s, scale(h.rotation_rad), color=COLOURS["rotation"], linewidth=1.0)
     axes.set_ylabel(f"rotation [{scale.unit}]\n(+ about heel)")
-    draw_limits(axes, response, ("rotation_rad",), scale)
+    draw_limits(axes, response, (ROTATION,), scale)
     if cut is not None:
         axes.set_yscale("symlog", linthresh=float(scale(cut)), linscale=2.0)
         ends = [float(scale(h.rotation_rad.min())), float(scale(h.rotation_rad.max()))]

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.judge import LIMITS
 from heeltoe.study.small.overturning import ENDS, OverturningMap
 from heeltoe.study.small.run_table import SmallStudy
@@ -75,7 +76,7 @@ def slips_figure(grid: SmallStudy, units: str = "si") -> Figure:
             if cell[1:] != values:
                 continue
             colour, dash = _line(first.values.index(cell[0]))
-            label = f"{cell[0]}: {length(response.residual_slip_m, units) if response.ok else response.outcome}"
+            label = f"{cell[0]}: {length(RESIDUAL_SLIP.of(response), units) if response.ok else response.outcome}"
             h = response.histories
             time, slip = (h.time_s, scale(h.slip_m)) if h else ([], [])
             panel.plot(time, slip, color=colour, linestyle=dash, linewidth=1.2, label=label)
@@ -119,14 +120,14 @@ def residual_slip_figure(grid: SmallStudy, units: str = "si") -> Figure:
     limits = {
         check.allowed for response in grid.responses for check in response.limits if check.name == "residual_slip"
     }
-    slips = [response.residual_slip_m for response in grid.responses if response.ok]
+    slips = [RESIDUAL_SLIP.of(response) for response in grid.responses if response.ok]
     scale = unit_system(units).scale("displacement", largest(slips, list(limits)))
     figure = Figure(figsize=(WIDTH, 3.6), layout="constrained")
     axes = figure.subplots()
     heading(figure, grid.title or "Untitled case", f"{_shaken_by(grid)}; {grid.model} model")
     for place, combination in enumerate(dict.fromkeys(cell[1:] for cell in grid.cells)):
         points = sorted(
-            (numbers[first.values.index(cell[0])], float(scale(response.residual_slip_m)))
+            (numbers[first.values.index(cell[0])], float(scale(RESIDUAL_SLIP.of(response))))
             for cell, response in zip(grid.cells, grid.responses, strict=True)
             if cell[1:] == combination and response.ok
         )

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 
 from heeltoe.base.arrays import Floats
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.result.histories import AT_CRACK, AT_CRACK_UP, GROUND_UP
 from heeltoe.result.response import Response
 from heeltoe.views.figures.panels import beside
 from heeltoe.views.figures.style import COLOURS
@@ -17,7 +18,6 @@ from heeltoe.views.words.starts import Start, first_starts, first_starts_in_word
 
 # Height of the panel of the vertical motion, over that of the horizontal one.
 _LOWER = 0.7
-_VERTICAL = "vertical_ground_acceleration_m_s2"
 
 
 def shaking_heights(response: Response) -> list[float]:
@@ -33,14 +33,14 @@ def draw_shaking(axes: Sequence[Axes], response: Response) -> None:
     """
     draw_horizontal(axes[0], response)
     if response.vertical is not None:
-        _draw(axes[1], response, response.vertical, "vertical_crack_acceleration_m_s2", "vertical\n(+ up) [g]")
+        _draw(axes[1], response, response.vertical, AT_CRACK_UP, "vertical\n(+ up) [g]")
 
 
 def draw_horizontal(axes: Axes, response: Response) -> None:
     """Draw the panel of the horizontal motion alone."""
-    chained = "crack_acceleration_m_s2" in response.histories
+    chained = AT_CRACK in response.histories
     name = "horizontal\n[g]" if response.vertical is not None else "shaking [g]" if chained else "ground [g]"
-    _draw(axes, response, response.motion, "crack_acceleration_m_s2", name)
+    _draw(axes, response, response.motion, AT_CRACK, name)
     low, high = axes.get_ylim()
     for start in first_starts(response):
         limit = float(start.of_the_ground())
@@ -72,7 +72,7 @@ def _draw(axes: Axes, response: Response, motion: GroundMotion, at_crack: str, l
 
 def _limit(start: Start, response: Response) -> tuple[Floats, Floats]:
     """Return moments [s] and the acceleration of the ground [g] at which the block starts to move then."""
-    time, up = response.histories.time_s, response.histories.get(_VERTICAL)
+    time, up = response.histories.time_s, response.histories.get(GROUND_UP)
     if start.vertical is None or up is None:
         return time[[0, -1]], np.full(2, start.of_the_ground())
     return time, start.of_the_ground(up / response.gravity)

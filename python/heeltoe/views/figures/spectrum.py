@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.spectrum import response_spectrum
+from heeltoe.result.histories import AT_CRACK
 from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
 from heeltoe.units.write import number
@@ -114,7 +115,7 @@ def mark_periods(axes: Axes, periods: Sequence[float], colour: str) -> None:
 
 def _crack_motion(response: Response) -> GroundMotion | None:
     """Return the motion at the crack of a decoupled model, as the histories have it."""
-    values = response.histories.get("crack_acceleration_m_s2")
+    values = response.histories.get(AT_CRACK)
     if values is None:
         return None
     return GroundMotion("at the crack", response.histories.time_s, values)

@@ -19,7 +19,7 @@ from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import advice
 from heeltoe.study.plan.crack_columns import column_of
-from heeltoe.study.small.run_table import SmallStudy
+from heeltoe.study.small.run_table import BESIDE, SmallStudy
 from heeltoe.study.small.solve import Solved
 from heeltoe.units.systems import INCH
 from heeltoe.views.content.solve import solve_answer, solve_table
@@ -81,7 +81,7 @@ def print_small(grid: SmallStudy, console: Console, units: str = "si", *, detail
     blocks = {response.beside.model for response in grid.responses if response.beside is not None}
     if len(blocks) == 1:
         # What the simpler model says stands beside what the better one does.
-        beside = (f"residual,\n{blocks.pop()}", "beside_residual_slip_m", 1.0, _length)
+        beside = (f"residual,\n{blocks.pop()}", BESIDE, 1.0, _length)
         slip = (_SLIP[0], beside, *_SLIP[1:])
     several = [_of_crack(place) for place in range(grid.cracks)]
     slip = (slip[0], *several, *slip[1:])

@@ -45,7 +45,7 @@ class Value:
     Attributes
     ----------
     key
-        Path in the JSON of the result, ``energy.input_j`` or ``flexible.residual_slip_m``.
+        Path in the JSON of the result, ``energy.input_j`` or ``static.sliding_safety_factor``.
     number
         What stands there.
     text

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from heeltoe.errors.sanitize import plain
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.result.contract import HEADLINES, LENGTHS
+from heeltoe.result.contract import HEADLINES, LENGTHS, RESIDUAL_SLIP
 from heeltoe.result.numbers import FrictionLawState, Roughness, Tension
 from heeltoe.result.response import Response
 from heeltoe.result.tension import place_phrase
@@ -55,7 +55,7 @@ def sequence_rows(response: Response, units: str) -> list[list[str]]:
                 f"{number} ({stage.begins_s:.4g} s)",
                 f"{stage.pga_g:.3g} g",
                 Amount(stage.slip_m),
-                Amount(stage.residual_slip_m),
+                Amount(RESIDUAL_SLIP.of(stage)),
                 Amount(stage.opening_upstream_m, "opening"),
                 "yes" if stage.at_rest else "no",
                 "met" if stage.static["ok"] else f"{len(stage.static['missed'])} not met",
