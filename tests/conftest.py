@@ -21,7 +21,7 @@ import heeltoe
 from heeltoe.errors.error import CATALOGUE as ERRORS
 from heeltoe.errors.error import InputError
 from heeltoe.warnings.notice import CATALOGUE as WARNINGS
-from heeltoe.warnings.notice import Notice
+from heeltoe.warnings.notice import Notice, templates
 from shared.attack_page import write_page
 from shared.dams import FAST, ROOT, SHORT, example
 
@@ -42,8 +42,12 @@ settings.register_profile(
 )
 settings.load_profile("heeltoe")
 
-_CATALOGUES = {"error": ERRORS, "warning": WARNINGS}
-# All errors and warnings that the tests of this process have raised: "error" or "warning", and the code.
+_CATALOGUES = {
+    "error": list(ERRORS),
+    "warning": [f"{code} {sentence}".rstrip() for code in WARNINGS for sentence in templates(code)],
+}
+# All errors and warnings that the tests of this process have raised: "error" or "warning", and the code; the kind of
+# a warning behind it.
 _RAISED: set[tuple[str, str]] = set()
 # What a complete run has not raised of the catalogues.
 _UNTESTED = pytest.StashKey[list[str]]()
@@ -61,7 +65,8 @@ def _note(notice: type[InputError] | type[Notice], kind: str) -> None:
     plain = notice.__init__
 
     def noting(self: InputError | Notice, code: str, *args: object, **context: object) -> None:
-        _RAISED.add((kind, code))
+        of_code = f"{code} {args[0]}" if kind == "warning" and args else code
+        _RAISED.add((kind, of_code))
         plain(self, code, *args, **context)  # type: ignore[arg-type]
 
     notice.__init__ = noting  # type: ignore[assignment, method-assign]

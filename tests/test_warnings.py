@@ -10,7 +10,7 @@ import pytest
 
 from heeltoe.case.warnings import unusual
 from heeltoe.units.sentences import UNITS
-from heeltoe.warnings.notice import CATALOGUE, Notice
+from heeltoe.warnings.notice import CATALOGUE, Notice, templates
 
 # Endings of the names of quantities, the longest first, and the kinds of quantity that they are.
 ENDINGS = {
@@ -32,19 +32,19 @@ def placeholders(text: str) -> dict[str, str]:
     return {name: form or "" for _, name, form, _ in Formatter().parse(text) if name}
 
 
-@pytest.mark.parametrize("code", CATALOGUE)
-def test_names_of_quantities_say_their_unit(code):
-    severity, _, text = CATALOGUE[code]
+@pytest.mark.parametrize(("code", "kind"), [(code, kind) for code in CATALOGUE for kind in templates(code)])
+def test_names_of_quantities_say_their_unit(code, kind):
+    severity, text = CATALOGUE[code][0], templates(code)[kind]
     assert severity in ("note", "caution", "grave")
     assert not text.endswith(".")
     for name, form in placeholders(text).items():
         unit = form.partition("|")[0].partition(" ")[2]
-        kind = next((result for end, result in ENDINGS.items() if name.endswith(end)), None)
+        quantity = next((result for end, result in ENDINGS.items() if name.endswith(end)), None)
         wanted = UNITS[unit][1] if unit in UNITS else None
-        assert wanted == {"length": "displacement" if unit == "mm" else "length"}.get(kind, kind), name
+        assert wanted == {"length": "displacement" if unit == "mm" else "length"}.get(quantity, quantity), name
     # What is not in braces would not be converted; what the relations of records and thesis are about stays.
     words = re.sub(r"{[^}]*}", "", text)
-    assert code == "motion-beyond-relations" or not re.search(r"\d ?(mm|m|m/s|MPa|kN/m)\b", words)
+    assert kind == "beyond-relations" or not re.search(r"\d ?(mm|m|m/s|MPa|kN/m)\b", words)
 
 
 def test_a_notice_is_a_value_with_its_quantities():
@@ -61,9 +61,10 @@ def test_a_notice_is_a_value_with_its_quantities():
 
 
 def test_json_has_quantities_in_si_and_the_place():
-    notice = Notice("motion-gap", field="motion.vertical", time_s=0.29, name="x", gap_s=0.31)
+    notice = Notice("motion-flaw", "gap", field="motion.vertical", time_s=0.29, name="x", gap_s=0.31)
     assert json.loads(json.dumps(notice.to_json())) == {
-        "code": "motion-gap",
+        "code": "motion-flaw",
+        "kind": "gap",
         "text": "x has a gap of 0.31 s at 0.29 s",
         "severity": "caution",
         "field": "motion.vertical",

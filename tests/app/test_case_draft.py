@@ -276,6 +276,21 @@ def test_a_section_from_a_file_is_one_that_was_sent(session):
     assert session.case.section.polygon[1] == (80.5, 0.0)
 
 
+def test_a_fit_of_a_crack_is_one_that_was_sent(session, tmp_path):
+    assert field_of("crack.fit").kind == "text"
+    (tmp_path / "law-fit.toml").write_text("[crack]\nfriction = 0.7\n")
+    for name in (str(tmp_path / "law-fit.toml"), "law-fit.toml"):
+        edit(session, {"crack.fit": name})
+        assert wrong(session)[0] == "crack.fit"
+        assert "has not been sent" in fields_of(session)[1][0].problem
+    (session.folder / "upload-1").write_text("[crack]\nfriction = 0.9\n[crack.band]\nlow = 0.8\n")
+    session.sent = {"lift.toml": "upload-1"}
+    edit(session, {"crack.fit": "lift.toml"})
+    assert not wrong(session)
+    assert (session.case.crack.friction, session.case.crack.band.low) == (0.9, 0.8)
+    assert 'fit = "lift.toml"' in case_text(fields_in_force(session))
+
+
 def test_slopes_and_ends_are_shown_and_drawn(session):
     faces = {"height": "100 m", "crest_width": "8 m", "downstream": [["0 m", 0.8], ["90 m", 0.0]]}
     ends = {"head_x": "3 m", "head_elevation": "100 m", "foot_x": "9 m", "foot_elevation": "-9 m"}

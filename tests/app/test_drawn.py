@@ -14,13 +14,14 @@ from heeltoe import InputError, decoupled
 from heeltoe.app.checks import checked
 from heeltoe.app.live import answer
 from heeltoe.app.open_case import models_for
-from heeltoe.app.response_payload import thinned
+from heeltoe.app.response_payload import drawn, thinned
 from heeltoe.app.sliders import change, sliders
 from heeltoe.app.wording import in_words_of_the_page
-from heeltoe.models.run import earthquake, live
+from heeltoe.models.run import earthquake, live, run
+from heeltoe.result.verdict import band_sentence, effect_sentence
 from heeltoe.units.parse import InSI
-from heeltoe.warnings.notice import CATALOGUE
-from shared.dams import SHORT, example
+from heeltoe.warnings.notice import CATALOGUE, templates
+from shared.dams import COARSE, SHORT, example
 from shared.scenes import unpacked
 
 
@@ -67,6 +68,23 @@ def test_a_rough_crack_is_told_beside_the_numbers():
     # The elastic dam knows no asperities: it is not what is advised.
     [advice] = [warning["text"] for warning in reply["warnings"] if "and the dam is elastic" in warning["text"]]
     assert "run it without crack.roughness, too, and with concrete.modulus" in advice
+
+
+def test_other_frictions_stand_beside_the_numbers():
+    case = example("typical-base", *COARSE, "motion.duration=3s").with_({"crack.band": {"low": 0.9, "high": 1.1}})
+    response = run(case, "rigid")
+    facts = dict(drawn(response, "si")["facts"])
+    assert list(facts) == ["other frictions"]
+    assert facts["other frictions"] == band_sentence(response, "si")
+    assert facts["other frictions"].count("it slides") == 2
+    # As the terminal, the report and the JSON have them.
+    alone = run(example("block"))
+    facts = dict(drawn(alone, "us")["facts"])
+    assert list(facts) == ["less friction"]
+    assert facts["less friction"] == effect_sentence(alone.friction_effect, "us")
+    assert facts["less friction"].startswith("With 0.1 less friction it ")
+    # While a slider moves the block is run alone.
+    assert not answer(example("block"), {}, "rigid", "us")["facts"]
 
 
 def test_two_blocks_answer_and_move_one_on_the_other():
@@ -192,7 +210,7 @@ def test_an_error_is_told_at_its_field():
 
 
 def test_warnings_name_buttons_and_no_commands():
-    message = {code: in_words_of_the_page(template) for code, (_, _, template) in CATALOGUE.items()}
+    message = {(code, kind): in_words_of_the_page(text) for code in CATALOGUE for kind, text in templates(code).items()}
     assert not {code: each for code, each in message.items() if re.search(r"(^| )--\w|heeltoe [a-z]+ ", each)}
 
 

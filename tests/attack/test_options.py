@@ -25,6 +25,7 @@ USUAL: dict[str, list[str | Path]] = {
     "periods": [BASE, *(part for change in COARSE for part in ("--set", change))],
     "overturning": [SLENDER, "--count=2"],
     "animate": [BLOCK, "--to=page.html"],
+    "export": [BASE, "--to=gmsh", "--out=files", *(part for change in COARSE for part in ("--set", change))],
     "motion": ["record.txt"],
     "study": ["study.json", "--dry-run"],
     "new": ["fresh"],

@@ -38,7 +38,7 @@ def ends(head, foot, **more):
 
 
 def codes(case):
-    return [case_warning.code for case_warning in case_warnings(case)]
+    return [case_warning.name for case_warning in case_warnings(case)]
 
 
 @given(
@@ -106,7 +106,7 @@ def test_what_misses_the_crack_holds_nothing_and_is_told():
     anchor = ends((30.0, 12.0), (31.0, 6.0), prestress="1 MN/m", axial_stiffness="9 MN/m/m")
     drained = {"pattern": "drained", "drain_efficiency": 0.7, "drain_x": "-30 m"}
     case = read_case(dam(anchors=[anchor], uplift=drained))
-    assert {"anchor-misses", "drains-miss"} <= set(codes(case))
+    assert {"off-the-dam anchor", "off-the-dam drains"} <= set(codes(case))
     assert prestress(case).vertical == 0.0
     assert uplift(case).vertical == pytest.approx(uplift(read_case(dam(uplift={"pattern": "triangular"}))).vertical)
 
@@ -128,12 +128,12 @@ def test_drains_that_raise_the_head_are_told(efficiency, raised):
         (ends((0.0, 41.0), (8.0, -10.0)), ["anchor-head-wet"]),
         ({"distance": "4 m", "inclination": "-30 deg"}, ["anchor-head-wet"]),
         ({"distance": "7 m"}, []),
-        (ends((3.0, 48.0), (8.0, -10.0)), ["anchor-head-outside"]),
+        (ends((3.0, 48.0), (8.0, -10.0)), ["off-the-dam anchor-head"]),
     ],
 )
 def test_where_the_head_is(anchor, said):
     case = read_case(dam(anchors=[anchor | {"prestress": "1 MN/m"}]))
-    assert [code for code in codes(case) if code.startswith("anchor")] == said
+    assert [code for code in codes(case) if "anchor" in code] == said
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ REFUSED = [
         dam(crack=CRACK | {"colour": "red"}),
         "crack.colour: no such field; "
         "the fields here are elevation, inclination, kinks, friction, static_friction, kinetic_friction, law, bond, "
-        "restitution, uplift, uplift_intensity, side_gap, rocking_loss, roughness, band",
+        "restitution, uplift, uplift_intensity, side_gap, rocking_loss, roughness, band, fit",
     ),
     (
         dam(motion=FILE | {"vertical": {"file": "a", "revers": True}}),

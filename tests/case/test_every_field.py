@@ -84,6 +84,10 @@ def records(tmp_path_factory) -> dict[str, tuple[Fields, Any]]:
     result["section.file"] = ({"section": {"file": str(place / "a.csv")}}, str(place / "b.csv"))
     result["section.layer"] = ({"section": {"file": str(place / "two.dxf"), "layer": "A"}}, "B")
     result["section.unit"] = ({"section": {"file": str(place / "bare.csv"), "unit": "m"}}, "dam")
+    for name, friction in (("a.toml", 0.6), ("b.toml", 0.5)):
+        (place / name).write_text(f"[crack]\nfriction = {friction}\n")
+    of_coefficients = {"crack.static_friction": GONE, "crack.kinetic_friction": GONE}
+    result["crack.fit"] = ({**of_coefficients, "crack.fit": str(place / "a.toml")}, str(place / "b.toml"))
     result["motion.duration"] = ({}, "0.35 s")
     result["motion.allow_zero"] = ({"motion": {"points": flat}}, True)
     return result

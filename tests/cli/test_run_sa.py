@@ -30,7 +30,7 @@ def run(tmp_path, *options):
 # The right value: an oscillator of 5 % damping, integrated by SciPy.
 def test_a_pair_is_scaled_to_sa_by_one_factor(tmp_path):
     data = run(tmp_path, "--sa", "0.8g@0.3s")
-    across, up = resolve_all(read_case(BASE, [PAIR, {"motion.pga": None}]))
+    across, up, _ = resolve_all(read_case(BASE, [PAIR, {"motion.pga": None}]))
     omega = 2.0 * np.pi / 0.3
     oscillator = ([[0.0, 1.0], [-(omega**2), -0.1 * omega]], [[0.0], [-1.0]], [[1.0, 0.0]], [[0.0]])
     _, moved, _ = lsim(oscillator, across.acceleration, across.time)
@@ -92,5 +92,5 @@ def test_the_vertical_component_follows_each_scaling_step():
     step = 'motion.processing=[{step="scale-to-arias",intensity="1 m/s"},{step="taper"}]'
     plain = resolve_all(read_case(BASE, [PAIR, {"motion.pga": None}, 'motion.processing=[{step="taper"}]']))
     scaled = resolve_all(read_case(BASE, [PAIR, {"motion.pga": None}, step]))
-    factors = [after.pga / before.pga for after, before in zip(scaled, plain, strict=True)]
+    factors = [after.pga / before.pga for after, before in zip(scaled[:2], plain[:2], strict=True)]
     assert factors[1] == pytest.approx(factors[0], rel=1e-9) != 1.0

@@ -27,6 +27,7 @@ QUICK = {
     "overturning": ("--count", "4"),
     "study": ("--dry-run",),
     "solve": (*COARSE, "--set", "motion.duration=1s", "--model", "rigid"),
+    "export": (*COARSE, "--set", "motion.duration=1s"),
 }
 RECORD = """PEER NGA STRONG MOTION DATABASE RECORD
 Somewhere, 1/1/2000, Station, 0
@@ -46,6 +47,8 @@ def place(tmp_path_factory) -> Path:
     (directory / "TESTS.csv").write_text("normal stress [MPa],peak shear [MPa]\n0.5,0.6\n1,1.1\n1.5,1.4\n2,1.9\n")
     (directory / "records").mkdir()
     (directory / "records" / "my-record.AT2").write_text(RECORD)
+    other = RECORD.replace("Station, 0", "Station, 90").replace(".1E+00", ".3E-01")
+    (directory / "records" / "my-other-record.AT2").write_text(other)
     assert command("new", "mydam", cwd=directory).returncode == 0
     # What the pages say beside the commands: the decoupled chain needs a crack at a height.
     case = directory / "mydam.toml"

@@ -87,7 +87,7 @@ def test_what_cannot_be_used_is_refused_by_name(anchor, said):
 
 def test_an_anchor_misses_only_where_it_crosses_no_crack():
     def missed(anchor):
-        return [warning for warning in rigid(dam(anchor)).warnings if warning.code == "anchor-misses"]
+        return [warning for warning in rigid(dam(anchor)).warnings if warning.name == "off-the-dam anchor"]
 
     assert not missed(ABOVE)
     assert missed(THROUGH | {"foot_x": "3.2 m", "foot_elevation": "95 m"})

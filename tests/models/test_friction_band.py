@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import math
 import tomllib
 
 import pytest
+from pydantic import ValidationError
 
 from heeltoe import InputError, read_case, run, run_suite
 from heeltoe.case.fields_file import read_fields
+from heeltoe.case.model import Case, problems
 from heeltoe.case.read import case_schema
 from shared.command import command
 from shared.dams import ROOT, example
@@ -185,15 +188,53 @@ def test_a_fitted_file_gives_friction_and_band(tmp_path):
     stated = tomllib.loads((tmp_path / "fit" / "law-fit.toml").read_text(encoding="utf-8"))["crack"]
     assert case.crack.friction == stated["friction"] == pytest.approx(0.9, abs=0.02)
     assert (case.crack.band.low, case.crack.band.high) == (stated["band"]["low"], stated["band"]["high"])
-    assert case_schema()["$defs"]["Crack"]["properties"]["fit"]["type"] == "string"
+    assert "law-fit.toml" in case_schema()["$defs"]["Crack"]["properties"]["fit"]["description"]
     other = read_case(ROOT / "examples" / "typical-base.toml", {"crack.fit": fields["crack"]["fit"]})
     assert (other.crack.friction, other.crack.band) == (case.crack.friction, case.crack.band)
+    # A friction that is set takes the place of the fit and of its band, or of those of the case.
+    for case in (read_case(fields, "crack.friction=1.2"), other.with_("crack.friction=1.2")):
+        assert (case.crack.friction, case.crack.band) == (1.2, None)
     with pytest.raises(InputError, match=r'crack\.friction: cannot stand beside "fit"'):
-        read_case(fields, {"crack.friction": 1.0})
-    (tmp_path / "empty.toml").write_text("title = 'no law'\n", encoding="utf-8")
-    fields["crack"]["fit"] = str(tmp_path / "empty.toml")
-    with pytest.raises(InputError, match=r"crack\.fit: .* has no friction of a crack"):
-        read_case(fields)
-    fields["crack"]["fit"] = 3
-    with pytest.raises(InputError, match=r"crack\.fit: .*the path of a file in quotes"):
-        read_case(fields)
+        read_case({**fields, "crack": {**fields["crack"], "friction": 1.0}})
+
+
+@pytest.mark.parametrize(
+    ("fit", "reason"),
+    [
+        ("none.toml", '"none.toml" is not there'),
+        ("/dev/zero", '"/dev/zero" has more than 10 MB'),
+        (".", '"." cannot be read (Is a directory)'),
+        ("broken.toml", '"broken.toml" is not valid TOML'),
+        ("empty.toml", '"empty.toml" has no friction of a crack'),
+        ("flat.toml", '"flat.toml" has no friction of a crack'),
+        ("dam.toml", '"dam.toml" is a case file, not a fit'),
+        ("study.toml", '"study.toml" is a study, not a fit'),
+        (3, "give the path of a file in quotes"),
+    ],
+)
+def test_a_file_that_is_no_fit_is_refused_at_its_field(tmp_path, fit, reason):
+    case = (ROOT / "examples" / "typical-base.toml").read_text(encoding="utf-8")
+    for name, text in {
+        "broken.toml": "[crack",
+        "empty.toml": "title = 'no law'",
+        "flat.toml": "crack = 0.9",
+        "dam.toml": case,
+        "study.toml": "case = 'dam.toml'\n[crack]\nfriction = 1.0",
+    }.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    path = tmp_path / "own.toml"
+    path.write_text(case.replace("friction = 1.0", f"fit = {json.dumps(fit)}"), encoding="utf-8")
+    with pytest.raises(InputError) as refused:
+        read_case(path)
+    assert refused.value.field == "crack.fit"
+    assert reason in str(refused.value)
+
+
+def test_a_fit_is_read_with_the_file_of_the_case_alone():
+    fields = read_fields(ROOT / "examples" / "typical-base.toml") | {"crack": {"fit": "law-fit.toml", "friction": 1.0}}
+    with pytest.raises(ValidationError, match="has not been read"):
+        Case.model_validate(fields)
+    del fields["crack"]["friction"]
+    assert [str(error) for error in problems(fields, None)[1]] == [
+        'crack.fit: "law-fit.toml" has not been read; read the case by heeltoe.read_case'
+    ]

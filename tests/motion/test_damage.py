@@ -61,11 +61,13 @@ def test_no_scaling_or_filter_hides_damage(values, unit, code, changes, tmp_path
 
 def test_a_doubtful_value_is_pointed_at_and_a_sound_record_is_not(tmp_path):
     doubted = run(record(tmp_path / "a.txt", damaged(0.75)), "motion.pga=0.3 g")
-    (message,) = (warning for warning in doubted.warnings if warning.code == "motion-spike")
+    (message,) = (warning for warning in doubted.warnings if warning.name == "motion-flaw spike")
     assert message.time_s == pytest.approx(1.5)
     assert dict(message.quantities)["peak_g"] == pytest.approx(0.75)
     sound = run(record(tmp_path / "b.txt"), "motion.pga=0.3 g")
-    assert not {"motion-spike", "motion-coarse", "component-other"} & {warning.code for warning in sound.warnings}
+    assert not {"motion-flaw spike", "motion-flaw coarse", "component-other"} & {
+        warning.name for warning in sound.warnings
+    }
 
 
 def test_nines_that_were_measured_are_no_marker(tmp_path):
@@ -77,14 +79,14 @@ def test_nines_that_were_measured_are_no_marker(tmp_path):
 def test_clipping_shows_before_a_filter_rounds_it_off(tmp_path):
     file = record(tmp_path / "a.txt", np.clip(WAVE, -0.15, 0.15))
     for changes in HIDING:
-        assert "motion-clipped" in {warning.code for warning in run(file, *changes).warnings}
+        assert "motion-flaw clipped" in {warning.name for warning in run(file, *changes).warnings}
 
 
 def test_real_records_have_no_spikes(records):
     doubted = set()
     for path in sorted((records / "ensemble").iterdir()):
         for motion in read_channels(path) if path.suffix else []:
-            doubted |= {path.stem for item in check_record(motion, G) if item.code == "motion-spike"}
+            doubted |= {path.stem for item in check_record(motion, G) if item.name == "motion-flaw spike"}
     assert all("cape-mendocino" in name for name in doubted), doubted
 
 
@@ -102,7 +104,7 @@ def test_a_step_of_seconds_is_no_record(step, tmp_path):
 
 def test_a_step_that_is_too_long_for_a_dam_is_told(tmp_path):
     warnings = run(record(tmp_path / "a.txt", step="0.2 s")).warnings
-    assert any(item.code == "motion-coarse" and "every 0.2 s" in str(item) for item in warnings)
+    assert any(item.name == "motion-flaw coarse" and "every 0.2 s" in str(item) for item in warnings)
 
 
 @pytest.mark.parametrize(("height", "step", "left_out"), [(100.0, 0.1, 0.2), (100.0, 0.02, None), (20.0, 0.02, 0.2)])
@@ -121,7 +123,7 @@ def test_a_step_is_judged_by_the_period_of_an_elastic_dam(tmp_path, height, step
         "analysis": {"silence": "0 s"},
     }
     case = heeltoe.read_case(fields)
-    named = [notice for notice in heeltoe.run(case, "flexible").warnings if notice.code == "motion-coarse-for-dam"]
+    named = [notice for notice in heeltoe.run(case, "flexible").warnings if notice.name == "motion-coarse-for-dam"]
     shares = [dict(notice.quantities)["share"] for notice in named]
     assert shares == ([] if left_out is None else [pytest.approx(left_out, abs=0.05)])
     if named:
@@ -129,7 +131,7 @@ def test_a_step_is_judged_by_the_period_of_an_elastic_dam(tmp_path, height, step
         assert dict(named[0].quantities)["period_s"] == pytest.approx(first, rel=0.12)
         assert shares[0] == pytest.approx(1.0 - np.sinc(step / first) ** 2, rel=0.25)
     # A block swings in no period.
-    assert "motion-coarse-for-dam" not in {notice.code for notice in heeltoe.run(case, "rigid").warnings}
+    assert "motion-coarse-for-dam" not in {notice.name for notice in heeltoe.run(case, "rigid").warnings}
 
 
 @pytest.mark.parametrize("component", ["UP", "Up", "vertical UP", "DWN", "U-D", "HNZ", "Vert."])
@@ -138,7 +140,7 @@ def test_a_vertical_component_that_shakes_horizontally_is_told(component, tmp_pa
     file.write_text(csmip({component: GAL}))
     for other, code in (("", "component-other"), ("vertical.", None)):
         changes = [f"motion.{other}file={file}"] + ([f"motion.file={record(tmp_path / 'b.txt')}"] if other else [])
-        codes = {warning.code for warning in rigid(read_case(BLOCK, changes)).warnings}
+        codes = {warning.name for warning in rigid(read_case(BLOCK, changes)).warnings}
         assert {item for item in codes if item.startswith("component-")} == ({code} if code else set())
 
 
@@ -147,14 +149,14 @@ def test_a_horizontal_component_that_shakes_vertically_is_told(component, tmp_pa
     file = tmp_path / "a.V2"
     file.write_text(csmip({component: GAL}))
     case = read_case(BLOCK, [f"motion.file={file}", f"motion.vertical.file={file}"])
-    (warning,) = [item for item in rigid(case).warnings if item.code.startswith("component-")]
-    assert (warning.code, warning.field) == ("component-other", "motion.vertical")
+    (warning,) = [item for item in rigid(case).warnings if item.name.startswith("component-")]
+    assert (warning.name, warning.field) == ("component-other", "motion.vertical")
     assert "is a horizontal component" in str(warning)
 
 
 def test_a_name_tells_where_a_file_does_not(tmp_path):
     warnings = run(record(tmp_path / "quake_up.txt")).warnings
-    assert "component-other" in {item.code for item in warnings}
+    assert "component-other" in {item.name for item in warnings}
 
 
 def test_components_of_two_earthquakes_are_told(tmp_path):
@@ -163,7 +165,7 @@ def test_components_of_two_earthquakes_are_told(tmp_path):
     for event, answer in (("Nowhere Earthquake of Tue Jan 1, 1980 20:00 UTC", False), ("Elsewhere in 1999", True)):
         other.write_text(cosmos(direction="Up", event=event))
         case = read_case(BLOCK, [f"motion.file={one}", f"motion.vertical.file={other}"])
-        warnings = [warning for warning in rigid(case).warnings if warning.code == "components-differ"]
+        warnings = [warning for warning in rigid(case).warnings if warning.name == "components-differ"]
         assert bool(warnings) is answer
 
 
@@ -188,8 +190,8 @@ def columns(path, values=WAVE, step=0.01, **about):
 def test_components_are_compared_by_all_that_their_files_state(across, up, code, tmp_path):
     files = columns(tmp_path / "a.txt", **across), columns(tmp_path / "b.txt", **up)
     case = read_case(BLOCK, [f"motion.file={files[0]}", f"motion.vertical.file={files[1]}"])
-    notices = [notice for notice in rigid(case).warnings if notice.code.startswith("components-")]
-    assert [notice.code for notice in notices] == ([code] if code else [])
+    notices = [notice for notice in rigid(case).warnings if notice.name.startswith("components-")]
+    assert [notice.name for notice in notices] == ([code] if code else [])
     if code == "components-unsure":
         assert "event" in str(notices[0])
         assert "could not be compared" in str(notices[0])
@@ -200,7 +202,7 @@ def test_components_in_two_formats_are_compared_by_their_years(tmp_path):
     up = tmp_path / "b.V2"
     up.write_text(cosmos(direction="Up", event="Nowhere Earthquake of Tue Jan 1, 1980 20:00 UTC"))
     case = read_case(BLOCK, [f"motion.file={across}", f"motion.vertical.file={up}"])
-    assert "components-differ" in {notice.code for notice in rigid(case).warnings}
+    assert "components-differ" in {notice.name for notice in rigid(case).warnings}
 
 
 def test_the_first_of_two_channels_is_not_taken_for_the_record():

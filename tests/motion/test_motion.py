@@ -162,19 +162,19 @@ def test_checks():
         check(motion(30.0 * G * wave), G)
 
     def codes(series):
-        return [message.code for message in (*check_record(series, G), *check(series, G))]
+        return [message.name for message in (*check_record(series, G), *check(series, G))]
 
     assert codes(motion(4.0 * G * wave)) == ["motion-peak-unusual"]
     assert codes(motion(1e-4 * G * wave)) == ["motion-peak-unusual"]
-    assert "motion-clipped" in codes(motion(np.clip(wave, -0.5, 0.5)))
-    assert "motion-drifts" in codes(motion(wave + 0.5))
+    assert "motion-flaw clipped" in codes(motion(np.clip(wave, -0.5, 0.5)))
+    assert "motion-flaw drifts" in codes(motion(wave + 0.5))
     wave = -0.4 * G * np.cos(np.arange(346) * np.pi / 30.0)
     (jump,) = check_record(motion(wave), G)
     assert str(jump).startswith("m starts at -0.4 g, 100% of its peak: the ground jumps by as much")
     (jump,) = check_record(motion(wave[::-1]), G)
     assert str(jump).startswith("m ends at -0.4 g")
     gap = GroundMotion.from_points(np.r_[np.arange(30), np.arange(60, 90)] * 0.01, np.tile(wave[:60:2], 2))
-    (message,) = (message for message in check_record(gap, G) if message.code == "motion-gap")
+    (message,) = (message for message in check_record(gap, G) if message.name == "motion-flaw gap")
     assert message.time_s == pytest.approx(0.29)
     assert str(message) == "points has a gap of 0.31 s at 0.29 s"
 

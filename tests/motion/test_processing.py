@@ -240,11 +240,11 @@ def test_a_record_with_gravity_in_it_is_recognised(tmp_path):
     with pytest.raises(InputError, match=r"motion: gravity rests at 1 g: gravity is in it.*band-pass"):
         resolved("gravity")
     through = resolved("gravity", passing)
-    assert "motion-gravity" in {notice.code for notice in through.warnings}
+    assert "motion-gravity" in {notice.name for notice in through.warnings}
     assert through.pgd == pytest.approx(resolved("none", passing).pgd, rel=1e-3)
-    notices = {notice.code for notice in resolved("offset", passing).warnings}
-    assert "motion-offset" in notices
-    assert not {"motion-offset", "motion-gravity"} & {notice.code for notice in resolved("none").warnings}
+    notices = {notice.name for notice in resolved("offset", passing).warnings}
+    assert "motion-flaw offset" in notices
+    assert not {"motion-flaw offset", "motion-gravity"} & {notice.name for notice in resolved("none").warnings}
 
 
 def test_seconds_before_a_record_keep_its_times_and_its_other_component(tmp_path):

@@ -24,7 +24,7 @@ def weak(tmp_path):
 
 
 def scaled(warnings):
-    return [warning for warning in warnings if warning.code == "motion-scaled"]
+    return [warning for warning in warnings if warning.name == "motion-unlike-records scaled"]
 
 
 @pytest.mark.parametrize(("pga", "factor"), [(0.16, None), (0.24, 6.0)])

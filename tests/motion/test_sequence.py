@@ -12,8 +12,9 @@ UP = GroundMotion.from_points([0.0, 0.2, 0.6], [0.0, 0.5, 0.0], name="up")
 
 
 def test_each_motion_is_what_it_was():
-    result, up = joined([(A, None, 0.3), (B, None, 0.5), (A, None, 0.2)], [1.0, 0.5])
+    result, up, cross = joined([(A, None, None), (B, None, None), (A, None, None)], [0.3, 0.5, 0.2], [1.0, 0.5])
     assert up is None
+    assert cross is None
     assert result.name == "a and 2 aftershocks"
     assert [(part.name, part.begins, part.ends) for part in result.parts] == [
         ("a", 0.0, 0.3),
@@ -38,12 +39,12 @@ def test_each_motion_is_what_it_was():
 
 
 def test_a_vertical_motion_shakes_with_its_own_horizontal_one():
-    across, up = joined([(A, None, 0.3), (B, UP, 0.5)], [1.0])
+    across, up, _ = joined([(A, None, None), (B, UP, None)], [0.3, 0.5], [1.0])
     assert up is not None
     assert across.duration == up.duration
     # It is longer than its horizontal one, and ends with it.
     assert np.interp([0.2, 1.2, 1.5, 1.8 - 1e-9], up.time, up.acceleration) == pytest.approx([0.0, 0.0, 0.5, 0.125])
-    across, up = joined([(B, UP, 0.5), (A, None, 0.3)], [1.0])
+    across, up, _ = joined([(B, UP, None), (A, None, None)], [0.5, 0.3], [1.0])
     assert np.interp([0.2, 0.6, 1.6], up.time, up.acceleration) == pytest.approx([0.5, 0.0, 0.0])
     assert up.duration == across.duration == pytest.approx(1.8)
     assert [part.name for part in up.parts] == ["up"]

@@ -16,8 +16,8 @@ from shared.dams import ALL_EXAMPLES, ENDS, FAST, HEIGHT
 # What a case may not have, or a run not need: there is no such thing, and so no number of it.
 NONE = re.compile(
     r"advice|evidence|vertical_motion|self_excitation(\.twice_damped_slip_m|\.period_s)?|assumed_rock|assumed_rock\.trials\.2\.modulus_pa|"
-    r"before_shaking|rayleigh_\w+|(cracks\.\d+\.)?anchors\.\d+\.(capacity_n|slack_s|yields_s)|evidence\.rocking_\w+\.uncertainty|warnings\.\d+\.(field|time_s)|(beside\.)?ratio\.\w+|"
-    r"(cracks\.\d+\.)?(friction_law|roughness|joint|drainage_by_motion|overturned_about|cross_valley)|cracks\.\d+\.evidence|evidence\.cracked_length_m|"
+    r"before_shaking|rayleigh_\w+|(cracks\.\d+\.)?anchors\.\d+\.(capacity_n|slack_s|yields_s)|evidence\.rocking_\w+\.uncertainty|warnings\.\d+\.(field|kind|time_s)|(beside\.)?ratio\.\w+|"
+    r"(cracks\.\d+\.)?(friction_law|roughness|joint|drainage_by_motion|overturned_about|cross_valley)|cracks\.\d+\.evidence|evidence\.(cracked_length|residual_slip_cross)_m|"
     r"(cracks\.\d+\.)?joint\.(first_cracking_s|first_cracking_at_m|cracked_through_s)|crack_level\.(bonded\.)?amplification|"
     r"(cracks\.\d+\.)?bond(\.breaks_s|\.breaks_by)?|tension\.(strength|mesh)"
 )

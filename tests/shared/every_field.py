@@ -121,11 +121,21 @@ CROSS: Fields = {
     "crack.kinetic_friction": 0.4,
     "motion.cross_valley": {"points": [["0 s", "0 g"], ["0.15 s", "1.4 g"], ["0.3 s", "-1 g"], ["0.4 s", "0 g"]]},
 }
+#: The same, of components that are rotated to the stream.
+TURNED: Fields = {
+    **CROSS,
+    "motion.azimuth": "10 deg",
+    "motion.direction": "0 deg",
+    "motion.cross_valley.direction": "90 deg",
+}
 #: For fields that stand only in another case than the base, or have no value there: what changes first, then the value.
 HELPED: dict[str, tuple[Fields, Any]] = {
     "title": ({}, "another"),
     "crack.side_gap": (CROSS, "0 mm"),
     "motion.cross_valley.reverse": (CROSS, True),
+    "motion.azimuth": (TURNED, "40 deg"),
+    "motion.direction": (TURNED, "180 deg"),
+    "motion.cross_valley.direction": (TURNED, "270 deg"),
     **{
         f"motion.cross_valley.processing[{step}].{name}": (CROSS, None)
         for step, values in STEPS.items()

@@ -8,6 +8,7 @@ from shared.every_field import Fields, put
 
 STEEL = {"head_x": "3 m", "head_elevation": "99 m", "foot_x": "9 m", "foot_elevation": "-9 m", "prestress": "2 MN/m"}
 LAW = {"name": "slip weakening", "peak_friction": 1.1, "residual_friction": 0.9, "slip": "20 mm"}
+WALLS = {"name": "barton-bandis", "jrc": 8, "jcs": "10 MPa", "residual_angle": "28 deg"}
 BOND = {"name": "cohesion", "cohesion": "0.1 MPa", "residual_friction": 0.9}
 JOINT = {
     "tensile_strength": "0.5 MPa",
@@ -25,6 +26,7 @@ CHANGES: dict[str, Fields] = {
     "roughness": {"crack.roughness": {"asperity_height": "2 mm", "wave_length": "50 mm"}},
     "a friction law": {"crack.law": LAW},
     "a law with cohesion": {"crack.law": BOND},
+    "a friction law by the normal stress": {"crack.law": WALLS},
     "a bonded joint": {"crack.bond": JOINT},
     "all nodes watched twice": {"flexible.contactors": 5},
     "cohesion of the static checks": {"statics.cohesion": "0.1 MPa", "statics.bonded": 0.5},

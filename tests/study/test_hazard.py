@@ -359,6 +359,77 @@ def test_a_hazard_file_is_what_its_headings_say(tmp_path, name, content):
     assert [rate for _, rate in found] == pytest.approx(RATES, rel=1e-9)
 
 
+# Made with functions of openquake.engine 3.26.2, openquake/risklib/scientific.py: `annual_frequency_of_exceedence` of
+# the probabilities in so many years, and `probability_of_exceedance` of the rates in one year. Its logarithm of 1 - p
+# rounds rates below 1e-10 a year, where the two differ by more than 1e-6. The first sites of its own 199 files of
+# curves of PGA, PGV and SA in qa_tests_data were read so, too, with no other difference.
+OQ_PROBABILITIES = [9.990000e-01, 6.321206e-01, 9.516258e-02, 9.950166e-03, 1.498876e-03, 2.000000e-08]
+OQ_RATES = {
+    50.0: [
+        0.13815510557964272,
+        0.020000002238311797,
+        0.001999999956587993,
+        0.00019999999493294267,
+        3.000000876735831e-05,
+        4.000000037894577e-10,
+    ],
+    1.0: [
+        6.907755278982136,
+        1.00000011191559,
+        0.09999999782939964,
+        0.009999999746647134,
+        0.0015000004383679156,
+        2.0000000189472886e-08,
+    ],
+    475.0: [
+        0.01454264269259397,
+        0.002105263393506505,
+        0.0002105263112197887,
+        2.1052631045572914e-05,
+        3.1578956597219273e-06,
+        4.2105263556785025e-11,
+    ],
+}
+OQ_YEAR = {
+    2.0: 0.8646647167633873,
+    0.02: 0.019801326693244747,
+    2e-3: 0.001998001332666921,
+    1e-4: 9.999500016666385e-05,
+    3e-7: 2.9999995498908305e-07,
+}
+
+
+@pytest.mark.parametrize("years", OQ_RATES)
+def test_rates_are_those_of_openquake(tmp_path, years):
+    head = f"#,,,,,\"generated_by='OpenQuake engine 3.26.2', kind='mean', investigation_time={years}, imt='PGA'\""
+    levels = [0.05, 0.1, 0.2, 0.4, 0.8, 1.6]
+    names = ",".join(f"poe-{level:.7f}" for level in levels)
+    cells = ",".join(f"{probability:.6E}" for probability in OQ_PROBABILITIES)
+    path = tmp_path / "hazard_curve-mean-PGA_1.csv"
+    path.write_text(f"{head}\nlon,lat,depth,{names}\n10.00000,45.00000,0.00000,{cells}\n", encoding="utf-8")
+    pairs = read_pairs(path, "hazard.file", "acceleration", "pga", None)
+    assert [strength for strength, _ in pairs] == [f"{level} g" for level in levels]
+    assert [rate for _, rate in pairs] == pytest.approx(OQ_RATES[years], rel=1e-6)
+
+
+@pytest.mark.parametrize("rate", OQ_YEAR)
+def test_probabilities_in_a_year_are_those_of_openquake(rate):
+    """A dam that exceeds its limit in every motion does so as often as there are motions."""
+    hazard = {"strength": [1.0, 2.0], "annual_rate": [rate, 1e-3 * rate]}
+    assert annual(curve(1e-6, 0.1), hazard)["annual_probability"] == pytest.approx(OQ_YEAR[rate], rel=1e-6)
+
+
+def test_rates_of_nshmp_stay_as_they_are(tmp_path):
+    """Its service returns annual rates, which no Poisson process turns into others."""
+    (tmp_path / "a.json").write_text(json.dumps(NSHMP), encoding="utf-8")
+    pairs = read_pairs(tmp_path / "a.json", "hazard.file", "acceleration", "pga", None)
+    assert [rate for _, rate in pairs] == RATES
+    percent = json.dumps(NSHMP).replace("Annual Frequency of Exceedance", "Probability of exceedance in 50 years")
+    (tmp_path / "b.json").write_text(percent, encoding="utf-8")
+    turned = read_pairs(tmp_path / "b.json", "hazard.file", "acceleration", "pga", None)
+    assert [rate for _, rate in turned] == pytest.approx([-math.log1p(-rate) / 50.0 for rate in RATES], rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("name", "content", "code"),
     [
@@ -380,6 +451,9 @@ def test_a_hazard_file_is_what_its_headings_say(tmp_path, name, content):
         ("a.csv", CSV.format(*RATES, head="SA(0.3 s) [g],annual rate"), "hazard-measure"),
         ("a.csv", CSV.format(*probabilities(50, 100), head="pga [g],poe in 50 years"), "out-of-range"),
         ("a.csv", OPENQUAKE.format(*probabilities(50), imt="SA(0.3)"), "hazard-measure"),
+        ("a.csv", OPENQUAKE.format(*probabilities(50), imt="AvgSA(0.5)"), "hazard-measure"),
+        ("a.csv", OPENQUAKE.format(*probabilities(50), imt="CAV"), "hazard-measure"),
+        ("a.json", json.dumps(NSHMP).replace("PGA", "MMI"), "hazard-measure"),
         ("a.csv", OPENQUAKE.format(*probabilities(50), imt="PGA") + "11,45,0,0.5,0.4,0.3,0.2,0\n", "several"),
         ("a.json", '{"response": {}}', "file-unreadable"),
         ("a.json", "[" * 20_000, "file-unreadable"),

@@ -190,16 +190,16 @@ def test_the_rows_of_one_dam_whose_runs_scatter_are_the_means_of_the_run(tmp_pat
     ("evidence", "codes"),
     [
         ({"value_is": "run", "converged": True}, []),
-        ({"value_is": "mean", "converged": True}, ["study-scatter"]),
-        ({"value_is": "mean", "converged": False}, ["study-scatter", "study-uncertain"]),
+        ({"value_is": "mean", "converged": True}, ["study-single-runs scatter"]),
+        ({"value_is": "mean", "converged": False}, ["study-single-runs scatter", "study-single-runs uncertain"]),
     ],
 )
 def test_a_study_says_what_the_run_of_its_base_case_is_worth(evidence, codes):
     slip = {"value": 0.5, "run": 0.6, "uncertainty": 0.3}
     judged = evidence | {"residual_slip_m": slip}
-    assert [notice.code for notice in _worth(judged, single_runs=True)] == codes
+    assert [notice.name for notice in _worth(judged, single_runs=True)] == codes
     # Where the rows are the pilot's own answers they are means, too.
-    assert "study-scatter" not in {notice.code for notice in _worth(judged, single_runs=False)}
+    assert "study-single-runs scatter" not in {notice.name for notice in _worth(judged, single_runs=False)}
 
 
 @pytest.mark.parametrize(
@@ -222,7 +222,7 @@ def test_a_row_whose_bounces_amplify_the_last_digit_is_counted(tmp_path, name, c
     plan = plan_of(study)
     ran = run_part(plan, 0, plan.count).to_pylist()
     result = [
-        any(notice.code == "not-determined" for notice in MODELS["rigid"](one, earthquake(one), None).warnings)
+        any(notice.name == "not-determined" for notice in MODELS["rigid"](one, earthquake(one), None).warnings)
         for one in (plan.case.with_({"crack.restitution": row["crack.restitution"]}) for row in ran)
     ]
     assert [row["undetermined"] for row in ran] == result

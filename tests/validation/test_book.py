@@ -85,7 +85,7 @@ def test_references_of_several_kinds_have_notes():
     rows = [Row("slip", 100.0, 104.0, 0.07, remark="print", kind=kind) for kind in ("thesis", "book")]
     page = pages.page("impulse", [store.row_texts(row) for row in rows])
     assert "| slip [2] |" in page
-    assert "1. thesis, 7 %: print\n2. book, 7 %: print" in page
+    assert "1. thesis, 7 %: print\n2. book, 7 %: as in 1" in page
 
 
 def test_one_page_is_made_anew(tmp_path, capsys):

@@ -88,6 +88,10 @@ def results(tmp_path_factory, study):
         "across": run(
             example("typical-base", *FAST, "motion.cross_valley.file=elcentro-1940-270-nga"), "rigid"
         ).to_json(),
+        "elastic across": run(
+            example("typical-base", *FAST, "motion.cross_valley.file=elcentro-1940-270-nga", "flexible.evidence=step"),
+            "flexible",
+        ).to_json(),
         "band": run(
             example("typical-base", *FAST, "limits.residual_slip=1mm").with_(
                 {"crack.band": {"low": 0.8, "judge": "low"}}

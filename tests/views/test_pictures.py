@@ -82,7 +82,7 @@ def test_the_ground_does_not_drift_between_two_motions():
     time = 0.01 * np.arange(200)
     first = GroundMotion("first", time, np.sin(time) + 0.1)
     second = GroundMotion("second", time, np.cos(3.0 * time)).scaled(0.5)
-    whole, _ = joined([(first, None, first.duration), (second, None, second.duration)], [20.0])
+    whole, _, _ = joined([(first, None, None), (second, None, None)], [first.duration, second.duration], [20.0])
     velocity, displacement = velocity_displacement(whole)
     between = (whole.time > first.duration) & (whole.time < first.duration + 20.0)
     assert not velocity[between].any()

@@ -157,7 +157,7 @@ def test_rock_that_neither_damps_nor_lets_waves_go_takes_nothing_and_is_warned_o
     assert held.energy.residual < 1e-10
     massless = run(plane_case(dam(rock=ROCK | {"massless": True})), "flexible")
     for response, field in ((held, "rock.radiation"), (massless, "rock.massless")):
-        (notice,) = [notice for notice in response.warnings if notice.code == "rock-keeps-waves"]
+        (notice,) = [notice for notice in response.warnings if notice.name == "rock-keeps-waves"]
         assert field in str(notice)
     assert not any(n.code == "rock-keeps-waves" for n in run(plane_case(dam()), "flexible").warnings)
 
@@ -206,7 +206,7 @@ def test_rock_too_soft_for_its_shapes_is_warned_of(crack, monkeypatch):
     response = run(plane_case(dam(crack=crack)), "flexible")
     for cache in kept:
         cache.clear()
-    (notice,) = [notice for notice in response.warnings if notice.code == "rock-coarse"]
+    (notice,) = [notice for notice in response.warnings if notice.name == "rock-coarse"]
     assert dict(notice.quantities)["error"] > full_rock_module.ENOUGH
 
 
@@ -404,13 +404,13 @@ def test_the_example_runs():
 def test_rock_without_damping_below_a_crack_is_warned_of():
     def warned(**changes):
         response = flexible(plane_case(dam(**changes)), evidence="full")
-        codes = {notice.code for notice in response.warnings}
+        codes = {notice.name for notice in response.warnings}
         no_limit = "rock-undamped" in codes
         assert response.evidence.no_limit == no_limit
         assert ("it may grow with each finer mesh" in verdict(response)) == no_limit
         # Another warning says why it is not converged.
         assert response.evidence.converged == (not no_limit)
-        assert "not-converged" not in codes
+        assert "not-converged crack" not in codes
         return no_limit
 
     undamped = ROCK | {"damping": 0.0}
@@ -441,7 +441,7 @@ def test_a_result_says_what_rigid_rock_and_water_without_sound_leave_out():
     usual = strong | {"motion": {"points": [[time, f"{0.5 * float(value.split()[0])} g"] for time, value in PULSES]}}
 
     def about(fields):
-        return [notice for notice in flexible(plane_case(fields)).warnings if notice.code.startswith("surroundings-")]
+        return [notice for notice in flexible(plane_case(fields)).warnings if notice.name.startswith("surroundings-")]
 
     (like,) = about(usual)
     assert dict(like.quantities)["cases"] == CLASSES[-1][2]
@@ -453,7 +453,7 @@ def test_a_result_says_what_rigid_rock_and_water_without_sound_leave_out():
         (strong | {"crack": {"elevation": "0 m", "friction": 0.6}}, "friction"),
     ):
         (unlike,) = about(fields)
-        assert unlike.code == "surroundings-unlike"
+        assert unlike.name == "surroundings-left-out unknown"
         assert why in str(unlike)
     assert not about(dam())
 

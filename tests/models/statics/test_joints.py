@@ -106,13 +106,13 @@ def test_anchors_and_drains_count_at_the_joints_that_they_cross():
     for joint in result.joints:
         lines = {line.name: line for line in joint.statics.cases[0].sheet().lines}
         held = lines["anchors"].vertical_n
-        codes = [warning.code for warning in joint.statics.warnings]
-        assert ("anchor-misses" in codes) is (joint.elevation_m not in places)
+        codes = [warning.name for warning in joint.statics.warnings]
+        assert ("off-the-dam anchor" in codes) is (joint.elevation_m not in places)
         if joint.elevation_m in places:
             assert lines["anchors"].distance_m == pytest.approx(places[joint.elevation_m])
         assert held == pytest.approx(-1e6 * 90.0 / (90.0**2 + 4.0**2) ** 0.5 if joint.elevation_m in places else 0.0)
         # Drains 30 m from the heel cross joints that are wider: of 80, 64 and 24 m the last is not.
-        assert ("drains-miss" in codes) is (joint.elevation_m == 70.0)
+        assert ("off-the-dam drains" in codes) is (joint.elevation_m == 70.0)
         assert len(joint.statics.cases[0].pressures) == (2 if joint.elevation_m == 70.0 else 3)
 
 

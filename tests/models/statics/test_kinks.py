@@ -55,7 +55,7 @@ def test_a_block_on_teeth():
     assert (outcome.pieces_bear, math.tan(outcome.steepest_rise_rad)) == ("more", pytest.approx(0.5))
     # It is symmetric: W in the middle, P x 2.5/3 turns it downstream.
     assert outcome.resultant_from_heel_m == pytest.approx(4.0 + 31.25 * 2.5 / 3.0 / 528.0, **CLOSE)
-    warning = next(notice for notice in result.warnings if notice.code == "kinks-add")
+    warning = next(notice for notice in result.warnings if notice.name == "kinks-beside-line add")
     for words in ("a factor of 8.448", "up to 26.6 degrees", "22.528"):
         assert words in warning.text()
 
@@ -136,7 +136,7 @@ def test_where_the_crack_falls_the_smaller_factor_counts():
     at = pressed_at(outcome.resultant_from_heel_m)
     held = borne(pieces, 0.5, at, 1.0)
     assert outcome.sliding_factor == pytest.approx(held * outcome.normal_force_n / outcome.shear_force_n, rel=1e-9)
-    assert "kinks-take" in {notice.code for notice in result.warnings}
+    assert "kinks-beside-line take" in {notice.name for notice in result.warnings}
 
 
 def test_steep_steps_bear_any_push():

@@ -106,7 +106,7 @@ def test_each_crack_is_told_of():
     for crack in response.cracks:
         # Its last frame is a little before the end.
         assert crack.histories["slip_path_m"][-1] == pytest.approx(crack.friction_law.slip_path_m, rel=0.01)
-    texts = [str(warning) for warning in response.warnings if warning.code.startswith("law-range")]
+    texts = [str(warning) for warning in response.warnings if warning.name.startswith("law-range ")]
     assert len(texts) == 1
     assert "crack at 90 m" in texts[0]
     assert any("Palmer" in reference for reference in response.references)

@@ -62,16 +62,28 @@ def test_table_of_the_half_plane():
     assert horizontal == pytest.approx(0.23285 - 0.30403j, abs=2e-4)
 
 
-# Some lie between those at which shapes are chosen, and where the answer is worst; the first one is far below.
-@pytest.mark.parametrize("frequency", [0.2, 1.0, 2.0, 4.0, 7.0, 11.0, 13.7, 14.1, 15.0])
+@pytest.fixture(scope="module")
+def soft():
+    material = replace(ROCK, modulus=10e9)
+    return full_rock(BASE, material), reduced_rock(BASE, material)
+
+
+# From far below all modes of a dam, past the lowest modes of all elements, to the highest frequency; the answers are
+# worst at 13.5 to 14.5 and 20 to 22 Hz.
+@pytest.mark.parametrize("frequency", [0.05, 0.2, 0.3, 0.5, 1.0, 2.0, 4.0, 7.0, 10.0, 12.5, 13.7, 14.3, 15.0])
 def test_few_unknowns_answer_as_all_do(coarse, reduced, frequency):
     _answers_as(coarse, reduced, frequency)
 
 
-@pytest.mark.parametrize("frequency", [0.2, 0.3, 0.4])
+@pytest.mark.parametrize("frequency", [0.2, 0.3, 0.4, 0.55, 1.0, 6.0, 14.0, 20.0, 20.9, 22.4])
 def test_a_larger_box_answers_far_below_all_modes_of_a_dam(frequency, larger):
     """Its own modes are there: few unknowns that were not chosen there err by a fifth."""
     _answers_as(*larger, frequency)
+
+
+@pytest.mark.parametrize("frequency", [0.2, 0.3, 0.55, 1.0, 6.0, 12.5, 13.7, 14.3])
+def test_rock_of_half_the_modulus_answers_as_well(frequency, soft):
+    _answers_as(*soft, frequency)
 
 
 @pytest.mark.slow
@@ -181,11 +193,12 @@ def test_stiffer_rock_has_the_same_shapes(coarse, reduced):
 
 
 def _answers_as(full, reduced, frequency):
+    """No answer is farther off than the reduction may leave and has found, although it has looked elsewhere."""
     omega = 2.0 * np.pi * frequency
-    tractions = smooth_tractions(BASE)[:, :4]
-    forces = np.zeros((full.mass.shape[0], 4))
+    tractions = smooth_tractions(BASE)
+    forces = np.zeros((full.mass.shape[0], tractions.shape[1]))
     forces[full.base] = tractions
     exact = tractions.T @ full.body.response(1j * omega, forces)[full.base]
     off = tractions.T @ reduced.compliance(omega, tractions) - exact
     size = np.sqrt(np.abs(np.diag(exact)))
-    assert np.abs(off / np.outer(size, size)).max() < 0.03
+    assert np.abs(off / np.outer(size, size)).max() <= reduced.error <= ENOUGH
