@@ -16,6 +16,8 @@ from validation.declared import Declared
 _MADE = "<!-- Made by `make book`. -->"
 #: The thesis in full, as on the first page of the book; the other pages have its short name.
 _THESIS = REFERENCES["rigid"].partition(", chapters")[0]
+#: Spread of a case without an earthquake, which its page leaves out.
+_STILL = "Nothing shakes."
 _COLUMNS = {
     "what": "",
     "reference": "reference",
@@ -55,7 +57,7 @@ earthquake, as far as is known; no case has one.
 
 {measured}
 
-## Matrix
+## Computed
 
 """
 
@@ -80,7 +82,7 @@ def page(name: str, rows: Rows) -> str:
                 f"- Model: {', '.join(case.models)}",
                 f"- Source: {case.source.replace(_THESIS, 'Zhu (2004)')}",
                 f"- Convergence: {case.convergence}",
-                f"- Spread: {case.spread}",
+                *([f"- Spread: {case.spread}"] if case.spread != _STILL else []),
                 f"- `python -m validation {name}`{' (needs records)' * case.records}",
                 *_elsewhere(case),
             )
@@ -99,15 +101,14 @@ def index(book: dict[str, Rows]) -> str:
     """Return the first page: the matrix, and what cannot be reproduced."""
     total = Counter(row["verdict"] for rows in book.values() for row in rows)
     shown = [verdict for verdict in VERDICTS[1:] if total[verdict]]
-    lines, measured = [], []
+    lines: list[list[str]] = []
+    measured: list[list[str]] = []
     for name, case in CASES.items():
         rows = book.get(name, [])
         counts = counted(rows)
-        cells = [f"[{name}]({file_of(name)}.md)", _plain(case.title).rstrip(".:"), ", ".join(case.models)]
+        cells = [f"[{name}]({file_of(name)}.md)", _shortened(case.title), ", ".join(case.models)]
         cells += [str(len(rows)), *(str(counts[verdict] or "") for verdict in shown)]
-        lines.append(cells)
-        if any(row["kind"] == "measured" for row in rows):
-            measured.append(cells)
+        (measured if any(row["kind"] == "measured" for row in rows) else lines).append(cells)
     heads = ["case", "what", "model", "rows", *shown]
     text = _INTRODUCTION.format(
         cases=len(CASES),
@@ -125,6 +126,11 @@ def index(book: dict[str, Rows]) -> str:
 def _body(case: Declared) -> list[str]:
     """Return what a case says of itself below its first line."""
     return [_plain(part) for part in case.text.partition("\n")[2].strip().split("\n\n") if part]
+
+
+def _shortened(title: str) -> str:
+    """Return what a title says before its first colon; the page has all of it."""
+    return _plain(title).partition(": ")[0].rstrip(".:")
 
 
 def _plain(text: str) -> str:
@@ -202,7 +208,13 @@ def _versions(rows: Rows) -> str:
 def _remarks(rows: Rows) -> Iterable[str]:
     notes = _notes(rows)
     if len(notes) > 1:
-        yield "\n".join(f"{place}. {note}" for note, place in notes.items())
+        known: dict[str, int] = {}
+        lines = []
+        for note, place in notes.items():
+            what, colon, remark = note.partition(": ")
+            first = known.setdefault(remark, place) if colon else place
+            lines.append(f"{place}. {note if first == place else f'{what}: as in {first}'}")
+        yield "\n".join(lines)
 
 
 def _table(heads: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
