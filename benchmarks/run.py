@@ -29,6 +29,7 @@ PARTS = {
     "flexible_study": "Flexible studies",
     "crack_peers": "Elastic block beside peers",
     "elastic_rocking": "Elastic block that rocks",
+    "exported_dam": "The exported dam",
     "commands": "Commands",
     "app_redraw": "The app in a browser",
 }
