@@ -21,6 +21,7 @@ from heeltoe.cli.main import app
 from heeltoe.errors.error import CATALOGUE as ERRORS
 from heeltoe.views.explain import find
 from heeltoe.warnings.notice import CATALOGUE as WARNINGS
+from heeltoe.warnings.notice import templates
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "python" / "heeltoe"
@@ -107,7 +108,7 @@ def texts() -> dict[str, list[tuple[str, str]]]:
         "field texts": [(meaning.name, meaning.meaning) for meaning in names if meaning.kind.startswith("field")],
         "JSON texts": [(meaning.name, meaning.meaning) for meaning in names if not meaning.kind.startswith("field")],
         "errors": [(code, part) for code, parts in ERRORS.items() for part in parts],
-        "warnings": [(code, text) for code, (_, _, text) in WARNINGS.items()],
+        "warnings": [(code, text) for code in WARNINGS for text in templates(code).values()],
         "docstrings": list(docstrings()),
         "docs": list(prose()),
     }
