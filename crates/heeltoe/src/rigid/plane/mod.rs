@@ -8,14 +8,14 @@
 //! No water moves with the block across the valley. Neighbours stop the block at its sides, plastically, and take what
 //! pushes it into them; friction acts along the stream alone then.
 //!
-//! Where friction goes by a law (`rub`), its path is that of the vector, and its speed |u|. Off a corner such a block, or one whose
-//! uplift goes by the opening, is not followed ([`Outcome::LiftsAcross`](super::Outcome)).
+//! Where friction goes by a law (`rub`), its path is that of the vector, and its speed |u|. Off a corner such a block, or one
+//! whose uplift goes by the opening, is not followed ([`Outcome::LiftsAcross`](super::Outcome)).
 //!
 //! Between samples F and N are linear in time while both corners lie: `series` has the power series of a motion on its
 //! way, `start` those from rest, `straight` the motion of which one component is held. Off one corner or both `lifted` has
-//! the modes and their events; on a corner that slides the normal force goes with the direction of the slip, and
-//! `rubbing` has the series. `walk` and `carry` go from event to event, `keep` keeps what there is to keep, and `polynomial` finds
-//! where a series falls through zero. Impacts are those of [`super::impact`].
+//! the modes and their events, and `aloft` the motion; on a corner that slides the normal force goes with the direction of
+//! the slip, and `rubbing` has the series. `walk` and `carry` go from event to event, `keep` keeps what there is to keep,
+//! and `polynomial` finds where a series falls through zero. Impacts are those of `impact`.
 
 mod aloft;
 mod carry;
