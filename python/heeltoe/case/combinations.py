@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
@@ -439,13 +439,6 @@ RULES = (
         "the rigid and the flexible model alone follow it, in runs and studies",
     ),
     Rule("shaking across the valley", "", ("motions",), "the motions of the study replace that of the case"),
-    Rule(
-        "shaking across the valley",
-        "",
-        ("flexible",),
-        "the elastic dam slides along the stream alone",
-        "warned",
-    ),
     Rule("roughness", "", ("flexible",), "the faces of its cracks are smooth"),
     Rule("a friction law", "penalty contact", ("flexible",), _NO_PENALTY),
     Rule("uplift that changes during shaking", "penalty contact", ("flexible",), _NO_PENALTY),
@@ -474,8 +467,8 @@ RULES = (
 def conflicts(case: Featured) -> Iterator[InputError]:
     """Walk the features of a case that do not go together, whatever is done with it."""
     for rule in RULES:
-        if not rule.users and rule.verdict == "refused":
-            yield from _errors(case, rule, "")
+        if not rule.users and rule.verdict == "refused" and (broken := _broken(case, rule)):
+            yield from _errors(case, rule, broken, "")
 
 
 def check(case: Featured, user: str) -> None:
@@ -536,7 +529,8 @@ def _rules_for(user: str) -> Iterator[Rule]:
 
 def _unsupported(case: Featured, user: str) -> Iterator[InputError]:
     for rule in _rules_for(user):
-        yield from _errors(case, rule, user if rule.users else "")
+        if broken := _broken(case, rule):
+            yield from _errors(case, rule, broken, user if rule.users else "")
 
 
 def _broken(case: Featured, rule: Rule) -> list[tuple[str, object]]:
@@ -565,8 +559,8 @@ def _at_another_crack(case: Featured, rule: Rule, path: str) -> float | None:
     return cracks[owners[0]].elevation
 
 
-def _errors(case: Featured, rule: Rule, user: str) -> Iterator[InputError]:
-    for path, value in _broken(case, rule):
+def _errors(case: Featured, rule: Rule, broken: Sequence[tuple[str, object]], user: str) -> Iterator[InputError]:
+    for path, value in broken:
         name = rule.feature if value is None else f"{rule.feature} ({shown(value)})"
         remedy = FEATURES[rule.feature].removal
         if rule.other:

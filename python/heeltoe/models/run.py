@@ -118,6 +118,8 @@ def run(
 def _run(case: Case, model: str, shaking: Earthquake, output_step: float | None) -> Response:
     """Run a model or two, with the friction that the crack states."""
     names, why = models_of(case, model)
+    for name in names:
+        check(case, name)
     _check_costs(case, names, shaking, output_step)
 
     def one_way(shaking: Earthquake, first: Rested | None = None) -> Response:
