@@ -265,6 +265,12 @@ def _notes(case: Case) -> Iterator[str]:
         yield f'Uplift is "{case.uplift.during_shaking}" in the earthquake of the case; here it stays as it is at rest.'
     if any(anchor.yields for anchor in case.anchors):
         yield "Anchors of the case have a stiffness; here they are their prestress alone."
+    if case.motion is not None and case.motion.cross_valley is not None:
+        yield "The ground of the case shakes across the valley, too; here it shakes along the stream alone."
+    if case.crack.band is not None:
+        yield "The case has a band of frictions; here is its best estimate alone."
+    if case.motions:
+        yield "The case has a suite of records; here is no ground motion. Name one, as by --set motion.file=NAME."
     if case.aftershocks:
         yield "The case has further earthquakes; here is the first alone."
     if case.motion is not None and not case.motion.has_sign:
