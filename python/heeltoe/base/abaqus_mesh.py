@@ -12,7 +12,13 @@ _PLANE = re.compile(r"(?:CPS|CPE|CPEG|CAX|M3D|S|STRI|R3D|SFM3D|DC2D|AC2D)(\d+)(?
 _SOLID = re.compile(r"(?:C3D|DC3D|AC3D|CC3D|SC|CIN3D)\d")
 # Lines, points and what joins them are no part of an outline.
 _LINES = re.compile(r"(?:T2D|T3D|B2|B3|PIPE|SPRING|DASHPOT|MASS|ROTARYI|CONN|GAP|R2D|RB2D|DCOUP|D$|U1)")
-_REFUSED = {"INCLUDE": "it includes another file", "NGEN": "it generates its nodes", "NFILL": "it generates its nodes"}
+_TURNED = "its nodes are in a system of coordinates of their own"
+_REFUSED = {
+    "INCLUDE": "it includes another file",
+    "NGEN": "it generates its nodes",
+    "NFILL": "it generates its nodes",
+    "SYSTEM": _TURNED,
+}
 _GENERATED = {"ELGEN": "it generates its elements", "NCOPY": "it copies its nodes", "ELCOPY": "it copies its elements"}
 
 _Block = tuple[str, dict[str, str], list[list[str]]]
@@ -43,6 +49,8 @@ def read_abaqus(text: str) -> PlaneMesh:
         elif keyword == "INSTANCE" and rows:
             raise ValueError("it moves an instance of a part")
         elif keyword == "NODE":
+            if options.get("SYSTEM", "R").upper() != "R":
+                raise ValueError(_TURNED)
             for row in rows:
                 x, y, z = ([float(cell) if cell else 0.0 for cell in row[1:4]] + [0.0] * 3)[:3]
                 points[f"{part} {int(row[0])}"] = x, y, z

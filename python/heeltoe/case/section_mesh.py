@@ -105,17 +105,27 @@ def _outline(rings: list[list[list[float]]], points: Floats) -> Corners:
     """Return the corners around all elements."""
     size = float(np.ptp(points, axis=0).max())
     # The two faces of a crack become one where their nodes are in the same places.
-    whole = shapely.union_all([shapely.make_valid(shapely.Polygon(ring)) for ring in rings], grid_size=_SAME * size)
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(points)
+    first = np.array([min(near) for near in tree.query_ball_point(points, _SAME * size)])
+    elements = [shapely.make_valid(shapely.Polygon(points[first[tree.query(ring)[1]]])) for ring in rings]
+    whole = shapely.union_all(elements)
+    if whole.geom_type != "Polygon":
+        # Faces that lie on each other although their nodes do not.
+        whole = shapely.union_all(elements, grid_size=_SAME * size)
     if not whole.area > 0.0:
         raise _without("an area")
     if whole.geom_type != "Polygon":
         count = f"{len(shapely.get_parts(whole))}"
         raise InputError("mesh-pieces", "section.file", count)
-    if len(whole.interiors):
+    # What is thinner than the tolerance is rounding between two faces, and no hole.
+    holes = [hole for hole in whole.interiors if shapely.Polygon(hole).area > _SAME * size * hole.length]
+    if holes:
         raise InputError(
             "another-kind",
             "section.file",
-            f"a mesh with holes ({len(whole.interiors)})",
+            f"a mesh with holes ({len(holes)})",
             wanted="a section without any",
             remedy="fill galleries, or name the sets of elements that do by section.layer",
         )
@@ -125,7 +135,5 @@ def _outline(rings: list[list[list[float]]], points: Floats) -> Corners:
     straight = shapely.simplify(shapely.LinearRing(around), _STRAIGHT * size)
     corners = shapely.get_coordinates(straight)[:-1]
     # The nodes themselves, to the last bit.
-    from scipy.spatial import cKDTree
-
-    nearest = cKDTree(points).query(corners)[1]
+    nearest = tree.query(corners)[1]
     return [(x, z) for x, z in points[nearest].tolist()]
