@@ -102,7 +102,7 @@ class HorizontalSource(Source):
     """A horizontal ground motion."""
 
     direction: Azimuth | None = None
-    """Where the component counts positive, clockwise from north, if neither its record nor its name states it; for
+    """Where the component counts positive, clockwise from north, in place of what its record or its name states; for
     `motion.azimuth`."""
 
 

@@ -126,7 +126,7 @@ class Suite(SuiteRule):
     """Whether the two horizontal components of each earthquake, recognised by station and direction in the files and
     else by their names, shake the dam together: each one along the stream with the other across the valley, and each
     one alone, for the factor between the two. "30 %" gives the other one this share of the peak along the stream; "15
-    deg" rotates both to streams of all azimuths in such steps, of which the worst counts. Blocks alone follow that."""
+    deg" rotates both to streams of all azimuths in such steps, of which the worst counts."""
     unit: str | None = Field(default=None, strict=True)
     """Unit of the numbers in files that do not state it."""
     time_step: TimeSpan | None = None

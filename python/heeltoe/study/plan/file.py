@@ -116,7 +116,7 @@ class Motions(Fields):
     cross_valley: CrossValleyField = False
     """Two horizontal components of each event are expected: each shakes the dams along the stream, with the other one
     across the valley by the same factor, or with this share of the peak along the stream ("30 %"). "15 deg" rotates
-    both to streams of all azimuths in such steps; `scale` is that of the strongest. Blocks alone follow that."""
+    both to streams of all azimuths in such steps; `scale` is that of the strongest."""
     both_signs: Truth | None = None
     """Each motion also reversed, as a run of its own: the default, unless the case says which way round its motion is
     (`motion.sign`)."""

@@ -24,7 +24,7 @@ _RATE = re.compile(r"\b(?:rates?|afe|maf|mafe|frequency|freq|lambda)\b|1/(?:yr|y
 _LOGARITHM = re.compile(r"\b(?:log\s?_?(?:10|e)?|ln)(?:\b|(?=[\s_(\[]|pga|pgv|sa|afe))")
 _OTHER = re.compile(
     r"non[\s-]?exceed|densit|occurrence|\b10\s?(?:\^|\*\*|-\d|e-?\d)|/\s?(?:day|d|week|month)\b"
-    r"|\b(?:per|a) (?:day|week|month|\d+)"
+    r"|\b(?:per|a) (?:day|week|month|\d+)|\b(?:daily|weekly|monthly)\b"
 )
 _ANY_PERIOD = re.compile(r"\bt\s?=\s?(\d*\.?\d+)|\bp?sa\b\D{0,3}(\d*\.?\d+)?")
 _OQ_TIME = re.compile(r"investigation_time=([\d.]+)")
@@ -199,7 +199,9 @@ def _rate_of(heading: str, field: str) -> Callable[[float], float]:
 
 def _rate_of_probability(probability: float, years: float, field: str) -> float:
     if not 0.0 <= probability <= 1.0:
-        raise InputError("out-of-range", field, f"{probability:g}", bound="a probability from 0 to 1")
+        raise InputError("out-of-range", field, f"{probability:g}", bound="from 0 to 1, as probabilities are")
+    if not years > 0.0:
+        raise InputError("out-of-range", field, f"{years:g} years", bound="above 0 years, in which it is exceeded")
     return math.inf if probability == 1.0 else -math.log1p(-probability) / years
 
 
