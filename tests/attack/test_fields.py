@@ -16,7 +16,7 @@ from heeltoe import read_case
 from heeltoe.case.field_usage import READ_BY
 from heeltoe.units.parse import DIMENSIONS
 from shared.attacked import Attack
-from shared.every_field import Fields, leaves, pair, put
+from shared.every_field import GONE, Fields, leaves, pair, put
 from shared.hostile import values
 
 ALL = dict(leaves())
@@ -37,6 +37,8 @@ def help_of(place: Path) -> dict[str, tuple[Fields, Any]]:
     """Return what must be in a case that has the fields of records and of sections in files."""
     corners = {"section": {"file": str(place / "corners.csv"), "unit": "m"}}
     beside: dict[str, tuple[Fields, Any]] = {f"section.{name}": (corners, "1") for name in ("file", "layer", "unit")}
+    (place / "fit.toml").write_text("[crack]\nfriction = 0.6\n")
+    beside["crack.fit"] = (dict.fromkeys(("crack.static_friction", "crack.kinetic_friction"), GONE), "fit.toml")
     for block in ("motion", "motion.vertical", "motion.cross_valley"):
         file = {block: {"file": str(place / "record.txt")}}
         for name in ("file", "channel", "unit", "time_step"):

@@ -190,6 +190,8 @@ GOOD = gmsh2(NODES, QUADS)
         ("a.msh", "$MeshFormat\n", "source-unreadable", "does not end"),
         ("a.inp", abaqus(NODES, QUADS, end="*INCLUDE, INPUT=b.inp"), "source-unreadable", "includes another file"),
         ("a.inp", abaqus(NODES, QUADS, end="*NGEN\n1, 5"), "source-unreadable", "generates its nodes"),
+        ("a.inp", abaqus(NODES, QUADS, end="*SYSTEM\n1.0, 0.0"), "source-unreadable", "system of coordinates"),
+        ("a.inp", abaqus(NODES, QUADS).replace("*NODE", "*NODE, SYSTEM=C"), "source-unreadable", "system of coord"),
         ("a.inp", abaqus(NODES, QUADS, end="*ELGEN\n1, 5"), "source-unreadable", "generates its elements"),
         ("a.inp", abaqus(NODES, QUADS, end="*INSTANCE, NAME=a\n1.0, 0.0"), "source-unreadable", "moves an instance"),
         ("a.inp", abaqus(NODES, QUADS, "XYZ7"), "source-unreadable", "XYZ7 are not plane"),
@@ -206,3 +208,28 @@ def test_what_is_no_section_is_one_error(name, text, code, words, tmp_path):
     assert error.code == code, str(error)
     assert error.field.startswith("section.")
     assert words in str(error)
+
+
+@pytest.mark.parametrize("quadratic", [False, True])
+def test_sloping_meshes_have_no_slivers_for_holes(quadratic, tmp_path):
+    rng = np.random.default_rng(5)
+    for _ in range(12):
+        base, crest, height = map(float, rng.uniform([20.0, 4.0, 25.0], [90.0, 12.0, 110.0]))
+        across, up = map(int, rng.integers(3, 9, 2))
+        refined = 2 if quadratic else 1
+        grid, nodes = {}, []
+        for j in range(up * refined + 1):
+            z = height * j / (up * refined)
+            width = base + (crest - base) * z / height
+            for i in range(across * refined + 1):
+                grid[i, j] = len(nodes) + 1
+                nodes.append((width * i / (across * refined), z))
+        corners = [(0, 0), (1, 0), (1, 1), (0, 1)]
+        ways = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1)] if quadratic else corners
+        elements = [
+            tuple(grid[i * refined + a, j * refined + b] for a, b in ways) for j in range(up) for i in range(across)
+        ]
+        kind = 16 if quadratic else 3
+        (tmp_path / "a.msh").write_text(gmsh2(nodes, elements, kind, (1,) * len(elements)))
+        case = read_case(CRACK | {"section": {"file": str(tmp_path / "a.msh"), "unit": "m"}})
+        assert case.cut.area == pytest.approx((base + crest) / 2.0 * height, rel=1e-6)

@@ -412,6 +412,14 @@ def test_rates_are_those_of_openquake(tmp_path, years):
     assert [rate for _, rate in pairs] == pytest.approx(OQ_RATES[years], rel=1e-6)
 
 
+def test_no_probability_is_exceeded_in_no_time(tmp_path):
+    path = tmp_path / "a.csv"
+    head = "#,,,\"generated_by='OpenQuake engine 3.26.2', kind='mean', investigation_time=0, imt='PGA'\""
+    path.write_text(f"{head}\nlon,lat,depth,poe-0.1,poe-0.2\n10,45,0,0.1,0.05\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"hazard\.file: 0 years is out of range"):
+        read_pairs(path, "hazard.file", "acceleration", "pga", None)
+
+
 @pytest.mark.parametrize("rate", OQ_YEAR)
 def test_probabilities_in_a_year_are_those_of_openquake(rate):
     """A dam that exceeds its limit in every motion does so as often as there are motions."""

@@ -8,7 +8,7 @@ import pytest
 from heeltoe import InputError, build_flexible_dam
 from heeltoe.models.flexible.body import bonded, reduced
 from shared.dams import example, plane_case
-from shared.every_field import leaves, pair
+from shared.every_field import GONE, leaves, pair
 
 BASE = ["flexible.elements_across=4"]
 
@@ -57,6 +57,11 @@ def test_no_field_that_is_left_out_changes_the_modes(tmp_path):
         file.write_text(f"0,0\n{toe},0\n5,30\n0,30\n")
     drawn = {"section": {"file": str(files[0]), "unit": "m"}}
     helped = {"section.file": (drawn, str(files[1])), "section.unit": (drawn, "ft"), "section.layer": (drawn, "A")}
+    fits = [tmp_path / "a.toml", tmp_path / "b.toml"]
+    for fit, friction in zip(fits, (0.6, 0.5), strict=True):
+        fit.write_text(f"[crack]\nfriction = {friction}\n")
+    of_fit = {"crack.static_friction": GONE, "crack.kinetic_friction": GONE, "crack.fit": str(fits[0])}
+    helped["crack.fit"] = (of_fit, str(fits[1]))
     for path, field in leaves():
         if path.startswith(("motion", "analysis")):
             continue

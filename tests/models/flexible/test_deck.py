@@ -73,6 +73,12 @@ def test_what_differs_from_the_case_is_named():
     notes = " ".join(build_deck(anchored, None).notes)
     for words in ("Anchors of the case have a stiffness", 'Uplift is "follows opening"', "Friction at rest"):
         assert words in notes
+    shaken = read_case(
+        BASE, [*COARSE, 'motion.cross_valley={file="elcentro-1940-270-nga"}', "crack.band={low=0.8, high=1.1}"]
+    )
+    notes = " ".join(build_deck(shaken, None).notes)
+    for words in ("across the valley, too", "band of frictions"):
+        assert words in notes
     sloping = read_case(EXAMPLES / "pine-flat.toml", COARSE)
     assert "what couples the two" in " ".join(build_deck(sloping, None).notes)
 

@@ -530,3 +530,13 @@ def test_a_spread_keeps_it():
     response = rigid(case)
     spread = with_spread(response, case, 3).spread
     assert spread.residual_slips_m[1] == response.residual_slip_m
+
+
+@pytest.mark.parametrize("model", ["rigid", "both"])
+@pytest.mark.parametrize("change", ["crack.inclination='2 deg'", "analysis.rotation='finite'"])
+def test_a_run_refuses_a_block_that_is_not_followed_across(model, change):
+    across = {"motion": {"points": POINTS, "cross_valley": {"points": ACROSS}}}
+    case = read_case(rectangle(20.0, 4.0, 0.4) | across | {"concrete": {"modulus": "20 GPa"}}, [change])
+    with pytest.raises(InputError) as refused:
+        run(case, model)
+    assert refused.value.field == "motion.cross_valley"
