@@ -65,7 +65,7 @@ def _note(notice: type[InputError] | type[Notice], kind: str) -> None:
     plain = notice.__init__
 
     def noting(self: InputError | Notice, code: str, *args: object, **context: object) -> None:
-        of_code = f"{code} {args[0]}" if kind == "warning" and args else code
+        of_code = f"{code} {args[0]}".rstrip() if kind == "warning" and args else code
         _RAISED.add((kind, of_code))
         plain(self, code, *args, **context)  # type: ignore[arg-type]
 
