@@ -126,7 +126,7 @@ pub fn run_rigid_plane<'py>(
     BlockRun::of(py, run, true)
 }
 
-/// What moves across the valley: its mass, the gaps to the left and to the right, its place and its velocity.
+/// Motion across the valley: the mass, the gaps to the left and to the right, its place and its velocity.
 fn across([mass, left, right, place, velocity]: [f64; 5]) -> Across {
     Across {
         mass,

@@ -60,7 +60,7 @@ class Section(Fields):
     def _one_form(self) -> Iterator[InputError]:
         names = [name for name in type(self).model_fields if getattr(self, name) is not None]
         if self.file is not None:
-            # What a file says is put in the place of these fields before they are read.
+            # The contents of a file replace these fields before they are read.
             yield InputError("section-file-unread", "file", shown(self.file))
             return
         of_file = ("unit",) if self.polygon is not None else ("layer", "unit")

@@ -119,7 +119,7 @@ def _outline(rings: list[list[list[float]]], points: Floats) -> Corners:
     if whole.geom_type != "Polygon":
         count = f"{len(shapely.get_parts(whole))}"
         raise InputError("mesh-pieces", "section.file", count)
-    # What is thinner than the tolerance is rounding between two faces, and no hole.
+    # A hole thinner than the tolerance is rounding between two faces.
     holes = [hole for hole in whole.interiors if shapely.Polygon(hole).area > _SAME * size * hole.length]
     if holes:
         raise InputError(

@@ -35,7 +35,7 @@ pub(super) struct Across<'a> {
     places: Vec<Place>,
     disc: Disc,
     pub rows: Rows,
-    /// Of each contact: velocity before the step, and how far it has slipped.
+    /// For each contact: velocity before the step, and how far it has slipped.
     before: Vec<f64>,
     slip: Vec<f64>,
     /// Whether contacts have moved since their answers were written.

@@ -150,11 +150,11 @@ pub struct Shaking<'a> {
     pub scale: [f64; 2],
     /// Water in the cracks whose pressure changes meanwhile; the penalty method knows none.
     pub rising: &'a [RisingWater],
-    /// What shakes the dam across the valley, by the first of the factors; the penalty method knows nothing of it.
+    /// Shaking of the dam across the valley, by the first of the factors; the penalty method knows nothing of it.
     pub across: Option<CrossShaking<'a>>,
 }
 
-/// What shakes across the valley.
+/// Shaking across the valley.
 #[derive(Clone, Copy, Debug)]
 pub struct CrossShaking<'a> {
     /// The parts with one component for each node, otherwise as those of the dam.

@@ -152,7 +152,7 @@ impl HeldNodes {
     pub(super) fn across(&self, one: &Pair, other: &Pair) -> f64 {
         let mut answer = 0.0;
         for (part, nodes) in one.parts() {
-            // Of a rigid plane there are no nodes.
+            // A rigid plane has no nodes.
             for (node, a) in nodes.iter().filter(|(_, a)| *a != 0.0) {
                 let row = &self.matrix[(self.parts[part].0 + node) * self.stride..][..self.stride];
                 for (part, nodes) in other.parts() {
@@ -172,7 +172,7 @@ impl HeldNodes {
         let mut block = [[0.0; 2]; 2];
         for (part, nodes) in one.parts() {
             for &(node, a) in nodes {
-                // Of a rigid plane there are no nodes.
+                // A rigid plane has no nodes.
                 if a == 0.0 {
                     continue;
                 }

@@ -108,7 +108,7 @@ impl Frames {
 pub(super) struct Since {
     /// On the nodes of each crack's upper face.
     nodes: Vec<Vec<f64>>,
-    /// Of each crack, along and across it, what it could bear by its law, and across the valley.
+    /// For each crack, along and across it, the force that it could bear by its law, and across the valley.
     sums: Vec<[f64; 4]>,
     time: f64,
 }

@@ -80,7 +80,7 @@ pub struct Summary {
     pub final_state: State,
     /// What each anchor with stiffness has borne (N, s).
     pub anchors: Vec<Borne>,
-    /// What the crack has done across the valley.
+    /// Motion of the crack across the valley.
     pub cross: CrossSummary,
 }
 

@@ -8,7 +8,7 @@ use super::block::Affine;
 /// So many samples, one after the other, are looked at together where nothing depends on a single one.
 const STRETCH: usize = 32;
 
-/// Of the way to a limit, so much is clear of it.
+/// Share of the way to a limit that is clear of it.
 const INSIDE: f64 = 1.0 - 1e-9;
 
 /// Accelerations of the ground at common moments; a moment that is there twice is a jump.

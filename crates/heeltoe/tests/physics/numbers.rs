@@ -1,4 +1,4 @@
-//! What the tests share: gravity, a rectangular block, options, a comparison, random numbers.
+//! Shared by the tests: gravity, a rectangular block, options, a comparison, random numbers.
 
 use heeltoe::rigid::varying::VaryingNumbers;
 use heeltoe::rigid::{BlockNumbers, Options};

@@ -234,7 +234,7 @@ fn a_block_and_a_dam_that_rock_go_where_a_plain_stepper_puts_them() {
         let s = &run.summary;
         let ours = [s.position[SLIP], crossing(&run).position];
         assert!(s.time_by_mode[3] > 0.05);
-        // Of first order: an event up to a step too late shifts the block by no more than its velocity times that.
+        // First order: an event up to a step too late shifts the block by no more than its velocity times that.
         for h in [1e-4, 2.5e-5] {
             let q = plain(&block, mass, &ground, h);
             near(q[SLIP], ours[0], 0.4 * h);

@@ -159,7 +159,7 @@ class Crack(CrackFields):
     @gathered
     def _fit_read(self) -> Iterator[InputError]:
         if self.fit is not None:
-            # What a file says is put in the place of these fields before they are read.
+            # The contents of a file replace these fields before they are read.
             yield InputError("section-file-unread", "fit", shown(self.fit))
 
     @model_validator(mode="after")

@@ -120,7 +120,7 @@ class Deck:
     stiffness_damping
         Damping over stiffness [s].
     damping
-        What share of critical damping that gives the first mode of the intact dam.
+        Share of critical damping that this gives the first mode of the intact dam.
     periods
         The longest of the intact dam with these masses [s].
     own_periods

@@ -660,7 +660,7 @@ struct Way<'s> {
 }
 
 impl Way<'_> {
-    /// What makes impulses of velocities in the plane of the crack.
+    /// Matrix that makes impulses of velocities in the plane of the crack.
     #[inline(always)]
     fn rho(&self, contact: usize) -> f64 {
         self.problem.scale[contact].min(self.rows.scale[contact])

@@ -17,7 +17,7 @@ pub(super) struct Lifted {
     pub velocity: [[f64; 5]; TERMS],
     /// Friction along, normal forces at heel and toe, friction across.
     pub force: [[f64; 4]; TERMS],
-    /// What is left of the cone of friction where it sticks.
+    /// The rest of the cone of friction where it sticks.
     pub cone: [f64; 3],
     /// Whether its slip stops at the end of the stretch.
     pub stops: bool,
@@ -36,7 +36,7 @@ impl Lifted {
         Polynomial::new(self.force.iter().map(|term| term[i]))
     }
 
-    /// What friction does per second.
+    /// Work of friction per second.
     pub(super) fn rubs(&self) -> Polynomial {
         Polynomial::new((0..TERMS).map(|k| {
             let with = |j: usize| {

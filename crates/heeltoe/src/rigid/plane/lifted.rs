@@ -303,7 +303,7 @@ impl Plane<'_> {
     }
 }
 
-/// What is left of the cone of friction, `mu^2 N^2 - T_x^2 - T_y^2`, of forces that are linear in time.
+/// The rest of the cone of friction, `mu^2 N^2 - T_x^2 - T_y^2`, of forces that are linear in time.
 fn cone(friction: f64, force: &[[f64; 4]; TERMS]) -> [f64; 3] {
     let [a, b] = [0, 1].map(|k| {
         let [x, heel, toe, y] = force[k];

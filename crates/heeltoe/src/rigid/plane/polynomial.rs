@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1e-15;
 pub(super) struct Polynomial([f64; PLACES]);
 
 impl Polynomial {
-    /// Of the terms of a rate.
+    /// Make one of the terms of a rate.
     pub(super) fn new(terms: impl Iterator<Item = f64>) -> Self {
         let mut all = [0.0; PLACES];
         for (term, given) in all.iter_mut().zip(terms) {
@@ -24,7 +24,7 @@ impl Polynomial {
         Polynomial(all)
     }
 
-    /// What begins at `start` and has this rate.
+    /// Make one that begins at `start` and has this rate.
     pub(super) fn place(start: f64, rate: &Self) -> Self {
         let mut all = [0.0; PLACES];
         all[0] = start;

@@ -19,7 +19,7 @@ pub(super) struct Rubbing<'a> {
 }
 
 impl Rubbing<'_> {
-    /// What the crack bears at this speed.
+    /// Strength of the crack at this speed.
     pub(super) fn strength(&self, normal: f64, speed: f64) -> Strength {
         self.law.strength(self.width, normal, speed, self.worn)
     }

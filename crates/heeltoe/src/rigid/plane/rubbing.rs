@@ -48,7 +48,7 @@ pub(super) struct Slide {
 }
 
 impl Contact {
-    /// What resists the corner's being pushed in as it slides this way along.
+    /// Resistance to pushing the corner in as it slides this way along.
     fn resistance(&self, along: f64) -> f64 {
         let i = self.gaps[0];
         self.compliance[i][i] - self.friction * along * self.compliance[i][SLIP]
@@ -250,7 +250,7 @@ fn direction(contact: &Contact) -> [f64; 2] {
     let (a, i) = (&contact.compliance, contact.gaps[0]);
     let free = contact.free.map(|[value, _]| value);
     let (normal, per) = (-free[i] / a[i][i], -a[i][SLIP] / a[i][i]);
-    // Of a corner that stays down.
+    // The corner stays down.
     let along = free[SLIP] + a[SLIP][i] * normal;
     let compliance = a[SLIP][SLIP] + a[SLIP][i] * per;
     let ratio = contact.per_mass / compliance;

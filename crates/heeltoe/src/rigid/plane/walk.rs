@@ -63,7 +63,7 @@ pub(super) struct Plane<'a> {
     pub walk: Walk<'a>,
     pub across: Across,
     pub crossing: Crossing,
-    /// Of a block that does not move across.
+    /// Motion of a block that does not move across.
     pub reactions: Reactions,
     /// Coefficients of friction of a block that rests and of one that slides.
     pub friction: [f64; 2],
@@ -82,7 +82,7 @@ pub(super) struct Plane<'a> {
     pub going: Going,
     /// The law of friction, where it goes by one; its normal force is that of the moment.
     pub rubbing: Option<Rubbing<'a>>,
-    /// Of each moment that is kept: path, and whether the bond is whole.
+    /// At each moment that is kept: path, and whether the bond is whole.
     pub kept: Vec<[f64; 2]>,
     /// Whether friction or uplift goes by a law, which is not followed off a corner.
     varies: bool,
@@ -305,7 +305,7 @@ impl<'a> Plane<'a> {
         here.normal.iter().all(|normal| normal[0] >= 0.0) && push[0].abs() <= here.forces.hold[0]
     }
 
-    /// What friction bears under this normal force, at rest and at this speed.
+    /// Strength of friction under this normal force, at rest and at this speed.
     fn strength(&self, normal: f64, speed: f64) -> Strength {
         match &self.rubbing {
             None => Strength {

@@ -78,7 +78,7 @@ class _Founded:
 
 @dataclass(frozen=True, eq=False)
 class _Bonded:
-    """What does not depend on damping: parts, frequencies of the bonded dam [1/s] and momenta of its modes, and the
+    """The field without its damping: parts, frequencies of the bonded dam [1/s] and momenta of its modes, and the
     rock below a crack at the base, or as one body with the lowest part."""
 
     bodies: tuple[AcrossBody, ...]
