@@ -159,7 +159,11 @@ REFUSED = [
     (dam(concrete={"modulus": "0 GPa"}), 'concrete.modulus: "0 GPa" is out of range; give a value above 0'),
     (
         dam(concrete={"density": "2.4 kg/m^3"}),
-        'concrete.density: "2.4 kg/m^3" is out of range; give a value of at least 100 in SI units',
+        'concrete.density: "2.4 kg/m^3" is out of range; give a value of at least 100 kg/m^3',
+    ),
+    (
+        dam(crack={"side_gap": "2000 cm"}),
+        'crack.side_gap[0]: "2000 cm" is out of range; give a value of at most 1000 cm',
     ),
     (
         dam(flexible={"damping": "thesys"}),

@@ -36,6 +36,8 @@ G = 9.80665
         ("", "RSN6_IMPVALL-ELC180", 180.0),
         ("", "cpm-090", 90.0),
         ("UP", "a", None),
+        ("Channel 2", "a", None),
+        ("CHN 1: 90 DEG", "a", 90.0),
         ("HN1", "a", None),
         ("DAY-LN", "a", None),
         ("", "quake-400", None),
@@ -146,6 +148,8 @@ def test_a_share_of_the_peak_along_the_stream(tmp_path):
         with pytest.raises(InputError) as refused:
             motions(tmp_path, case, **{"cross_valley.pga": bad})
         assert refused.value.field == "motion.cross_valley.pga"
+    with pytest.raises(InputError, match='"-30 %" is out of range; give a value above 0 % and up to 1000 %'):
+        motions(tmp_path, case, **{"cross_valley.pga": "-30 %"})
 
 
 def test_what_cannot_be_rotated_is_refused(tmp_path):

@@ -101,3 +101,9 @@ def test_pairs_of_records_have_no_lag_and_one_that_is_moved_has(records):
         found += lag is not None
         assert lag is None or lag == pytest.approx(3.0, abs=0.8), one.name
     assert found >= 19
+
+
+def test_one_record_both_ways_is_warned_of(tmp_path):
+    _, across = components(tmp_path, waves=(WAVES[0], WAVES[0]))
+    (notice,) = [notice for notice in across.warnings if notice.code == "components-unsure"]
+    assert "the values of that" in str(notice)

@@ -94,6 +94,11 @@ class Source(Fields):
         # The case's own g plays no part in what is plausible.
         peak = self.peak(STANDARD_GRAVITY, STANDARD_GRAVITY)
         if peak is not None and not 0.0 < peak <= LARGEST_ACCELERATION:
+            if isinstance(self.pga, float):
+                share = f"{100.0 * LARGEST_ACCELERATION / STANDARD_GRAVITY:g} %"
+                raise InputError(
+                    "out-of-range", "pga", f'"{100.0 * self.pga:g} %"', bound=f"above 0 % and up to {share}"
+                )
             raise InputError("out-of-range", "pga", str(self.pga), bound="above 0 g and up to 10 g")
         return self
 
@@ -151,8 +156,8 @@ class Motion(HorizontalSource):
         ),
     ] = None
     """The horizontal motion across the valley of the same earthquake, positive to the left bank; without a peak of its
-    own it is scaled as the motion along the stream is. Its sign mirrors the slip across the valley and changes nothing
-    else. "none" leaves it out."""
+    own it is scaled as the motion along the stream is, and what outlasts that is cut off. Its sign mirrors the slip
+    across the valley and changes nothing else. "none" leaves it out."""
 
     @model_validator(mode="after")
     @collected

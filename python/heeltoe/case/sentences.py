@@ -18,7 +18,7 @@ from pydantic_core import ErrorDetails, PydanticCustomError
 
 from heeltoe.errors.error import InputError, shown
 from heeltoe.errors.sanitize import harmless
-from heeltoe.units.parse import InSI
+from heeltoe.units.parse import InSI, bound_beside
 
 P = typing.ParamSpec("P")
 R = typing.TypeVar("R")
@@ -168,11 +168,10 @@ def _translated(detail: ErrorDetails, model: type[BaseModel]) -> InputError:
             return InputError("missing-field", tag, example=_tag_example(location, model))
         return InputError("not-a-choice", tag, shown(context["tag"]), choices=_quoted(context["expected_tags"]))
     if kind in ("greater_than", "greater_than_equal", "less_than", "less_than_equal"):
-        bound = next(f"{_BOUNDS[key]} {limit:g}" for key, limit in context.items() if key in _BOUNDS)
+        key, limit = next((key, limit) for key, limit in context.items() if key in _BOUNDS)
         # The limits are SI numbers, and zero is zero in any unit.
-        if isinstance(value, str) and not bound.endswith(" 0"):
-            bound += " in SI units"
-        return InputError("out-of-range", path, shown(value), bound=bound)
+        bound = bound_beside(value, limit) if isinstance(value, str) and limit else f"{limit:g}"
+        return InputError("out-of-range", path, shown(value), bound=f"{_BOUNDS[key]} {bound}")
     expected = _EXPECTED.get(kind) or _EXPECTED.get(kind.split("_")[0])
     if expected:
         return InputError("wrong-type", path, shown(value), expected=expected)

@@ -318,7 +318,7 @@ def wish_cost(case: Case, model: str = AUTO, output_step: float | None = None, s
 def record_cost(case: Case) -> Cost:
     """Return what reading the records of a case is estimated to take."""
     motion = case.motion
-    sources = () if motion is None else (motion, motion.vertical)
+    sources = () if motion is None else (motion, motion.vertical, motion.cross_valley)
     return reading_cost(case.base_directory / source.file for source in sources if source is not None and source.file)
 
 

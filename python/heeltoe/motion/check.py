@@ -201,10 +201,13 @@ def check_pair(horizontal: GroundMotion, vertical: GroundMotion, field: str | No
 
 
 def check_lag(along: GroundMotion, cross: GroundMotion, field: str) -> tuple[Notice, ...]:
-    """Return a warning where one of two horizontal components of records shakes clearly later than the other, though
-    both are to shake the dam together; `field` is that of the second."""
+    """Return a warning where two horizontal components of records are one, or one shakes clearly later than the other,
+    though both are to shake the dam together; `field` is that of the second."""
     if not {along.format, cross.format}.isdisjoint({"points", "synthetic"}):
         return ()
+    if np.array_equal(along.acceleration, cross.acceleration):
+        why = Sentence.of("it has the values of that: one component both ways shakes the dam along one line")
+        return (Notice("components-unsure", why=why, field=field),)
     lag = lag_of(along, cross)
     if lag is None:
         return ()

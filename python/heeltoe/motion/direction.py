@@ -12,7 +12,12 @@ from heeltoe.motion.moments import on_same_moments
 
 # Directions are written in whole degrees: two that are this far from a right angle are not those of one instrument.
 _OFF = math.radians(0.5)
-_DEGREES = re.compile(r"(?<![\w.])(\d{1,3})(?:\.0*)?\s*(?:deg\w*|°)?\s*(?:$|\()", re.IGNORECASE)
+# Fewer than three digits that end other words, as in "Channel 2", count something else.
+_DEGREES = re.compile(
+    r"(?:(?<![\w.])\d{3}(?:\.0*)?|^\s*\d{1,2}(?:\.0*)?|(?<![\w.])\d{1,2}(?:\.0*)?(?=\s*(?:deg|°)))"
+    r"(?=\s*(?:deg\w*|°)?\s*(?:$|\())",
+    re.IGNORECASE,
+)
 _BEARING = re.compile(r"\b([NS])\s*(\d{1,2}(?:\.\d+)?)\s*([EW])\b", re.IGNORECASE)
 _WORDS = {
     **dict.fromkeys(("n", "ns", "n-s", "north", "north-south"), 0.0),
@@ -41,7 +46,7 @@ def direction_of(motion: GroundMotion) -> float | None:
 def _direction(text: str) -> float | None:
     """Return the direction that the component of a record is called by: 180, S16E, N-S, HNE."""
     if match := _DEGREES.search(text):
-        degrees = float(match[1])
+        degrees = float(match[0])
         return math.radians(degrees) if degrees <= 360.0 else None
     if match := _BEARING.search(text):
         from_north = float(match[2]) * (1.0 if match[3].upper() == "E" else -1.0)

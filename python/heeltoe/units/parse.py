@@ -132,6 +132,14 @@ _USUAL = {
 }
 
 
+def bound_beside(text: str, bound: float) -> str:
+    """Return a bound [SI] in the unit of a quantity that people wrote, for example "10 m" beside "20 m"; a unit that is
+    seldom used has the bound in SI."""
+    unit = text.strip().lstrip("+-0123456789.eE").strip()
+    known = next((units[unit] for units in _USUAL.values() if unit in units), None)
+    return f"{bound:g} in SI units" if known is None else f"{bound / known:g} {unit}"
+
+
 @dataclass(frozen=True)
 class Acceleration:
     """An acceleration that remembers whether it was given in g, since one g may differ from case to case.

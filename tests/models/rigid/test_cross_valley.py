@@ -447,6 +447,16 @@ def test_a_suite_takes_a_share_of_the_peak_across_the_valley(tmp_path):
         assert record.azimuth_deg is None
 
 
+def test_a_suite_that_a_block_cannot_follow_across_the_valley_is_refused_by_its_own_field(tmp_path):
+    write_pair(tmp_path)
+    asked = {"suite": {"cross_valley": True, "pga": "0.9 g"}, "motions": [{"file": str(tmp_path)}]}
+    tilted = rectangle(20.0, 1.0, 0.4) | asked
+    tilted["crack"] = tilted["crack"] | {"inclination": "5 deg"}
+    with pytest.raises(InputError, match=r"suite\.cross_valley") as refused:
+        run_suite(read_case(tilted), model="rigid")
+    assert "motion.cross_valley" not in str(refused.value)
+
+
 @pytest.mark.parametrize("value", ["35 deg", "0 deg", "-15 deg", "0.5 deg", "0 %", "-30 %", "15", "both"])
 def test_how_components_go_together_is_a_share_or_a_step_of_the_half_circle(value):
     with pytest.raises(InputError) as refused:

@@ -543,7 +543,7 @@ def _motions(study: Study, case: Case) -> tuple[tuple[Shake, ...], tuple[str, ..
     check(case, "motions")
     if study.motions.cross_valley:
         for model in study.model:
-            check_across(case, model)
+            check_across(case, model, "motions.cross_valley" if study.suite is None else "suite.cross_valley")
     shakes, events = shakes_of(study.motions, case, study.directory)
     if study.suite is not None and study.motions.cross_valley:
         # A run without the other component shows its effect.

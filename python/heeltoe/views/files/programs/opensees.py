@@ -31,10 +31,19 @@ from pathlib import Path
 
 import openseespy.opensees as ops
 
+
+def positive(text):
+    """Return a number above zero."""
+    value = float(text)
+    if not value > 0.0:
+        raise argparse.ArgumentTypeError("give a number above 0")
+    return value
+
+
 options = argparse.ArgumentParser()
-options.add_argument("--penalty", type=float, default=200.0, help="of the contact, over that of an element")
-options.add_argument("--step", type=float, default=0.001, help="time step [s]")
-options.add_argument("--end", type=float, default=float("inf"), help="moment to stop at [s]")
+options.add_argument("--penalty", type=positive, default=200.0, help="of the contact, over that of an element")
+options.add_argument("--step", type=positive, default=0.001, help="time step [s]")
+options.add_argument("--end", type=positive, default=float("inf"), help="moment to stop at [s]")
 options.add_argument("--static", action="store_true", help="end before the earthquake")
 GAMMA, BETA = 0.6, 0.3025  # Newmark's
 ITERATIONS = 30  # of Newton's method
