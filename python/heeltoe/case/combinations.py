@@ -466,8 +466,9 @@ RULES = (
 
 def conflicts(case: Featured) -> Iterator[InputError]:
     """Walk the features of a case that do not go together, whatever is done with it."""
+    found = _Found(case)
     for rule in RULES:
-        if not rule.users and rule.verdict == "refused" and (broken := _broken(case, rule)):
+        if not rule.users and rule.verdict == "refused" and (broken := _broken(found, rule)):
             yield from _errors(case, rule, broken, "")
 
 
@@ -486,7 +487,8 @@ def check(case: Featured, user: str) -> None:
 
 def supports(case: Featured, user: str) -> bool:
     """Whether a model or table supports all features of a case."""
-    return not any(_broken(case, rule) for rule in _rules_for(user))
+    found = _Found(case)
+    return not any(_broken(found, rule) for rule in _rules_for(user))
 
 
 def misfit(case: Featured, feature: str) -> str:
@@ -502,7 +504,8 @@ def misfit(case: Featured, feature: str) -> str:
 def warned(case: Featured, feature: str, user: str) -> bool:
     """Whether a feature of a case has less effect in a model than its field says, which a warning tells."""
     rules = [rule for rule in RULES if rule.verdict == "warned" and rule.feature == feature and user in rule.users]
-    return any(_broken(case, rule) for rule in rules)
+    found = _Found(case)
+    return any(_broken(found, rule) for rule in rules)
 
 
 def unsupported_features(user: str) -> tuple[str, ...]:
@@ -528,17 +531,29 @@ def _rules_for(user: str) -> Iterator[Rule]:
 
 
 def _unsupported(case: Featured, user: str) -> Iterator[InputError]:
+    found = _Found(case)
     for rule in _rules_for(user):
-        if broken := _broken(case, rule):
+        if broken := _broken(found, rule):
             yield from _errors(case, rule, broken, user if rule.users else "")
 
 
-def _broken(case: Featured, rule: Rule) -> list[tuple[str, object]]:
+class _Found(dict[str, list[tuple[str, object]]]):
+    """The fields of a case with each feature that was asked for, looked up once: many rules are of the same ones."""
+
+    def __init__(self, case: Featured) -> None:
+        self._case = case
+
+    def __missing__(self, feature: str) -> list[tuple[str, object]]:
+        self[feature] = list(FEATURES[feature].find(self._case))
+        return self[feature]
+
+
+def _broken(features: _Found, rule: Rule) -> list[tuple[str, object]]:
     """Return the fields with the feature of a rule, where the case has the other one, too."""
-    found = list(FEATURES[rule.feature].find(case))
+    found = features[rule.feature]
     if not found or not rule.other:
         return found
-    others = {path.rpartition(".")[0] for path, _ in FEATURES[rule.other].find(case)}
+    others = {path.rpartition(".")[0] for path, _ in features[rule.other]}
     return [
         (path, value) for path, value in found if others and (not rule.one_crack or path.rpartition(".")[0] in others)
     ]
