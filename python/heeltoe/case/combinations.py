@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, Literal, Protocol
 
 from heeltoe.case.crack.crack import Crack, FurtherCrack
@@ -487,8 +488,7 @@ def check(case: Featured, user: str) -> None:
 
 def supports(case: Featured, user: str) -> bool:
     """Whether a model or table supports all features of a case."""
-    found = _Found(case)
-    return not any(_broken(found, rule) for rule in _rules_for(user))
+    return not _any_broken(case, _rules_for(user))
 
 
 def misfit(case: Featured, feature: str) -> str:
@@ -504,8 +504,7 @@ def misfit(case: Featured, feature: str) -> str:
 def warned(case: Featured, feature: str, user: str) -> bool:
     """Whether a feature of a case has less effect in a model than its field says, which a warning tells."""
     rules = [rule for rule in RULES if rule.verdict == "warned" and rule.feature == feature and user in rule.users]
-    found = _Found(case)
-    return any(_broken(found, rule) for rule in rules)
+    return _any_broken(case, rules)
 
 
 def unsupported_features(user: str) -> tuple[str, ...]:
@@ -524,10 +523,11 @@ def _is_of(feature: Feature, path: str) -> bool:
     return any(own == field or own.startswith(f"{field}.") for field in feature.fields)
 
 
-def _rules_for(user: str) -> Iterator[Rule]:
+@cache
+def _rules_for(user: str) -> tuple[Rule, ...]:
     """Return the features that a model or table refuses, with those that no model supports: a case may be changed after
     it was checked."""
-    return (rule for rule in RULES if (user in rule.users or not rule.users) and rule.verdict == "refused")
+    return tuple(rule for rule in RULES if (user in rule.users or not rule.users) and rule.verdict == "refused")
 
 
 def _unsupported(case: Featured, user: str) -> Iterator[InputError]:
@@ -546,6 +546,11 @@ class _Found(dict[str, list[tuple[str, object]]]):
     def __missing__(self, feature: str) -> list[tuple[str, object]]:
         self[feature] = list(FEATURES[feature].find(self._case))
         return self[feature]
+
+
+def _any_broken(case: Featured, rules: Sequence[Rule]) -> bool:
+    found = _Found(case)
+    return any(_broken(found, rule) for rule in rules)
 
 
 def _broken(features: _Found, rule: Rule) -> list[tuple[str, object]]:
