@@ -538,7 +538,7 @@ def _unsupported(case: Featured, user: str) -> Iterator[InputError]:
 
 
 class _Found(dict[str, list[tuple[str, object]]]):
-    """The fields of a case with each feature that was asked for, looked up once: many rules are of the same ones."""
+    """The fields of a case with a feature, each looked up once: many rules are of the same ones."""
 
     def __init__(self, case: Featured) -> None:
         self._case = case

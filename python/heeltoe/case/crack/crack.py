@@ -143,7 +143,7 @@ class Crack(CrackFields):
     ] = None
     """How far the part above can slide across the valley until its neighbours stop it, to the left and to the right
     bank: the sum of the joints between it and either abutment. One length counts for both sides, "0 mm" holds it,
-    "free" has no neighbours. Where one side alone has none, write its gap as "10 m"."""
+    "free" has no neighbours. A neighbour on one side alone: "10 m" for the other."""
     rocking_loss: Fraction = 0.0
     """Part of the velocity of rocking that an impact from one corner to the other takes beyond the law of impacts. With
     `restitution = 0` that law is Housner's for a slender block, and tests on concrete found 0.03 to 0.05."""
