@@ -107,8 +107,8 @@ class HorizontalSource(Source):
     """A horizontal ground motion."""
 
     direction: Azimuth | None = None
-    """Where the component counts positive, clockwise from north, for `motion.azimuth`; by default its record or its name
-    states it."""
+    """Where the component counts positive, clockwise from north, for `motion.azimuth`; by default its record or its
+    name states it."""
 
 
 class CrossSource(HorizontalSource):
