@@ -21,6 +21,16 @@ def finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
+def median(values: Floats) -> float:
+    """Return the median of one number at least; NumPy's own loads masked arrays, which takes longer than a short run.
+    With one that is no number the median is none."""
+    # Those stand last.
+    ordered, half = np.sort(values), values.size // 2
+    if np.isnan(ordered[-1]):
+        return math.nan
+    return float(ordered[half] if values.size % 2 else (ordered[half - 1] + ordered[half]) / 2.0)
+
+
 def number(value: object) -> float:
     """Return a sum over an array as the number that it is, or as the column."""
     result: float = value if np.ndim(value) else float(value)  # type: ignore[arg-type, assignment]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any, Literal, Protocol
 
 from heeltoe.case.crack.crack import Crack, FurtherCrack
@@ -96,11 +96,9 @@ class Rule:
     def without(self, path: str) -> str:
         """Return in a few words what a field does not go with by this rule."""
         # What a field may have beside its first feature is a part of that, and has to be named.
-        own = next((name for name, feature in FEATURES.items() if _is_of(feature, path)), "")
-        narrow = not self.other and self.feature != own
-        features = [
-            name for name in (self.feature, self.other) if name and (narrow or not _is_of(FEATURES[name], path))
-        ]
+        own = _features_of(path)
+        narrow = not self.other and self.feature not in own[:1]
+        features = [name for name in (self.feature, self.other) if name and (narrow or name not in own)]
         users = [USERS[user] for user in self.users]
         what = f"{features[0]} in {', '.join(users)}" if features and users else ", ".join(features or users)
         return f"{what} (a warning says what is left out)" if self.verdict == "warned" else what
@@ -514,13 +512,19 @@ def unsupported_features(user: str) -> tuple[str, ...]:
 
 def rules_of(path: str) -> tuple[Rule, ...]:
     """Return the rules about a field, or about the block that it is in; its path has no places in lists."""
-    named = {feature.name for feature in FEATURES.values() if _is_of(feature, path)}
+    named = set(_features_of(path))
     return tuple(rule for rule in RULES if named & {rule.feature, rule.other})
 
 
-def _is_of(feature: Feature, path: str) -> bool:
+@lru_cache(maxsize=1)
+def _features_of(path: str) -> tuple[str, ...]:
+    """Return the names of the features of a field, or of the block that it is in; each rule about a field asks."""
     own = re.sub(r"^(cracks|joints)\.", "crack.", path)
-    return any(own == field or own.startswith(f"{field}.") for field in feature.fields)
+    return tuple(
+        name
+        for name, feature in FEATURES.items()
+        if any(own == field or own.startswith(f"{field}.") for field in feature.fields)
+    )
 
 
 @cache

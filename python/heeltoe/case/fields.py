@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import ast
 import inspect
+import sys
 from functools import cache
 from itertools import pairwise
-from textwrap import dedent
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 from pydantic import (
@@ -89,15 +89,20 @@ def _words(annotation: Any) -> set[Any]:
 
 
 @cache
+def _classes_in(module: str) -> dict[str, ast.ClassDef]:
+    """Return the classes of a module as written, by name."""
+    written = ast.parse(inspect.getsource(sys.modules[module])).body
+    return {node.name: node for node in written if isinstance(node, ast.ClassDef)}
+
+
+@cache
 def field_texts(block: type[BaseModel]) -> dict[str, str]:
     """Return the texts below the fields of a block, by name. They are read from its source on the first call, so that a
     run does not wait for them."""
     texts: dict[str, str] = {}
     for kind in reversed(block.__mro__):
         if issubclass(kind, Fields) and kind is not Fields:
-            (source,) = ast.parse(dedent(inspect.getsource(kind))).body
-            assert isinstance(source, ast.ClassDef)
-            for field, text in pairwise(source.body):
+            for field, text in pairwise(_classes_in(kind.__module__)[kind.__name__].body):
                 match field, text:
                     case ast.AnnAssign(target=ast.Name(name)), ast.Expr(ast.Constant(str(words))):
                         texts[name] = inspect.cleandoc(words)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from heeltoe.base.arrays import Floats
+from heeltoe.base.arrays import Floats, median
 from heeltoe.base.display import Shown
 from heeltoe.base.frozen import ReadOnlyArrays
 from heeltoe.base.pandas import dataframe
@@ -182,7 +182,7 @@ class GroundMotion(Shown, ReadOnlyArrays):
         """Median step [s], jumps left out."""
         steps = np.diff(self.time)
         # The mean of equal steps has less rounding than any one of them.
-        return self.duration / steps.size if self.is_uniform else float(np.median(steps[steps > 0.0]))
+        return self.duration / steps.size if self.is_uniform else median(steps[steps > 0.0])
 
     @cached_property
     def is_uniform(self) -> bool:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import numpy as np
 
-from heeltoe.base.arrays import Floats
+from heeltoe.base.arrays import Floats, median
 from heeltoe.base.blocks import Block, Number
 from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion, integrals
@@ -46,9 +46,9 @@ def level_of(motion: GroundMotion) -> tuple[float, float]:
     slope, rest = 0.0, values
     # The medians of thirds with a trend in them are not its own; a few rounds find it.
     for _ in range(_ROUNDS):
-        more = float((float(np.median(rest[-third:]) - np.median(rest[:third]))) / away)
+        more = float((median(rest[-third:]) - median(rest[:third])) / away)
         slope, rest = slope + more, rest - more * place
-    return float(np.median(rest)), slope
+    return median(rest), slope
 
 
 def husid(motion: GroundMotion) -> Floats:

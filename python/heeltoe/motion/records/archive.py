@@ -3,11 +3,7 @@ of itself."""
 
 from __future__ import annotations
 
-import bz2
-import gzip
 import io
-import tarfile
-import zipfile
 from collections.abc import Iterator
 from functools import partial
 from pathlib import PurePosixPath
@@ -75,6 +71,9 @@ def unpacked(data: bytes, name: str) -> list[tuple[str, bytes]]:
 
 def _inflated(data: bytes, name: str) -> bytes:
     """Decompress gzip or bzip2 data, all stretches of it."""
+    import bz2
+    import gzip
+
     with gzip.GzipFile(fileobj=io.BytesIO(data)) if data.startswith(_GZIP) else bz2.BZ2File(io.BytesIO(data)) as stream:
         content = stream.read(LARGEST_BYTES + 1)
     if len(content) > LARGEST_BYTES:
@@ -104,6 +103,8 @@ def _taken(members: _Members, name: str) -> list[tuple[str, bytes]]:
 
 
 def _zip_members(data: bytes, name: str) -> _Members:
+    import zipfile
+
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         for entry in archive.infolist():
             if entry.flag_bits & 1:
@@ -113,6 +114,8 @@ def _zip_members(data: bytes, name: str) -> _Members:
 
 
 def _tar_members(data: bytes) -> _Members:
+    import tarfile
+
     with tarfile.open(fileobj=io.BytesIO(data), mode="r:") as archive:
         headers = 0
         # Links and devices lead elsewhere and hold nothing of their own.

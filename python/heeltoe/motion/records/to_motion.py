@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from heeltoe.base.arrays import Floats
+from heeltoe.base.arrays import Floats, median
 from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion
@@ -303,7 +303,7 @@ def _moments(time: Floats, stated: float | None, name: str, options: Options) ->
     """Return the moments that a file has, in equal steps where they were printed with too few digits to show them."""
     with np.errstate(invalid="ignore", over="ignore"):
         steps = np.diff(time)
-        gap, middle = float(np.abs(steps).max()), float(np.median(steps))
+        gap, middle = float(np.abs(steps).max()), median(steps)
         mean = float((time[-1] - time[0]) / steps.size)
     if gap > _LARGEST_GAP or max(middle, mean if mean < middle else middle) > _LONGEST_STEP:
         raise InputError("record-step", name, f"{gap if gap > _LARGEST_GAP else middle:g} s")

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
-import pyarrow as pa
 
 from heeltoe.base.arrays import Floats, finite
 from heeltoe.base.blocks import Block, Number
 from heeltoe.study.answers.confidence import exact_bounds
 from heeltoe.study.answers.suite import SHARES, below
 from heeltoe.study.run.aggregate import Walk
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 
 class LimitValue(Block):
@@ -119,6 +121,8 @@ def _ranked(names: list[str], slips: Floats, exceeds: list[Floats], confidence: 
 
 def ranks_table(portfolio: Sequence[Ranks]) -> pa.Table:
     """Return a portfolio as a table: rank, dam, model, the shares by ``P(limit > value)`` in SI, and the slips [m]."""
+    import pyarrow as pa
+
     rows = []
     for row in portfolio:
         limits = [f"P({limit.limit} > {limit.value:g})" for limit in row.limits]

@@ -6,11 +6,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.errors.error import InputError
@@ -21,6 +19,10 @@ from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judgement, judge
 from heeltoe.study.plan.crack_columns import column_of
 from heeltoe.study.run.store import Store
 from heeltoe.units.parse import parse
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
 
 #: Runs that are looked at together; bytes of columns that are kept once they have been read.
 _TOGETHER, _KEPT = 65_536, 1 << 27
@@ -54,6 +56,8 @@ class Walk:
             yield Stretch(self._read(parts, columns), self.manifest)
 
     def _read(self, parts: list[Path], columns: Sequence[str]) -> pa.Table:
+        import pyarrow as pa
+
         place = tuple(path.name for path in parts)
         known = {name: self._kept[place, name] for name in columns if (place, name) in self._kept}
         missing = [name for name in columns if name not in known]
@@ -262,6 +266,8 @@ class Stretch:
 
     def words(self, name: str) -> tuple[list[str], Integers]:
         """Return the words of a column, and the place of each run's among them."""
+        import pyarrow as pa
+
         column = self.table[name].combine_chunks()
         if isinstance(column, pa.ChunkedArray):
             column = column.chunk(0) if column.num_chunks else pa.array([], pa.dictionary(pa.int32(), pa.string()))
@@ -273,5 +279,8 @@ class Stretch:
 
 
 def _read(parts: list[Path], columns: list[str]) -> pa.Table:
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
     tables = [pq.ParquetFile(path).read(columns, use_threads=False) for path in parts]
     return pa.concat_tables(tables).unify_dictionaries().combine_chunks()

@@ -13,12 +13,9 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.compute as pc
-import pyarrow.parquet as pq
 
 from heeltoe.base.atomic_files import check_directory, settle, written
 from heeltoe.errors.error import InputError
@@ -28,6 +25,10 @@ from heeltoe.result.outcome import Outcome
 from heeltoe.study.plan.plan import Pilot, Plan
 from heeltoe.study.run.record import STUDY, VERSION, read_manifest, write_record
 from heeltoe.warnings.notice import Notice
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
 
 RUNS = "runs"
 _PART = re.compile(r"part-(\d{8,})-[0-9a-f]{16}\.parquet")
@@ -119,6 +120,8 @@ class Store:
 
     def is_sound(self, part: int, path: Path) -> bool:
         """Return whether a file is what was written of a part, to the last bit; one that changes is read again."""
+        import pyarrow as pa
+
         try:
             state = path.stat()
             seen = (state.st_mtime_ns, state.st_size)
@@ -134,6 +137,10 @@ class Store:
 
     def _is_part(self, part: int, content: bytes) -> bool:
         """Whether a table has the runs of a part: a stranger can make a digest, too."""
+        import pyarrow as pa
+        import pyarrow.compute as pc
+        import pyarrow.parquet as pq
+
         start, stop = self.stretch(part)
         file = pq.ParquetFile(pa.BufferReader(content))
         schema = file.schema_arrow
@@ -166,6 +173,9 @@ class Store:
         InputError
             Where it cannot be written, as on a full disk; what is there stays.
         """
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
         whole = pa.BufferOutputStream()
         pq.write_table(table, whole, compression="zstd")
         content = whole.getvalue().to_pybytes()

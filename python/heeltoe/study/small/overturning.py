@@ -11,10 +11,9 @@ import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-import pyarrow as pa
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats
@@ -32,6 +31,10 @@ from heeltoe.mechanics.block import Block, CriticalAccelerations, build_block
 from heeltoe.models.cost import Cost
 from heeltoe.models.rigid.walk import walk
 from heeltoe.result.outcome import Outcome
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
 
 #: What a pulse does to a block, by the numbers of a map.
 ENDS = ("does not rock", "rocks and stands", "overturns after an impact", "overturns without impact", "no result")
@@ -83,6 +86,8 @@ class OverturningMap(Shown, ReadOnlyArrays, NumbersBlock):
 
     def to_table(self) -> pa.Table:
         """Return the map as a table with a row for each pulse."""
+        import pyarrow as pa
+
         frequency, amplitude = np.meshgrid(self.frequency_hz, self.amplitude_g, indexing="ij")
         return pa.table(
             {

@@ -9,10 +9,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from tomllib import TOMLDecodeError, loads
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pyarrow as pa
 from pydantic import ValidationError
 
 from heeltoe.base.display import Shown
@@ -33,6 +32,10 @@ from heeltoe.study.plan.axes import Axis, even
 from heeltoe.study.plan.crack_columns import column_of
 from heeltoe.study.plan.samples import Samples
 from heeltoe.units.parse import DIMENSIONS
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
 
 #: Column of the residual slip of the simpler model.
 BESIDE = f"beside_{RESIDUAL_SLIP.key}"
@@ -77,6 +80,8 @@ class Table(ABC):
 
     def to_table(self) -> pa.Table:
         """Return the same as an Arrow table."""
+        import pyarrow as pa
+
         return pa.Table.from_pylist(self.rows())
 
     def to_pandas(self) -> Any:

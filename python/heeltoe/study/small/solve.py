@@ -12,10 +12,9 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-import pyarrow as pa
 
 from heeltoe.base.blocks import Block, Number
 from heeltoe.base.display import Shown
@@ -31,6 +30,10 @@ from heeltoe.result.judge import LIMITS
 from heeltoe.result.response import Response
 from heeltoe.study.plan.axes import Axis
 from heeltoe.units.parse import DIMENSIONS, parse, parse_acceleration
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
 
 Progress = Callable[[str], None]
 #: Limits of a case that are lengths.
@@ -113,6 +116,8 @@ class Solved(Shown, Block):
 
     def to_table(self) -> pa.Table:
         """Return the runs as an Arrow table, in the order of their values."""
+        import pyarrow as pa
+
         return pa.Table.from_pylist([point.to_json() for point in self.points])
 
 

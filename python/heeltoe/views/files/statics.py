@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
-import pyarrow as pa
 from matplotlib.figure import Figure
 
 from heeltoe.base.atomic_files import write_whole
@@ -38,6 +37,8 @@ def write_statics(
 
     An earlier report goes where this is given, and stays where it is not.
     """
+
+    import pyarrow as pa
 
     def write(fresh: Path) -> None:
         write_json(statics_json(joints), fresh / "result.json")

@@ -20,7 +20,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from heeltoe.base.arrays import Floats
+from heeltoe.base.arrays import Floats, median
 from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
 from heeltoe.motion.records.lines import is_data, is_row, parted
@@ -267,8 +267,8 @@ def _is_time(column: Floats, named: bool) -> bool:
         if not (steps >= 0.0).all() or abs(column[0]) > abs(column[-1] - column[0]):
             # Damage is named by its row, where most of it is right.
             return bool(named or (steps > 0.0).mean() > _MOSTLY)
-        median = float(np.median(steps))
-        even = float((np.abs(steps - median) <= _EVEN * median).mean())
+        middle = median(steps)
+        even = float((np.abs(steps - middle) <= _EVEN * middle).mean())
         return bool(named or even > _MOSTLY or _is_rounded(column))
 
 
@@ -389,11 +389,11 @@ def _clock(time: Floats | None, time_name: str, header: list[str], stated: State
     if stated.step(name) is None or time.size < 2:
         return _Clock(time, None, processing)
     with np.errstate(invalid="ignore", over="ignore"):
-        mean, median = float((time[-1] - time[0]) / (time.size - 1)), float(np.median(np.diff(time)))
+        mean, middle = float((time[-1] - time[0]) / (time.size - 1)), median(np.diff(time))
     for step in stated.steps:
-        if any(abs(step.value - found) <= _SAME_STEP * found for found in (mean, median)):
+        if any(abs(step.value - found) <= _SAME_STEP * found for found in (mean, middle)):
             return _Clock(time, step.value, processing)
-    raise InputError("record-step-differs", name, f"{stated.steps[0].value:g} s", found=f"{median:g} s")
+    raise InputError("record-step-differs", name, f"{stated.steps[0].value:g} s", found=f"{middle:g} s")
 
 
 def _series(table: _Table, header: list[str], name: str) -> list[tuple[Floats, str, str | None]]:
