@@ -180,7 +180,9 @@ impl Exact<'_> {
                     .into_iter()
                     .zip(clear)
                     .all(|(i, clear)| value[i] > clear && value[i] + slope[i] * step > clear);
-                if !pushed || !event::stays_positive(reaction.way * velocity, a0, a1 / 2.0, step) {
+                let way = reaction.way;
+                let stops = || event::quadratic(way * velocity, way * a0, way * a1 / 2.0, step).is_some();
+                if !pushed || velocity == 0.0 || stops() {
                     break;
                 }
                 let force = [load.at(piece.ground), load.slope(piece.rate)];
