@@ -48,6 +48,15 @@ impl Modes for ReactionsOf<'_> {
     }
 }
 
+/// Sign of a quantity at the start of a piece: of its value or, where that is no more than rounding, of its change.
+#[inline(always)]
+pub(super) fn sign(value: f64, change: f64, rounding: f64) -> i8 {
+    [value, change]
+        .into_iter()
+        .find(|part| part.abs() > rounding)
+        .map_or(0, |part| if part > 0.0 { 1 } else { -1 })
+}
+
 /// Whether the block can move on in `mode`, and if so what it feels there.
 #[inline(always)]
 pub(super) fn admissible(reaction: &Reaction, moving: &Moving, tie: f64, felt: &mut Felt) -> bool {
@@ -61,18 +70,7 @@ pub(super) fn admissible(reaction: &Reaction, moving: &Moving, tie: f64, felt: &
         return false;
     }
     reaction.on(piece, felt);
-    // Sign of a quantity at the start of the piece: of its value or, where that is zero to rounding, of its slope.
-    let sign = |i: usize| {
-        let (value, least) = (felt.value[i], tie * reaction.size[i]);
-        if value.abs() > least {
-            return if value > 0.0 { 1 } else { -1 };
-        }
-        let change = felt.slope[i] * piece.left;
-        if change.abs() > least {
-            return if change > 0.0 { 1 } else { -1 };
-        }
-        0
-    };
+    let sign = |i: usize| sign(felt.value[i], felt.slope[i] * piece.left, tie * reaction.size[i]);
     for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
         if contacts[corner] {
             if sign(gap) < 0 {
@@ -131,26 +129,27 @@ fn another(reactions: &impl Modes, present: Option<Mode>, moving: &Moving, felt:
     None
 }
 
-/// Acceleration and its slope of each contact coordinate on a piece. `starts` has the way, 1 or -1, in which a
-/// coordinate starts to move in this very moment, and 0 for the others. What starts has its rounding removed, and that
-/// against its way up to the hair by which [`select`] may have let it: it must not end the moment it begins.
+/// Acceleration and its slope of each contact coordinate on a piece; `starts` is the way in which each starts to move, as
+/// [`begun`] takes it.
 #[inline(always)]
 pub(super) fn accelerations(reaction: &Reaction, felt: &Felt, starts: [f64; 3], left: f64) -> [[f64; 2]; 3] {
-    let mut result = [[0.0; 2]; 3];
-    for i in 0..3 {
-        let size = reaction.size[ACCELERATION + i];
-        let nothing = |value: f64, way: f64| {
-            value.abs() <= TIE * size || (value * way < 0.0 && value.abs() <= HAIR * size)
-        };
-        let mut value = felt.value[ACCELERATION + i];
-        let mut slope = felt.slope[ACCELERATION + i];
-        if starts[i] != 0.0 && nothing(value, starts[i]) {
-            value = 0.0;
-            if nothing(slope * left, starts[i]) {
-                slope = 0.0;
-            }
+    [SLIP, HEEL, TOE].map(|i| {
+        let of = ACCELERATION + i;
+        begun(felt.value[of], felt.slope[of], reaction.size[of], starts[i], left)
+    })
+}
+
+/// Acceleration and its slope of a contact coordinate on a piece. `way` is 1 or -1 where it starts to move that way in this
+/// very moment, else 0. What starts has its rounding removed, and that against its way up to the hair by which [`select`]
+/// may have let it: it must not end the moment it begins.
+#[inline(always)]
+pub(super) fn begun(mut value: f64, mut slope: f64, size: f64, way: f64, left: f64) -> [f64; 2] {
+    let nothing = |value: f64| value.abs() <= TIE * size || (value * way < 0.0 && value.abs() <= HAIR * size);
+    if way != 0.0 && nothing(value) {
+        value = 0.0;
+        if nothing(slope * left) {
+            slope = 0.0;
         }
-        result[i] = [value, slope];
     }
-    result
+    [value, slope]
 }

@@ -1,18 +1,39 @@
 //! Stretches of the record in which nothing happens to the block: it goes through them as fast as they can be read.
 
 use super::super::block::{HEEL, SLIP, TOE};
-use super::super::choice::{admissible, Moving, TIE};
+use super::super::choice::{begun, sign, TIE};
 use super::super::course::{Course, Earliest};
 use super::super::event;
 use super::super::ledger::work;
 use super::super::mode::{Mode, Slip};
-use super::super::reaction::{Felt, CONE};
+use super::super::reaction::{Felt, Reaction, ACCELERATION, CONE};
 use super::super::shaking::{Piece, Shaking};
 use super::super::walk::{Carried, Cause, Ended};
 use super::walk::{Exact, Halt};
 
 /// A normal force that is more than this part of its size is not zero: no rounding makes it so.
 const CLEAR: f64 = 1e-9;
+
+/// A part of a piece on which a block that stays pressed onto both corners goes on in one mode, and what ends it.
+struct Leg<'p> {
+    mode: Mode,
+    course: Course<'p>,
+    step: f64,
+    ended: Option<Ended>,
+}
+
+/// Whether the normal forces at heel and toe, which start with these values, are clear of zero from one end to the other.
+#[inline(always)]
+fn stays_pressed(reaction: &Reaction, value: [f64; 2], slope: [f64; 2], left: f64) -> bool {
+    [HEEL, TOE]
+        .into_iter()
+        .zip(value)
+        .zip(slope)
+        .all(|((gap, value), slope)| {
+            let clear = CLEAR * reaction.size[gap];
+            value > clear && value + slope * left > clear
+        })
+}
 
 impl Exact<'_> {
     /// Go on in the present mode while nothing happens; return the last sample before something may.
@@ -50,28 +71,23 @@ impl Exact<'_> {
         let (mut local, mut cause) = (0.0, None);
         loop {
             let piece = whole.rest(local);
-            let mut felt = Felt::default();
-            let Some(mode) = self.clear_mode(&piece, cause, &mut felt) else {
+            let Some(Leg {
+                mode,
+                course,
+                step,
+                ended,
+            }) = self.next_leg(&piece, cause)
+            else {
                 return Some((local, cause));
             };
-            let reaction = self.reactions.of(mode);
-            let slips = mode != Mode::Rest;
-            let s = &mut self.walk.summary;
-            let free = [slips, false, false];
-            let course = Course::begin(reaction, felt, free, s.velocity[SLIP], [true; 2], &piece);
-            let mut earliest = Earliest {
-                step: piece.left,
-                ended: None,
-            };
-            course.first_event_in(mode, reaction, [&s.position, &s.velocity], 0, &mut earliest);
-            let Earliest { step, ended } = earliest;
             // An event at either end of a piece is left to the walk.
             if ended.is_some() && (step <= 0.0 || step >= piece.left || local + step >= whole.left) {
                 return Some((local, cause));
             }
-            s.mode = mode;
-            s.slip_stops += u64::from(matches!(cause, Some((_, Cause::Stop))));
+            let slips = mode != Mode::Rest;
             self.walk.mode = mode;
+            self.walk.summary.mode = mode;
+            self.walk.summary.slip_stops += u64::from(matches!(cause, Some((_, Cause::Stop))));
             if slips {
                 self.move_on::<true, false, false>(&course, step, time + local);
             } else {
@@ -93,45 +109,100 @@ impl Exact<'_> {
         }
     }
 
-    /// The mode after what ended the way here, where both corners stay pressed on all of a piece; what is felt there is in
-    /// `felt` then.
-    fn clear_mode(&self, piece: &Piece<2>, cause: Option<Ended>, felt: &mut Felt) -> Option<Mode> {
+    /// How the block goes on after what ended the way here, where both corners stay pressed on all of a piece.
+    fn next_leg<'p>(&self, piece: &'p Piece<2>, cause: Option<Ended>) -> Option<Leg<'p>> {
         let velocity = self.walk.summary.velocity[SLIP];
-        let moving = Moving {
-            closed: [true; 2],
-            velocity,
+        match (cause, self.walk.mode) {
+            (None, Mode::Rest) if velocity == 0.0 => self.lie(piece)?,
+            (None, Mode::Slide(slip)) if velocity != 0.0 => self.slide(slip, piece)?,
+            (None, _) => None,
+            // Pressed at rest, it rocks about no corner.
+            (Some((_, Cause::Cone | Cause::Stop)), _) => self
+                .lie(piece)
+                .or_else(|| self.slide(Slip::Downstream, piece))
+                .or_else(|| self.slide(Slip::Upstream, piece))?,
+            (Some(_), _) => None,
+        }
+    }
+
+    /// How it lies on a piece where friction holds it; `Some(None)` where a corner may not stay pressed.
+    #[inline(always)]
+    fn lie<'p>(&self, piece: &'p Piece<2>) -> Option<Option<Leg<'p>>> {
+        let rest = self.reactions.of(Mode::Rest);
+        let mut felt = Felt::default();
+        rest.on(piece, &mut felt);
+        if !stays_pressed(
+            rest,
+            [felt.value[HEEL], felt.value[TOE]],
+            [felt.slope[HEEL], felt.slope[TOE]],
+            piece.left,
+        ) {
+            return Some(None);
+        }
+        if [CONE, CONE + 1]
+            .into_iter()
+            .any(|i| sign(felt.value[i], felt.slope[i] * piece.left, TIE * rest.size[i]) < 0)
+        {
+            return None;
+        }
+        let course = Course {
+            felt,
+            motion: [[0.0; 2]; 3],
             piece,
         };
-        let mut fits = |mode: Mode| admissible(self.reactions.of(mode), &moving, TIE, felt);
-        let mode = match cause {
-            None => {
-                let mode = self.walk.mode;
-                let stands = mode != Mode::Rest && velocity == 0.0;
-                (!stands && fits(mode)).then_some(mode)
-            }
-            Some((_, Cause::Cone | Cause::Stop)) => {
-                let rest = self.reactions.of(Mode::Rest);
-                let mut held = Felt::default();
-                rest.on(piece, &mut held);
-                // Pressed at rest, it rocks about no corner.
-                if [HEEL, TOE]
-                    .into_iter()
-                    .any(|i| held.value[i] <= CLEAR * rest.size[i])
-                {
-                    return None;
-                }
-                let slides = [Slip::Downstream, Slip::Upstream].map(Mode::Slide);
-                let mut modes = [Mode::Rest].into_iter().chain(slides);
-                modes.find(|mode| fits(*mode))
-            }
-            Some(_) => None,
-        }?;
-        let size = self.reactions.of(mode).size;
-        let stays = |i: usize| {
-            let clear = CLEAR * size[i];
-            felt.value[i] > clear && felt.value[i] + felt.slope[i] * piece.left > clear
+        let mut earliest = Earliest {
+            step: piece.left,
+            ended: None,
         };
-        (stays(HEEL) && stays(TOE)).then_some(mode)
+        course.first_event::<false, false, false>(rest, &[0.0; 3], &[0.0; 3], 0, &mut earliest);
+        let Earliest { step, ended } = earliest;
+        Some(Some(Leg {
+            mode: Mode::Rest,
+            course,
+            step,
+            ended,
+        }))
+    }
+
+    /// How it slides this way on a piece, if it can; `Some(None)` where a corner may not stay pressed.
+    #[inline(always)]
+    fn slide<'p>(&self, slip: Slip, piece: &'p Piece<2>) -> Option<Option<Leg<'p>>> {
+        let (mode, velocity) = (Mode::Slide(slip), self.walk.summary.velocity[SLIP]);
+        let reaction = self.reactions.of(mode);
+        let way = reaction.way;
+        let [value, slope] = reaction.sliding(piece.ground, piece.rate);
+        let size = reaction.size[ACCELERATION + SLIP];
+        let grows = if velocity == 0.0 {
+            f64::from(sign(value[3], slope[3] * piece.left, TIE * size)) * way
+        } else {
+            velocity * way
+        };
+        if !reaction.regular || grows <= 0.0 {
+            return None;
+        }
+        if !stays_pressed(
+            reaction,
+            [value[HEEL], value[TOE]],
+            [slope[HEEL], slope[TOE]],
+            piece.left,
+        ) {
+            return Some(None);
+        }
+        let starts = if velocity == 0.0 { way } else { 0.0 };
+        let [a0, a1] = begun(value[3], slope[3], size, starts, piece.left);
+        let stop = event::quadratic(way * velocity, way * a0, way * a1 / 2.0, piece.left);
+        let mut felt = Felt::default();
+        (felt.value[SLIP], felt.slope[SLIP]) = (value[SLIP], slope[SLIP]);
+        Some(Some(Leg {
+            mode,
+            course: Course {
+                felt,
+                motion: [[a0, a1], [0.0; 2], [0.0; 2]],
+                piece,
+            },
+            step: stop.unwrap_or(piece.left),
+            ended: stop.map(|_| (0, Cause::Stop)),
+        }))
     }
 
     /// While the block rests nothing moves: return the last sample before rest may end, and keep the block at the moments
