@@ -53,6 +53,26 @@ impl Affine {
         self.constant + self.horizontal * ground[0] + self.vertical * ground[1]
     }
 
+    /// As [`Self::at`]; on a LEVEL ground the vertical one is zero.
+    #[inline(always)]
+    pub fn on<const LEVEL: bool>(&self, ground: [f64; 2]) -> f64 {
+        if LEVEL {
+            self.constant + self.horizontal * ground[0]
+        } else {
+            self.at(ground)
+        }
+    }
+
+    /// As [`Self::slope`]; on a LEVEL ground the vertical acceleration does not change.
+    #[inline(always)]
+    pub fn rate<const LEVEL: bool>(&self, rate: [f64; 2]) -> f64 {
+        if LEVEL {
+            self.horizontal * rate[0]
+        } else {
+            self.slope(rate)
+        }
+    }
+
     /// The smallest value where each ground acceleration may be anywhere between two.
     #[inline]
     pub fn least(&self, [horizontal, vertical]: [[f64; 2]; 2]) -> f64 {

@@ -69,6 +69,11 @@ impl<'a> Shaking<'a> {
         }
     }
 
+    /// Whether it has no vertical part.
+    pub(super) fn is_level(&self) -> bool {
+        self.vertical.is_none()
+    }
+
     /// Largest horizontal and vertical acceleration, without their signs.
     pub(super) fn peaks(&self) -> [f64; 2] {
         [0, 1].map(|i| (self.peaks[i] * self.scale[i]).abs())
@@ -77,9 +82,18 @@ impl<'a> Shaking<'a> {
     /// The pieces from sample `k` on, each from one sample to the next.
     #[inline(always)]
     pub(super) fn pieces(&self, k: usize) -> impl Iterator<Item = Piece<2>> + use<'_> {
+        self.pieces_on::<false>(k)
+    }
+
+    /// The same where it is known that the ground moves on a LEVEL.
+    #[inline(always)]
+    pub(super) fn pieces_on<const LEVEL: bool>(
+        &self,
+        k: usize,
+    ) -> impl Iterator<Item = Piece<2>> + use<'_, LEVEL> {
         let n = self.time.len();
         let (time, horizontal) = (&self.time[k..n], &self.horizontal[k..n]);
-        let vertical = self.vertical.map(|v| &v[k..n]);
+        let vertical = self.vertical.filter(|_| !LEVEL).map(|v| &v[k..n]);
         let at = move |j: usize| {
             let up = vertical.map_or(0.0, |v| v[j] * self.scale[1]);
             [horizontal[j] * self.scale[0], up]

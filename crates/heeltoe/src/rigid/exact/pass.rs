@@ -233,37 +233,64 @@ impl Exact<'_> {
     /// While the block slides on both corners, clear of every limit, do what would be done piece by piece; return the last
     /// sample before that may end.
     fn slide_until(&mut self, shaking: &Shaking, from: usize) -> usize {
+        match (shaking.is_level(), self.wear.is_some()) {
+            (true, false) => self.slide_on::<true, false>(shaking, from),
+            (true, true) => self.slide_on::<true, true>(shaking, from),
+            (false, false) => self.slide_on::<false, false>(shaking, from),
+            (false, true) => self.slide_on::<false, true>(shaking, from),
+        }
+    }
+
+    /// The same where it is known whether the ground moves on a LEVEL, and whether the PATH is kept.
+    fn slide_on<const LEVEL: bool, const PATH: bool>(&mut self, shaking: &Shaking, from: usize) -> usize {
         let reaction = self.reactions.of(self.walk.mode);
         let clear = [HEEL, TOE].map(|i| CLEAR * reaction.size[i]);
+        let normal = [HEEL, TOE].map(|i| reaction.quantity(i));
+        let pressed = |piece: &Piece<2>| {
+            (0..2).all(|i| {
+                let value = normal[i].on::<LEVEL>(piece.ground);
+                value > clear[i] && value + normal[i].rate::<LEVEL>(piece.rate) * piece.left > clear[i]
+            })
+        };
+        let [friction, along] = [SLIP, ACCELERATION + SLIP].map(|i| reaction.quantity(i));
         let load = self.walk.block.generalised_force[SLIP];
-        let kind = self.walk.mode.kind();
+        let (kind, way) = (self.walk.mode.kind(), reaction.way);
         let s = &mut self.walk.summary;
         let [mut position, mut velocity] = [s.position[SLIP], s.velocity[SLIP]];
-        let (mut ledger, mut gathered, mut time) = (s.ledger, s.slip_by_mode[kind], s.time_by_mode[kind]);
+        let (mut input, mut rubbed, mut turnover) = (s.ledger.input, s.ledger.friction, s.ledger.turnover);
+        let (mut gathered, mut time) = (s.slip_by_mode[kind], s.time_by_mode[kind]);
         let mut path = self.wear.as_ref().map_or(0.0, |wear| wear.end.path);
         let mut k = from;
-        for piece in shaking.pieces(from) {
+        for piece in shaking.pieces_on::<LEVEL>(from) {
             let step = piece.left;
             if step > 0.0 {
-                let [value, slope] = reaction.sliding(piece.ground, piece.rate);
-                let [a0, a1] = [value[3], slope[3]];
-                let pushed = [HEEL, TOE]
-                    .into_iter()
-                    .zip(clear)
-                    .all(|(i, clear)| value[i] > clear && value[i] + slope[i] * step > clear);
-                let way = reaction.way;
-                let stops = || event::quadratic(way * velocity, way * a0, way * a1 / 2.0, step).is_some();
-                if !pushed || velocity == 0.0 || stops() {
+                let a0 = along.on::<LEVEL>(piece.ground);
+                let a1 = along.rate::<LEVEL>(piece.rate);
+                if velocity == 0.0
+                    || !pressed(&piece)
+                    || event::quadratic(way * velocity, way * a0, way * a1 / 2.0, step).is_some()
+                {
                     break;
                 }
-                let force = [load.at(piece.ground), load.slope(piece.rate)];
-                ledger.apply(work(force, velocity, [a0, a1], step));
-                ledger.rub(work([value[SLIP], slope[SLIP]], velocity, [a0, a1], step));
+                let pushed = [load, friction].map(|force| {
+                    work(
+                        [force.on::<LEVEL>(piece.ground), force.rate::<LEVEL>(piece.rate)],
+                        velocity,
+                        [a0, a1],
+                        step,
+                    )
+                });
+                input += pushed[0].net;
+                turnover += pushed[0].size;
+                rubbed -= pushed[1].net;
+                turnover += pushed[1].size;
                 let before = position;
                 position += step * (velocity + step * (a0 / 2.0 + step * a1 / 6.0));
                 velocity += step * (a0 + step * a1 / 2.0);
                 gathered += position - before;
-                path += (position - before).abs();
+                if PATH {
+                    path += (position - before).abs();
+                }
                 time += step;
             }
             k += 1;
@@ -274,7 +301,8 @@ impl Exact<'_> {
         }
         s.slip_range = [s.slip_range[0].min(position), s.slip_range[1].max(position)];
         (s.position[SLIP], s.velocity[SLIP]) = (position, velocity);
-        (s.ledger, s.slip_by_mode[kind], s.time_by_mode[kind]) = (ledger, gathered, time);
+        (s.ledger.input, s.ledger.friction, s.ledger.turnover) = (input, rubbed, turnover);
+        (s.slip_by_mode[kind], s.time_by_mode[kind]) = (gathered, time);
         k
     }
 }
