@@ -4,6 +4,9 @@
 //! `(0, end]` at which it falls through zero. A double root touches zero without falling through it and is no event.
 //! Where a function starts at exactly zero that root is divided out first, so that it is never found again.
 
+/// A value no larger than this part of its terms is rounding.
+const END: f64 = 4.0 * f64::EPSILON;
+
 /// First fall through zero of `c0 + c1 t` in `[0, end]`, where its end value is already known to be negative.
 pub(super) fn linear(c0: f64, c1: f64, end: f64) -> f64 {
     if c0 <= 0.0 {
@@ -21,10 +24,18 @@ pub(super) fn stays_positive(c0: f64, c1: f64, c2: f64, end: f64) -> bool {
 /// First fall through zero of `c0 + c1 t + c2 t^2` in `(0, end]`.
 #[inline(always)]
 pub(super) fn quadratic(c0: f64, c1: f64, c2: f64, end: f64) -> Option<f64> {
-    if stays_positive(c0, c1, c2, end) {
+    // Most pieces end above zero, whatever the rounding, and do not dip below it before.
+    let ends_above = c0 + end * (c1 + end * c2) > END * (c0 + end * (c1.abs() + end * c2.abs()));
+    if c0 > 0.0 && ends_above && !dips(c1, c2, end) {
         return None;
     }
     near_quadratic(c0, c1, c2, end)
+}
+
+/// Whether the slope of `c0 + c1 t + c2 t^2` turns from falling to rising in `(0, end)`.
+#[inline(always)]
+fn dips(c1: f64, c2: f64, end: f64) -> bool {
+    c2 > 0.0 && c1 < 0.0 && -c1 < 2.0 * c2 * end
 }
 
 fn near_quadratic(c0: f64, c1: f64, c2: f64, end: f64) -> Option<f64> {
@@ -43,10 +54,8 @@ fn near_quadratic(c0: f64, c1: f64, c2: f64, end: f64) -> Option<f64> {
     let value = |t: f64| c0 + t * (c1 + t * c2);
     // A slip that stops right at the end of a piece stops there whatever the rounding says.
     let size = c0 + end * (c1.abs() + end * c2.abs());
-    let falls_at_end =
-        value(end) <= 4.0 * f64::EPSILON * size && c1 + 2.0 * end * c2 <= 0.0 || value(end) <= 0.0;
-    let dips = c2 > 0.0 && c1 < 0.0 && -c1 < 2.0 * c2 * end;
-    if !falls_at_end && !dips {
+    let falls_at_end = value(end) <= END * size && c1 + 2.0 * end * c2 <= 0.0 || value(end) <= 0.0;
+    if !falls_at_end && !dips(c1, c2, end) {
         return None;
     }
     let discriminant = c1 * c1 - 4.0 * c2 * c0;
