@@ -9,6 +9,7 @@
 //! state is moved there exactly, the event is dealt with, the next mode is chosen, and the walk goes on.
 
 mod advance;
+mod glide;
 mod keep;
 mod pass;
 mod walk;
