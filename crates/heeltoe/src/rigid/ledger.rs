@@ -14,14 +14,21 @@ pub(super) struct Work {
 /// `(f0 + f1 t)(v0 + a0 t + a1 t^2 / 2)` integrated from 0 to `end`.
 #[inline]
 pub(super) fn work(force: [f64; 2], v0: f64, a: [f64; 2], end: f64) -> Work {
-    let t = end;
-    let path = t * (v0 + t * (a[0] / 2.0 + t * a[1] / 6.0));
-    let moment = t * t * (v0 / 2.0 + t * (a[0] / 3.0 + t * a[1] / 8.0));
+    let (path, moment) = path_and_moment(v0, a, end);
     let (steady, changing) = (force[0] * path, force[1] * moment);
     Work {
         net: steady + changing,
         size: steady.abs() + changing.abs(),
     }
+}
+
+/// `v0 + a0 t + a1 t^2 / 2`, and t times that, integrated from 0 to `end`.
+#[inline(always)]
+pub(super) fn path_and_moment(v0: f64, a: [f64; 2], end: f64) -> (f64, f64) {
+    let t = end;
+    let path = t * (v0 + t * (a[0] / 2.0 + t * a[1] / 6.0));
+    let moment = t * t * (v0 / 2.0 + t * (a[0] / 3.0 + t * a[1] / 8.0));
+    (path, moment)
 }
 
 /// Energies since the start; losses are positive.

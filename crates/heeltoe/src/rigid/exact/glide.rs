@@ -4,10 +4,8 @@
 use super::super::block::{Affine, HEEL, SLIP, TOE};
 use super::super::choice::{begun, sign, TIE, VIOLATION};
 use super::super::event;
-use super::super::ledger::work;
 use super::super::mode::{Mode, Slip};
 use super::super::reaction::{Reaction, ACCELERATION, CONE};
-use super::super::result::Summary;
 use super::super::shaking::{Piece, Shaking};
 use super::super::walk::{Carried, Cause, Ended};
 use super::walk::{Exact, Halt};
@@ -15,81 +13,13 @@ use super::walk::{Exact, Halt};
 /// A normal force that is more than this part of its size is not zero: no rounding makes it so.
 const CLEAR: f64 = 1e-9;
 
-/// The way of a slip on both corners: acceleration and friction at its start, and how they change per second.
-#[derive(Clone, Copy)]
-pub(super) struct Slide {
-    pub acceleration: [f64; 2],
-    pub friction: [f64; 2],
-}
-
 /// How a block that stays pressed onto both corners goes on from here, how long, and what ends that.
 struct Leg {
     mode: Mode,
-    slide: Option<Slide>,
+    /// Acceleration of the slip and its change per second, where it slides.
+    slide: Option<[f64; 2]>,
     step: f64,
     ended: Option<Cause>,
-}
-
-/// What slides add up to.
-pub(super) struct Slid {
-    position: f64,
-    pub velocity: f64,
-    input: f64,
-    friction: f64,
-    turnover: f64,
-    gathered: f64,
-    time: f64,
-}
-
-impl Slid {
-    const KIND: usize = 1;
-
-    #[inline(always)]
-    pub(super) fn until_now(s: &Summary) -> Self {
-        Slid {
-            position: s.position[SLIP],
-            velocity: s.velocity[SLIP],
-            input: s.ledger.input,
-            friction: s.ledger.friction,
-            turnover: s.ledger.turnover,
-            gathered: s.slip_by_mode[Self::KIND],
-            time: s.time_by_mode[Self::KIND],
-        }
-    }
-
-    /// Slide on for so long under a load along the crack, see [`Slide`]; returns how far.
-    #[inline(always)]
-    pub(super) fn on(&mut self, slide: &Slide, load: [f64; 2], step: f64) -> f64 {
-        let [a0, a1] = slide.acceleration;
-        let pushed = work(load, self.velocity, slide.acceleration, step);
-        let rubbed = work(slide.friction, self.velocity, slide.acceleration, step);
-        self.input += pushed.net;
-        self.turnover += pushed.size;
-        self.friction -= rubbed.net;
-        self.turnover += rubbed.size;
-        let before = self.position;
-        self.position += step * (self.velocity + step * (a0 / 2.0 + step * a1 / 6.0));
-        self.velocity += step * (a0 + step * a1 / 2.0);
-        self.gathered += self.position - before;
-        self.time += step;
-        self.position - before
-    }
-
-    /// Take it over; all of it went one way.
-    #[inline(always)]
-    pub(super) fn keep(self, s: &mut Summary) {
-        s.position[SLIP] = self.position;
-        s.velocity[SLIP] = self.velocity;
-        s.ledger.input = self.input;
-        s.ledger.friction = self.friction;
-        s.ledger.turnover = self.turnover;
-        s.slip_by_mode[Self::KIND] = self.gathered;
-        s.time_by_mode[Self::KIND] = self.time;
-        s.slip_range = [
-            s.slip_range[0].min(self.position),
-            s.slip_range[1].max(self.position),
-        ];
-    }
 }
 
 /// One quantity of a mode on a piece: its value at the start, and its change per second.
@@ -162,21 +92,22 @@ impl Exact<'_> {
             if ended.is_some() && (step <= 0.0 || step >= piece.left || local + step >= whole.left) {
                 return here(local, cause);
             }
-            let load = &self.walk.block.generalised_force[SLIP];
-            let s = &mut self.walk.summary;
-            s.slip_stops += u64::from(cause == Some(Cause::Stop));
-            if let Some(slide) = leg.slide {
-                let mut slid = Slid::until_now(s);
-                slid.on(&slide, felt::<LEVEL>(load, &piece), step);
-                if ended.is_some() {
-                    slid.velocity = 0.0;
-                }
-                slid.keep(s);
-            } else {
-                s.time_by_mode[Mode::Rest.kind()] += step;
-            }
-            s.mode = mode;
             self.walk.mode = mode;
+            self.turn_over(time + local);
+            let s = &mut self.walk.summary;
+            s.mode = mode;
+            s.slip_stops += u64::from(cause == Some(Cause::Stop));
+            if let Some([a0, a1]) = leg.slide {
+                let velocity = s.velocity[SLIP];
+                s.position[SLIP] += self.stretch.slide::<LEVEL>(velocity, [a0, a1], &piece, step);
+                let slip = s.position[SLIP];
+                s.slip_range = [s.slip_range[0].min(slip), s.slip_range[1].max(slip)];
+                s.velocity[SLIP] = if ended.is_some() {
+                    0.0
+                } else {
+                    velocity + step * (a0 + step * a1 / 2.0)
+                };
+            }
             if ended.is_none() {
                 return here(whole.left, None);
             }
@@ -257,10 +188,7 @@ impl Exact<'_> {
         let stop = event::quadratic(way * velocity, way * a0, way * a1 / 2.0, piece.left);
         Some(Some(Leg {
             mode,
-            slide: Some(Slide {
-                acceleration: [a0, a1],
-                friction: felt::<LEVEL>(&reaction.quantity(SLIP), piece),
-            }),
+            slide: Some([a0, a1]),
             step: stop.unwrap_or(piece.left),
             ended: stop.map(|_| Cause::Stop),
         }))

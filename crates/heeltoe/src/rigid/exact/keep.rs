@@ -5,6 +5,7 @@ use super::super::course::Course;
 use super::super::event;
 use super::super::ledger::work;
 use super::super::mode::{Corner, Mode, Slip};
+use super::super::shaking::Piece;
 use super::walk::Exact;
 
 impl Exact<'_> {
@@ -20,18 +21,19 @@ impl Exact<'_> {
         if self.walk.observed() {
             self.record(course, time + step, time);
         }
+        if !(H || T) {
+            if S {
+                self.slide_by(motion[SLIP], piece, step);
+            }
+            return;
+        }
         let block = self.walk.block;
         let kind = match (S, H, T) {
             (_, true, true) => Mode::Drift.kind(),
-            (true, false, false) => Mode::Slide(Slip::Downstream).kind(),
-            (false, false, false) => Mode::Rest.kind(),
             (true, ..) => Mode::SlideRock(Corner::Heel, Slip::Downstream).kind(),
             (false, ..) => Mode::Rock(Corner::Heel).kind(),
         };
         self.walk.summary.time_by_mode[kind] += step;
-        if !(S || H || T) {
-            return;
-        }
         let before = self.walk.summary.position;
         let speed = self.walk.summary.velocity;
         let s = &mut self.walk.summary;
@@ -59,16 +61,23 @@ impl Exact<'_> {
             s.position[gap] = s.position[gap].max(0.0);
         }
         s.slip_by_mode[kind] += s.position[SLIP] - before[SLIP];
-        if !(H || T) {
-            // Both gaps stay closed and the slip keeps its sign.
-            s.slip_range = [
-                s.slip_range[0].min(s.position[SLIP]),
-                s.slip_range[1].max(s.position[SLIP]),
-            ];
-        } else {
-            let end = s.position;
-            s.widen(&end, block.rotation(&end));
-            self.turning_points(&before, &speed, motion, step);
+        let end = s.position;
+        s.widen(&end, block.rotation(&end));
+        self.turning_points(&before, &speed, motion, step);
+    }
+
+    /// Slide on both corners: both gaps stay closed and the slip keeps its sign.
+    #[inline(always)]
+    fn slide_by(&mut self, acceleration: [f64; 2], piece: &Piece<2>, step: f64) {
+        let s = &mut self.walk.summary;
+        let velocity = s.velocity[SLIP];
+        let path = self.stretch.slide::<false>(velocity, acceleration, piece, step);
+        s.position[SLIP] += path;
+        s.velocity[SLIP] += step * (acceleration[0] + step * acceleration[1] / 2.0);
+        let slip = s.position[SLIP];
+        s.slip_range = [s.slip_range[0].min(slip), s.slip_range[1].max(slip)];
+        if let Some(wear) = &mut self.wear {
+            wear.end.path += path.abs();
         }
     }
 

@@ -12,6 +12,7 @@ mod advance;
 mod glide;
 mod keep;
 mod pass;
+mod stretch;
 mod walk;
 
 pub use walk::simulate;

@@ -6,7 +6,7 @@ use super::super::event;
 use super::super::mode::Mode;
 use super::super::reaction::{Felt, ACCELERATION, CONE};
 use super::super::shaking::Shaking;
-use super::glide::{felt, stays_pressed, Slid, Slide};
+use super::glide::{felt, stays_pressed};
 use super::walk::Exact;
 
 impl Exact<'_> {
@@ -26,7 +26,6 @@ impl Exact<'_> {
         let limits = [HEEL, TOE, CONE, CONE + 1].map(|i| rest.quantity(i));
         // The first sample is looked at too: right behind a jump it is new.
         let k = shaking.first_below(&limits, from).max(from + 1) - 1;
-        self.walk.summary.time_by_mode[Mode::Rest.kind()] += shaking.time[k] - shaking.time[from];
         if self.walk.observed() {
             let mut felt = Felt::default();
             // What is wanted at a jump is kept at the start of the piece behind it: the jump itself has no rates.
@@ -58,28 +57,26 @@ impl Exact<'_> {
     /// The same where it is known whether the ground moves on a LEVEL, and whether the PATH is kept.
     fn slide_on<const LEVEL: bool, const PATH: bool>(&mut self, shaking: &Shaking, from: usize) -> usize {
         let reaction = self.reactions.of(self.walk.mode);
-        let [friction, along] = [SLIP, ACCELERATION + SLIP].map(|i| reaction.quantity(i));
-        let load = self.walk.block.generalised_force[SLIP];
+        let along = reaction.quantity(ACCELERATION + SLIP);
         let way = reaction.way;
-        let mut slid = Slid::until_now(&self.walk.summary);
+        let mut stretch = self.stretch;
+        let s = &mut self.walk.summary;
+        let [mut position, mut velocity] = [s.position[SLIP], s.velocity[SLIP]];
         let mut path = self.wear.as_ref().map_or(0.0, |wear| wear.end.path);
         let mut k = from;
         for piece in shaking.pieces_on::<LEVEL>(from) {
             let step = piece.left;
             if step > 0.0 {
                 let [a0, a1] = felt::<LEVEL>(&along, &piece);
-                let v = slid.velocity;
-                let stops = || event::quadratic(way * v, way * a0, way * a1 / 2.0, step).is_some();
-                if v == 0.0 || !stays_pressed::<LEVEL>(reaction, &piece) || stops() {
+                let stops = || event::quadratic(way * velocity, way * a0, way * a1 / 2.0, step).is_some();
+                if velocity == 0.0 || !stays_pressed::<LEVEL>(reaction, &piece) || stops() {
                     break;
                 }
-                let slide = Slide {
-                    acceleration: [a0, a1],
-                    friction: felt::<LEVEL>(&friction, &piece),
-                };
-                let way = slid.on(&slide, felt::<LEVEL>(&load, &piece), step);
+                let far = stretch.slide::<LEVEL>(velocity, [a0, a1], &piece, step);
+                position += far;
+                velocity += step * (a0 + step * a1 / 2.0);
                 if PATH {
-                    path += way.abs();
+                    path += far.abs();
                 }
             }
             k += 1;
@@ -87,7 +84,10 @@ impl Exact<'_> {
         if let Some(wear) = &mut self.wear {
             wear.end.path = path;
         }
-        slid.keep(&mut self.walk.summary);
+        self.stretch = stretch;
+        (s.position[SLIP], s.velocity[SLIP]) = (position, velocity);
+        // It goes one way alone.
+        s.slip_range = [s.slip_range[0].min(position), s.slip_range[1].max(position)];
         k
     }
 }

@@ -10,6 +10,7 @@ use super::super::reaction::{Felt, ReactionsOf};
 use super::super::result::{Outcome, Run, Wear};
 use super::super::shaking::{Piece, Shaking};
 use super::super::walk::{Ended, Exactly, Options, Single, Walk, Wanted};
+use super::stretch::Stretch;
 use crate::friction::Worn;
 
 /// A block that is carried exactly; its state is in the summary.
@@ -22,6 +23,8 @@ pub(super) struct Exact<'a> {
     pub(super) touching: [bool; 2],
     /// What the crack has been through, where it is kept.
     pub(super) wear: Option<Wear>,
+    /// Rest, or a slide, that goes on.
+    pub(super) stretch: Stretch,
 }
 
 /// Where the block is when something may happen to it: how far behind which sample, and what ended the way there.
@@ -89,6 +92,7 @@ fn walk(
         felt: Felt::default(),
         touching: [false; 2],
         wear,
+        stretch: Stretch::default(),
     };
     if start.is_none() && !exact.rests(&Piece::still(1.0)) {
         exact.walk.summary.outcome = Outcome::Unstable;
@@ -107,6 +111,7 @@ pub(in super::super) fn go_on(walk: Walk, shaking: &Shaking, from: usize, wear: 
         felt: Felt::default(),
         touching: [false; 2],
         wear,
+        stretch: Stretch::default(),
     };
     exact.run(shaking, from);
     exact.end()
@@ -114,7 +119,8 @@ pub(in super::super) fn go_on(walk: Walk, shaking: &Shaking, from: usize, wear: 
 
 impl Exact<'_> {
     /// Hand over what there is to tell.
-    fn end(self) -> Run {
+    fn end(mut self) -> Run {
+        self.close(self.walk.summary.end_time);
         let energy = self.walk.block.kinetic_energy(&self.walk.summary.velocity);
         Run {
             worn: self.wear,
@@ -240,6 +246,7 @@ impl<'a> Single<'a> for Exact<'a> {
         if let Some(wear) = &mut self.wear {
             wear.end.bonded &= lies;
         }
+        self.turn_over(self.walk.summary.end_time);
     }
 }
 
