@@ -47,6 +47,14 @@ impl Affine {
         }
     }
 
+    /// This, less something that does not depend on the ground.
+    pub fn less(&self, constant: f64) -> Self {
+        Affine {
+            constant: self.constant - constant,
+            ..*self
+        }
+    }
+
     /// Value under the ground acceleration (`horizontal`, `vertical`).
     #[inline]
     pub fn at(&self, ground: [f64; 2]) -> f64 {

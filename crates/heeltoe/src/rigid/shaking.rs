@@ -113,15 +113,18 @@ impl<'a> Shaking<'a> {
         })
     }
 
-    /// The first sample from `k` on at which the smallest of `limits` is negative, or the number of samples.
-    pub(super) fn first_below(&self, limits: &[Affine; 4], k: usize) -> usize {
+    /// The first sample from `k` on at which one of the limits is negative, or the number of samples.
+    pub(super) fn first_below(&self, limits: &Limits, k: usize) -> usize {
+        let Limits {
+            limits,
+            clear: [least, most],
+        } = limits;
         let within = |ground| limits.iter().all(|limit| limit.at(ground) >= 0.0);
         if self.vertical.is_some() {
             let all_within = |ranges| limits.iter().all(|limit| limit.least(ranges) >= 0.0);
             return self.first_beyond(k, all_within, within);
         }
-        let [least, most] = clear_of(limits);
-        self.first_outside(k, |a| least < a && a < most, |a| within([a, 0.0]))
+        self.first_outside(k, |a| *least < a && a < *most, |a| within([a, 0.0]))
     }
 
     /// The same as [`Self::first_beyond`] on a ground without vertical accelerations; what is `clear` of the limits is within
@@ -200,8 +203,22 @@ impl<'a> Shaking<'a> {
     }
 }
 
+/// What must not be negative, and where none of it is on a level ground, see [`clear_of`].
+pub(super) struct Limits {
+    limits: [Affine; 4],
+    clear: Range,
+}
+
+impl Limits {
+    pub(super) fn new(limits: [Affine; 4]) -> Self {
+        let clear = clear_of(&limits);
+        Limits { limits, clear }
+    }
+}
+
 /// Horizontal accelerations between which none of the limits is negative, whatever the rounding.
-fn clear_of(limits: &[Affine; 4]) -> Range {
+#[inline(always)]
+pub(super) fn clear_of(limits: &[Affine]) -> Range {
     let mut range = [f64::NEG_INFINITY, f64::INFINITY];
     for limit in limits {
         if limit.constant <= 0.0 {

@@ -6,7 +6,7 @@ use super::super::choice::{begun, sign, TIE, VIOLATION};
 use super::super::event;
 use super::super::mode::{Mode, Slip};
 use super::super::reaction::{Reaction, ACCELERATION, CONE};
-use super::super::shaking::{Piece, Shaking};
+use super::super::shaking::{clear_of, Piece, Range, Shaking};
 use super::super::walk::{Carried, Cause, Ended};
 use super::walk::{Exact, Halt};
 
@@ -31,14 +31,33 @@ pub(super) fn felt<const LEVEL: bool>(quantity: &Affine, piece: &Piece<2>) -> [f
     ]
 }
 
-/// Whether the normal forces at heel and toe are clear of zero from one end of a piece to the other.
-#[inline(always)]
-pub(super) fn stays_pressed<const LEVEL: bool>(reaction: &Reaction, piece: &Piece<2>) -> bool {
-    [HEEL, TOE].into_iter().all(|gap| {
-        let clear = CLEAR * reaction.size[gap];
-        let [value, slope] = felt::<LEVEL>(&reaction.quantity(gap), piece);
-        value > clear && value + slope * piece.left > clear
-    })
+/// Where the normal forces of a mode at heel and toe are clear of zero.
+pub(super) struct Pressed {
+    /// What they are more than zero by.
+    margin: [Affine; 2],
+    /// Horizontal accelerations between which that is more than nothing on a level ground.
+    range: Range,
+}
+
+impl Pressed {
+    #[inline(always)]
+    pub(super) fn new<const LEVEL: bool>(reaction: &Reaction) -> Self {
+        let margin = [HEEL, TOE].map(|gap| reaction.quantity(gap).less(CLEAR * reaction.size[gap]));
+        let range = if LEVEL { clear_of(&margin) } else { [0.0; 2] };
+        Pressed { margin, range }
+    }
+
+    /// Whether they are so from one end of a piece to the other.
+    #[inline(always)]
+    pub(super) fn stays<const LEVEL: bool>(&self, piece: &Piece<2>) -> bool {
+        let ends = [piece.ground, piece.after(piece.left)];
+        if LEVEL {
+            return ends.iter().all(|[a, _]| self.range[0] < *a && *a < self.range[1]);
+        }
+        self.margin
+            .iter()
+            .all(|margin| ends.iter().all(|ground| margin.at(*ground) > 0.0))
+    }
 }
 
 impl Exact<'_> {
@@ -141,7 +160,7 @@ impl Exact<'_> {
     #[inline(always)]
     fn lie<const LEVEL: bool>(&self, piece: &Piece<2>) -> Option<Option<Leg>> {
         let rest = self.reactions.of(Mode::Rest);
-        if !stays_pressed::<LEVEL>(rest, piece) {
+        if !Pressed::new::<LEVEL>(rest).stays::<LEVEL>(piece) {
             return Some(None);
         }
         let (mut step, mut ended) = (piece.left, None);
@@ -180,7 +199,7 @@ impl Exact<'_> {
         if !reaction.regular || grows * way <= 0.0 {
             return None;
         }
-        if !stays_pressed::<LEVEL>(reaction, piece) {
+        if !Pressed::new::<LEVEL>(reaction).stays::<LEVEL>(piece) {
             return Some(None);
         }
         let starts = if velocity == 0.0 { way } else { 0.0 };

@@ -5,8 +5,8 @@ use super::super::course::Course;
 use super::super::event;
 use super::super::mode::Mode;
 use super::super::reaction::{Felt, ACCELERATION, CONE};
-use super::super::shaking::Shaking;
-use super::glide::{felt, stays_pressed};
+use super::super::shaking::{Limits, Shaking};
+use super::glide::{felt, Pressed};
 use super::walk::Exact;
 
 impl Exact<'_> {
@@ -23,9 +23,11 @@ impl Exact<'_> {
     /// that are wanted until then.
     fn rest_until(&mut self, shaking: &Shaking, from: usize) -> usize {
         let rest = self.reactions.of(Mode::Rest);
-        let limits = [HEEL, TOE, CONE, CONE + 1].map(|i| rest.quantity(i));
+        let limits = self
+            .limits_of_rest
+            .get_or_init(|| Limits::new([HEEL, TOE, CONE, CONE + 1].map(|i| rest.quantity(i))));
         // The first sample is looked at too: right behind a jump it is new.
-        let k = shaking.first_below(&limits, from).max(from + 1) - 1;
+        let k = shaking.first_below(limits, from).max(from + 1) - 1;
         if self.walk.observed() {
             let mut felt = Felt::default();
             // What is wanted at a jump is kept at the start of the piece behind it: the jump itself has no rates.
@@ -57,19 +59,23 @@ impl Exact<'_> {
     /// The same where it is known whether the ground moves on a LEVEL, and whether the PATH is kept.
     fn slide_on<const LEVEL: bool, const PATH: bool>(&mut self, shaking: &Shaking, from: usize) -> usize {
         let reaction = self.reactions.of(self.walk.mode);
-        let along = reaction.quantity(ACCELERATION + SLIP);
         let way = reaction.way;
-        let mut stretch = self.stretch;
+        // All of it goes one way: counted that way, each sign is spared, and no bit changes.
+        let along = reaction.quantity(ACCELERATION + SLIP).times(way);
+        let pressed = Pressed::new::<LEVEL>(reaction);
+        let mut stretch = self.stretch.turned(way);
         let s = &mut self.walk.summary;
-        let [mut position, mut velocity] = [s.position[SLIP], s.velocity[SLIP]];
+        let [mut position, mut velocity] = [way * s.position[SLIP], way * s.velocity[SLIP]];
         let mut path = self.wear.as_ref().map_or(0.0, |wear| wear.end.path);
         let mut k = from;
         for piece in shaking.pieces_on::<LEVEL>(from) {
             let step = piece.left;
             if step > 0.0 {
                 let [a0, a1] = felt::<LEVEL>(&along, &piece);
-                let stops = || event::quadratic(way * velocity, way * a0, way * a1 / 2.0, step).is_some();
-                if velocity == 0.0 || !stays_pressed::<LEVEL>(reaction, &piece) || stops() {
+                if velocity == 0.0
+                    || !pressed.stays::<LEVEL>(&piece)
+                    || event::quadratic(velocity, a0, a1 / 2.0, step).is_some()
+                {
                     break;
                 }
                 let far = stretch.slide::<LEVEL>(velocity, [a0, a1], &piece, step);
@@ -81,13 +87,13 @@ impl Exact<'_> {
             }
             k += 1;
         }
+        self.stretch = stretch.turned(way);
+        (s.position[SLIP], s.velocity[SLIP]) = (way * position, way * velocity);
+        let slip = s.position[SLIP];
+        s.slip_range = [s.slip_range[0].min(slip), s.slip_range[1].max(slip)];
         if let Some(wear) = &mut self.wear {
             wear.end.path = path;
         }
-        self.stretch = stretch;
-        (s.position[SLIP], s.velocity[SLIP]) = (position, velocity);
-        // It goes one way alone.
-        s.slip_range = [s.slip_range[0].min(position), s.slip_range[1].max(position)];
         k
     }
 }

@@ -15,12 +15,22 @@ pub(super) struct Stretch {
     mode: Option<Mode>,
     since: f64,
     /// Slip on it.
-    pub slip: f64,
+    slip: f64,
     /// Integrals of the horizontal and of the vertical acceleration over the slip.
-    pub power: [f64; 2],
+    power: [f64; 2],
 }
 
 impl Stretch {
+    /// The same with the slip counted this way, 1 or -1.
+    #[inline(always)]
+    pub(super) fn turned(self, way: f64) -> Self {
+        Stretch {
+            slip: way * self.slip,
+            power: self.power.map(|power| way * power),
+            ..self
+        }
+    }
+
     /// Slide on with a velocity and an acceleration that changes linearly for `step` of a piece; returns how far.
     #[inline(always)]
     pub(super) fn slide<const LEVEL: bool>(

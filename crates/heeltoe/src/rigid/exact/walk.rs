@@ -1,6 +1,7 @@
 //! From piece to piece of the record, and from event to event within each.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 
 use super::super::block::{Block, Vector, HEEL, SLIP, TOE};
 use super::super::choice::{accelerations, select, Moving};
@@ -8,7 +9,7 @@ use super::super::course::Course;
 use super::super::mode::Mode;
 use super::super::reaction::{Felt, ReactionsOf};
 use super::super::result::{Outcome, Run, Wear};
-use super::super::shaking::{Piece, Shaking};
+use super::super::shaking::{Limits, Piece, Shaking};
 use super::super::walk::{Ended, Exactly, Options, Single, Walk, Wanted};
 use super::stretch::Stretch;
 use crate::friction::Worn;
@@ -25,6 +26,8 @@ pub(super) struct Exact<'a> {
     pub(super) wear: Option<Wear>,
     /// Rest, or a slide, that goes on.
     pub(super) stretch: Stretch,
+    /// How far the ground may go while it rests.
+    pub(super) limits_of_rest: OnceCell<Limits>,
 }
 
 /// Where the block is when something may happen to it: how far behind which sample, and what ended the way there.
@@ -93,6 +96,7 @@ fn walk(
         touching: [false; 2],
         wear,
         stretch: Stretch::default(),
+        limits_of_rest: OnceCell::new(),
     };
     if start.is_none() && !exact.rests(&Piece::still(1.0)) {
         exact.walk.summary.outcome = Outcome::Unstable;
@@ -112,6 +116,7 @@ pub(in super::super) fn go_on(walk: Walk, shaking: &Shaking, from: usize, wear: 
         touching: [false; 2],
         wear,
         stretch: Stretch::default(),
+        limits_of_rest: OnceCell::new(),
     };
     exact.run(shaking, from);
     exact.end()
