@@ -31,33 +31,45 @@ pub(super) fn felt<const LEVEL: bool>(quantity: &Affine, piece: &Piece<2>) -> [f
     ]
 }
 
-/// Where the normal forces of a mode at heel and toe are clear of zero.
+/// Where the normal forces of a mode at heel and toe are clear of zero: what they are more than that by, and horizontal
+/// accelerations between which it is more than nothing on a level ground.
 pub(super) struct Pressed {
-    /// What they are more than zero by.
-    margin: [Affine; 2],
-    /// Horizontal accelerations between which that is more than nothing on a level ground.
+    margins: [Affine; 2],
     range: Range,
 }
 
 impl Pressed {
-    #[inline(always)]
-    pub(super) fn new<const LEVEL: bool>(reaction: &Reaction) -> Self {
-        let margin = [HEEL, TOE].map(|gap| reaction.quantity(gap).less(CLEAR * reaction.size[gap]));
-        let range = if LEVEL { clear_of(&margin) } else { [0.0; 2] };
-        Pressed { margin, range }
+    pub(super) fn new(reaction: &Reaction) -> Self {
+        let margins = margins(reaction);
+        let range = clear_of(&margins);
+        Pressed { margins, range }
     }
 
     /// Whether they are so from one end of a piece to the other.
     #[inline(always)]
     pub(super) fn stays<const LEVEL: bool>(&self, piece: &Piece<2>) -> bool {
-        let ends = [piece.ground, piece.after(piece.left)];
         if LEVEL {
-            return ends.iter().all(|[a, _]| self.range[0] < *a && *a < self.range[1]);
+            let [least, most] = self.range;
+            let (start, end) = (piece.ground[0], piece.after(piece.left)[0]);
+            return least < start && start < most && least < end && end < most;
         }
-        self.margin
-            .iter()
-            .all(|margin| ends.iter().all(|ground| margin.at(*ground) > 0.0))
+        all_along::<LEVEL>(&self.margins, piece)
     }
+}
+
+/// By what the normal forces at heel and toe are more than clear of zero.
+#[inline(always)]
+fn margins(reaction: &Reaction) -> [Affine; 2] {
+    [HEEL, TOE].map(|gap| reaction.quantity(gap).less(CLEAR * reaction.size[gap]))
+}
+
+/// Whether these are positive from one end of a piece to the other.
+#[inline(always)]
+fn all_along<const LEVEL: bool>(margins: &[Affine; 2], piece: &Piece<2>) -> bool {
+    margins.iter().all(|margin| {
+        let [value, slope] = felt::<LEVEL>(margin, piece);
+        value > 0.0 && value + slope * piece.left > 0.0
+    })
 }
 
 impl Exact<'_> {
@@ -160,7 +172,7 @@ impl Exact<'_> {
     #[inline(always)]
     fn lie<const LEVEL: bool>(&self, piece: &Piece<2>) -> Option<Option<Leg>> {
         let rest = self.reactions.of(Mode::Rest);
-        if !Pressed::new::<LEVEL>(rest).stays::<LEVEL>(piece) {
+        if !all_along::<LEVEL>(&margins(rest), piece) {
             return Some(None);
         }
         let (mut step, mut ended) = (piece.left, None);
@@ -199,7 +211,7 @@ impl Exact<'_> {
         if !reaction.regular || grows * way <= 0.0 {
             return None;
         }
-        if !Pressed::new::<LEVEL>(reaction).stays::<LEVEL>(piece) {
+        if !all_along::<LEVEL>(&margins(reaction), piece) {
             return Some(None);
         }
         let starts = if velocity == 0.0 { way } else { 0.0 };

@@ -62,25 +62,26 @@ impl Exact<'_> {
         let way = reaction.way;
         // All of it goes one way: counted that way, each sign is spared, and no bit changes.
         let along = reaction.quantity(ACCELERATION + SLIP).times(way);
-        let pressed = Pressed::new::<LEVEL>(reaction);
+        let pressed = Pressed::new(reaction);
         let mut stretch = self.stretch.turned(way);
         let s = &mut self.walk.summary;
         let [mut position, mut velocity] = [way * s.position[SLIP], way * s.velocity[SLIP]];
+        if velocity == 0.0 {
+            return from;
+        }
         let mut path = self.wear.as_ref().map_or(0.0, |wear| wear.end.path);
         let mut k = from;
         for piece in shaking.pieces_on::<LEVEL>(from) {
             let step = piece.left;
             if step > 0.0 {
                 let [a0, a1] = felt::<LEVEL>(&along, &piece);
-                if velocity == 0.0
-                    || !pressed.stays::<LEVEL>(&piece)
-                    || event::quadratic(velocity, a0, a1 / 2.0, step).is_some()
-                {
+                let stops = || event::quadratic(velocity, a0, a1 / 2.0, step).is_some();
+                if !pressed.stays::<LEVEL>(&piece) || stops() {
                     break;
                 }
                 let far = stretch.slide::<LEVEL>(velocity, [a0, a1], &piece, step);
                 position += far;
-                velocity += step * (a0 + step * a1 / 2.0);
+                velocity += step * (a0 + step * (a1 / 2.0));
                 if PATH {
                     path += far.abs();
                 }
