@@ -88,6 +88,12 @@ impl Affine {
         self.constant + lesser(self.horizontal, horizontal) + lesser(self.vertical, vertical)
     }
 
+    /// No value is larger, without its sign, where neither ground acceleration exceeds its peak.
+    #[inline]
+    pub fn largest(&self, [horizontal, vertical]: [f64; 2]) -> f64 {
+        self.constant.abs() + self.horizontal.abs() * horizontal + self.vertical.abs() * vertical
+    }
+
     /// Change per unit of time where the ground acceleration changes at `rate`.
     #[inline]
     pub fn slope(&self, rate: [f64; 2]) -> f64 {

@@ -24,9 +24,7 @@ pub(super) fn stays_positive(c0: f64, c1: f64, c2: f64, end: f64) -> bool {
 /// First fall through zero of `c0 + c1 t + c2 t^2` in `(0, end]`.
 #[inline(always)]
 pub(super) fn quadratic(c0: f64, c1: f64, c2: f64, end: f64) -> Option<f64> {
-    // Most pieces end above zero, whatever the rounding, and do not dip below it before.
-    let ends_above = c0 + end * (c1 + end * c2) > END * (c0 + end * (c1.abs() + end * c2.abs()));
-    if c0 > 0.0 && ends_above && !dips(c1, c2, end) {
+    if stays_positive(c0, c1, c2, end) {
         return None;
     }
     near_quadratic(c0, c1, c2, end)

@@ -10,8 +10,8 @@ use super::super::shaking::{clear_of, Piece, Range, Shaking};
 use super::super::walk::{Carried, Cause, Ended};
 use super::walk::{Exact, Halt};
 
-/// A normal force that is more than this part of its size is not zero: no rounding makes it so.
-const CLEAR: f64 = 1e-9;
+/// What is more than this part of the terms that make it up is not zero: no rounding makes it so.
+pub(super) const CLEAR: f64 = 1e-9;
 
 /// How a block that stays pressed onto both corners goes on from here, how long, and what ends that.
 struct Leg {
@@ -43,6 +43,11 @@ impl Pressed {
         let margins = margins(reaction);
         let range = clear_of(&margins);
         Pressed { margins, range }
+    }
+
+    /// Whether they are so on a level ground, wherever its acceleration is within this peak.
+    pub(super) fn within(&self, peak: f64) -> bool {
+        self.range[0] < -peak && peak < self.range[1]
     }
 
     /// Whether they are so from one end of a piece to the other.

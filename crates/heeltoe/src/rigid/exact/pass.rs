@@ -6,7 +6,7 @@ use super::super::event;
 use super::super::mode::Mode;
 use super::super::reaction::{Felt, ACCELERATION, CONE};
 use super::super::shaking::{Limits, Shaking};
-use super::glide::{felt, Pressed};
+use super::glide::{felt, Pressed, CLEAR};
 use super::walk::Exact;
 
 impl Exact<'_> {
@@ -63,6 +63,10 @@ impl Exact<'_> {
         // All of it goes one way: counted that way, each sign is spared, and no bit changes.
         let along = reaction.quantity(ACCELERATION + SLIP).times(way);
         let pressed = Pressed::new(reaction);
+        let peaks = shaking.peaks();
+        let always = LEVEL && pressed.within(peaks[0]);
+        // No piece changes a velocity by more than this times its length.
+        let most = 2.0 * along.largest(peaks);
         let mut stretch = self.stretch.turned(way);
         let s = &mut self.walk.summary;
         let [mut position, mut velocity] = [way * s.position[SLIP], way * s.velocity[SLIP]];
@@ -75,13 +79,17 @@ impl Exact<'_> {
             let step = piece.left;
             if step > 0.0 {
                 let [a0, a1] = felt::<LEVEL>(&along, &piece);
+                let next = velocity + step * (a0 + step * (a1 / 2.0));
+                let dips = a0 < 0.0 && a0 + step * a1 > 0.0;
                 let stops = || event::quadratic(velocity, a0, a1 / 2.0, step).is_some();
-                if !pressed.stays::<LEVEL>(&piece) || stops() {
+                if !(always || pressed.stays::<LEVEL>(&piece))
+                    || (next <= CLEAR * (velocity + step * most) || dips) && stops()
+                {
                     break;
                 }
                 let far = stretch.slide::<LEVEL>(velocity, [a0, a1], &piece, step);
                 position += far;
-                velocity += step * (a0 + step * (a1 / 2.0));
+                velocity = next;
                 if PATH {
                     path += far.abs();
                 }
