@@ -59,17 +59,16 @@ def _best(tried: list[Attempt], step: float) -> Solved:
 
 def pyslammer() -> list[Solved]:
     """Slide the block one way with pySLAMMER."""
+    import one_way
     import peer_pyslammer
-    import pyslammer as program
     from exact import slip_one_way
 
     motion = el_centro()[0].scaled_to(PEAK * G)
     exact = slip_one_way(motion.acceleration, STEP, YIELD * G)
-    mine = float(np.abs(peer_pyslammer.our_slip(motion, YIELD) - exact).max())
+    mine = float(np.abs(one_way.our_slip(motion, YIELD) - exact).max())
     result = []
     for step in STEPS[:2]:
-        record = program.GroundMotion(motion.resampled(step).acceleration / G, step)
-        slip = program.RigidAnalysis(YIELD, record).sliding_disp[:: round(STEP / step)]
+        slip = peer_pyslammer.slip(peer_pyslammer.record(motion, step), YIELD)[:: round(STEP / step)]
         wrong = float(np.abs(slip - exact).max())
         result.append(Solved("rigid", f"{step:g} s", wrong / exact[-1], mine / exact[-1]))
     return result

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from measure import Skipped, heading, require, table
+import one_way
+import peer_newmark
+from measure import heading, require, table
 from push_and_sine import EXACT, OUR_STEPS, STEPS, Attempt, ours, rows
 
 from heeltoe.kernel.build import PROFILE
@@ -15,8 +17,8 @@ COLUMNS = ["program", "settings", "step", "largest error", "relative", "time per
 def engines() -> str:
     """Measure the push-and-sine block and return Markdown."""
     own = [ours(step) for step in OUR_STEPS]
-    best: list[Attempt] = []
-    remarks = []
+    _, remarks = peer_newmark.programs()
+    best: list[Attempt] = [attempt for step in STEPS for attempt in peer_newmark.attempts(step)]
     for name in ("peer_mujoco", "peer_pybullet"):
         try:
             peer = import_module(name)
@@ -28,30 +30,19 @@ def engines() -> str:
             tried = peer.attempts(step)
             exact, quick = min(tried, key=lambda a: a.error), min(tried, key=lambda a: a.timing.median)
             best += [exact] if exact is quick else [exact, quick]
-    if not best:
-        raise Skipped("no peer ran: " + " ".join(remarks))
     text = (
         f"Push-and-sine block, exact slip {EXACT[-1]:.10f} m after 5 s. Errors are the largest at any tenth of a "
-        "second, relative to the slip in the end. Of every engine the setting with the smallest error at each step, "
+        "second, relative to the slip in the end. Of each engine the setting with the smallest error at each step, "
         "and the quickest if that is another."
     )
     return "\n\n".join([text, table(COLUMNS, rows(own, best)), *remarks])
 
 
-def slopes() -> str:
-    """Measure the block that slides one way, or say that there is nobody to compare it with."""
-    try:
-        report: str = import_module("peer_pyslammer").report()
-    except ImportError as reason:
-        return f"Not measured: pyslammer ({reason})."
-    return report
-
-
 def report() -> str:
     """Measure and return Markdown."""
     require(PROFILE == "release", "the kernel is a debug build")
-    packages = ["heeltoe", "pyslammer", "mujoco", "pybullet", "numpy"]
-    return "\n\n".join([heading("Rigid peers", packages), slopes(), engines()])
+    packages = ["heeltoe", "pyslammer", "numba", "mujoco", "pybullet", "numpy"]
+    return "\n\n".join([heading("Rigid peers", packages), one_way.report(), engines()])
 
 
 if __name__ == "__main__":

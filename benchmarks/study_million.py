@@ -44,16 +44,23 @@ limits = {{ residual_slip = ["10 mm", "150 mm"] }}
 """
 
 
+def prepared(folder: Path, runs: int) -> Path:
+    """Write the study and its case into a folder, and return the study's file."""
+    folder.mkdir(exist_ok=True)
+    case = (ROOT / "examples" / "typical-base.toml").read_text(encoding="utf-8")
+    drained = 'pattern = "drained"\ndrain_position = 0.1\ndrain_efficiency = 0.5\n'
+    before, pattern, after = case.partition('pattern = "triangular"')
+    require(bool(pattern), "the typical dam has another uplift")
+    (folder / "case.toml").write_text(before + drained + after.partition("\n")[2], encoding="utf-8")
+    (folder / "study.toml").write_text(STUDY.format(runs=runs, records=RECORDS.resolve()), encoding="utf-8")
+    return folder / "study.toml"
+
+
 def measured(runs: int) -> list[str]:
     """Run a study in a process of its own, and return a row of the table."""
     with TemporaryDirectory() as name:
         folder = Path(name)
-        case = (ROOT / "examples" / "typical-base.toml").read_text(encoding="utf-8")
-        drained = 'pattern = "drained"\ndrain_position = 0.1\ndrain_efficiency = 0.5\n'
-        before, pattern, after = case.partition('pattern = "triangular"')
-        require(bool(pattern), "the typical dam has another uplift")
-        (folder / "case.toml").write_text(before + drained + after.partition("\n")[2], encoding="utf-8")
-        (folder / "study.toml").write_text(STUDY.format(runs=runs, records=RECORDS.resolve()), encoding="utf-8")
+        prepared(folder, runs)
         began = time.perf_counter()
         running = subprocess.Popen(
             [sys.executable, "-m", "heeltoe", "study", "study.toml", "--out", "out"],
