@@ -171,3 +171,8 @@ def timed(timing: Timing) -> str:
     if len(timing.wall) < 3:
         return f"{seconds(timing.median)} (once)"
     return f"{seconds(timing.median)} ({timing.spread:.0%})"
+
+
+def times(ratio: float) -> str:
+    """Return how many times as long something takes."""
+    return f"{ratio:,.0f}" if ratio >= 10.0 else f"{ratio:.2g}"

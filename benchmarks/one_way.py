@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 import peer_newmark
 from exact import slip_one_way
-from measure import Timing, repeat, require, seconds, table, timed
+from measure import Timing, repeat, require, seconds, table, timed, times
 from problems import DURATION, LIMITS, STEP, Floats, G, rectangle, taft
 
 from heeltoe import GroundMotion, rigid_many
@@ -26,10 +26,11 @@ from heeltoe.kernel.shaking import Shaking
 
 PEAK = 0.4 * G
 YIELD = (0.05, 0.1, 0.2)
-#: Steps of the others; the record is straight between its samples, so that the problem stays the same.
-STEPS = (1e-2, 1e-3, 1e-4)
-#: Blocks of an ensemble of ours, and of the others' at each step.
-COUNT, OTHER_COUNTS = 2000, {1e-2: 2000, 1e-3: 200, 1e-4: 20}
+#: Steps of the others, and the blocks of an ensemble of theirs; the record is straight between its samples, so that the
+#: problem stays the same.
+STEPS = {1e-2: 2000, 1e-3: 200, 1e-4: 20}
+#: Blocks of an ensemble of ours.
+COUNT = 2000
 COLUMNS = [
     "k_y",
     "slip",
@@ -86,7 +87,7 @@ def newmark(motion: GroundMotion, yield_g: float, exact: Floats) -> list[Tried]:
     """Slide it by steps, as a user of C and of numba does."""
     tried = []
     for program in peer_newmark.programs()[0]:
-        for step, count in OTHER_COUNTS.items():
+        for step, count in STEPS.items():
             drive, ones = motion.resampled(step).acceleration, np.ones(count)
             down, up = yield_g * G, np.inf
             slip = program.one(drive, step, down, up)[:: round(STEP / step)]
@@ -130,11 +131,6 @@ def _row(tried: Tried, own: Tried, yield_g: float, slip: float) -> list[str]:
         "" if tried.together is None else seconds(tried.together),
         *ratios,
     ]
-
-
-def times(ratio: float) -> str:
-    """Return how many times as long something takes."""
-    return f"{ratio:,.0f}" if ratio >= 10.0 else f"{ratio:.2g}"
 
 
 def report() -> str:

@@ -22,6 +22,8 @@ from push_and_sine import AMPLITUDE, DURATION, FREQUENCY, FRICTION, GRAVITY, MOM
 
 SOURCE = Path(__file__).with_name("newmark.c")
 OPTIONS = ("-O3", "-march=native", "-shared", "-fPIC")
+#: Of the block that slides both ways [s].
+STEPS = (1e-2, 1e-3, 1e-4, 1e-5)
 _ARRAY = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
 #: Drive at samples a step apart [m/s2], the step [s], resistances to slip downstream and upstream [m/s2]; the slip at
 #: every sample comes back [m].
@@ -47,15 +49,16 @@ def programs() -> tuple[list[Program], list[str]]:
     return found, missing
 
 
-def attempts(step: float) -> list[Attempt]:
-    """Slide the block of push_and_sine.py both ways, by each program."""
-    time = np.arange(round(DURATION / step) + 1) * step
-    drive = PUSH - AMPLITUDE * np.sin(2.0 * np.pi * FREQUENCY * time)
-    limit, seen, tried = FRICTION * GRAVITY, np.round(MOMENTS / step).astype(int), []
+def attempts() -> list[Attempt]:
+    """Slide the block of push_and_sine.py both ways, by each program at each step."""
+    limit, tried = FRICTION * GRAVITY, []
     for program in programs()[0]:
-        slip = program.one(drive, step, limit, limit)[seen]
-        timing = repeat(partial(program.one, drive, step, limit, limit))
-        tried.append(Attempt(program.name, "sine sampled", step, error(slip), timing))
+        for step in STEPS:
+            time = np.arange(round(DURATION / step) + 1) * step
+            drive = PUSH - AMPLITUDE * np.sin(2.0 * np.pi * FREQUENCY * time)
+            slip = program.one(drive, step, limit, limit)[np.round(MOMENTS / step).astype(int)]
+            timing = repeat(partial(program.one, drive, step, limit, limit))
+            tried.append(Attempt(program.name, "sine sampled", step, error(slip), timing))
     return tried
 
 

@@ -1,5 +1,5 @@
-"""Siconos on the push-and-sine block made elastic, and on two rigid blocks, one on the other: Moreau and Jean's time
-stepping, contact without a penalty.
+"""Siconos on the push-and-sine block made elastic, on two rigid blocks, one on the other, and on a block whose ground
+shakes both ways: Moreau and Jean's time stepping, contact without a penalty.
 
 Siconos is not on PyPI. Debian has it (python3-siconos) for its own Python and its own NumPy, which another interpreter
 cannot load; so this file calls itself: `sliding_block` hands the matrices to an interpreter that has Siconos, and what
@@ -170,22 +170,23 @@ def sliding_block(
     )
 
 
-def two_blocks(problem: dict[str, Floats], step: float) -> Floats:
-    """Rock two rigid blocks, one on the other, by small steps.
+def rigid_blocks(problem: dict[str, Floats], step: float) -> Floats:
+    """Move rigid blocks by small steps.
 
     Parameters
     ----------
     problem
-        `mass` (6,) of both bodies' motions; `gaps` and `slips` (4, 6), rows of the corners; `friction`, `bounce` (4,)
-        of them; `force` (6,) and `along` (6,), the weights and what a ground acceleration moves; `time` and `ground`,
-        (n,) the samples of the motion.
+        `mass` (n,) of the motions; `gaps` and `slips` (c, n), rows of the corners, and `crosses` (c, n) where they slip
+        across the plane, too; `friction`, `bounce` (c,) of them; `force` and `along` (n,), the weights and what an
+        acceleration of the ground moves, and `across` (n,) of one across the plane; `time` and `ground` (k,), the
+        samples of the motion, and `ground_across` (k,).
     step
         Time step [s].
 
     Returns
     -------
-    ndarray, shape (k + 1, 8)
-        Gaps and slips of the corners at each step.
+    ndarray, shape (k + 1, 2 c) or (k + 1, 3 c)
+        Gaps and slips of the corners at each step, and slips across.
 
     Raises
     ------
@@ -204,21 +205,23 @@ def two_blocks(problem: dict[str, Floats], step: float) -> Floats:
 
 
 def _rock(problem: dict[str, Any], step: float, path: Path) -> None:
-    """Make the steps of `two_blocks`, inside the interpreter that has Siconos."""
+    """Make the steps of `rigid_blocks`, inside the interpreter that has Siconos."""
     from siconos import kernel, numerics
 
-    end = float(problem["time"][-1])
-    body = kernel.LagrangianLinearTIDS(np.zeros(6), np.zeros(6), np.diag(problem["mass"]))
-    body.setFExtPtr(kernel.SiconosVector(6))
+    size, end = problem["mass"].size, float(problem["time"][-1])
+    body = kernel.LagrangianLinearTIDS(np.zeros(size), np.zeros(size), np.diag(problem["mass"]))
+    body.setFExtPtr(kernel.SiconosVector(size))
     world = kernel.NonSmoothDynamicalSystem(0.0, end + 1.0)
     world.insertDynamicalSystem(body)
-    names = ("gaps", "slips", "friction", "bounce")
-    for gap, slip, friction, bounce in zip(*(problem[name] for name in names), strict=True):
-        law = kernel.NewtonImpactFrictionNSL(float(bounce), 0.0, float(friction), 2)
-        relation = kernel.LagrangianLinearTIR(np.vstack([gap, slip]), np.zeros(2))
+    names = ("gaps", "slips", "crosses") if "crosses" in problem else ("gaps", "slips")
+    rows = np.stack([problem[name] for name in names], axis=1)
+    for row, friction, bounce in zip(rows, problem["friction"], problem["bounce"], strict=True):
+        law = kernel.NewtonImpactFrictionNSL(float(bounce), 0.0, float(friction), len(names))
+        relation = kernel.LagrangianLinearTIR(row, np.zeros(len(names)))
         world.link(kernel.Interaction(law, relation), body)
     # Pivoting and enumeration let blocks that stand creep by millimetres; projections do not.
-    contact = kernel.FrictionContact(2, numerics.SICONOS_FRICTION_2D_NSGS)
+    solver = numerics.SICONOS_FRICTION_2D_NSGS if len(names) == 2 else numerics.SICONOS_FRICTION_3D_NSGS
+    contact = kernel.FrictionContact(len(names), solver)
     contact.setMStorageType(1)
     options = contact.numericsSolverOptions()
     options.iparam[numerics.SICONOS_IPARAM_MAX_ITER] = 100_000
@@ -227,11 +230,17 @@ def _rock(problem: dict[str, Any], step: float, path: Path) -> None:
     simulation = kernel.TimeStepping(world, clock, scheme, contact)
     simulation.setNewtonOptions(kernel.SICONOS_TS_LINEAR)
     count = round(end / step)
-    ground = np.interp((np.arange(count) + 0.5) * step, problem["time"], problem["ground"])
-    force, place, seen = body.fExt(), body.q(), np.zeros((count + 1, 8))
-    both = np.vstack([problem["gaps"], problem["slips"]])
+    middle = (np.arange(count) + 0.5) * step
+    ground = [np.interp(middle, problem["time"], problem["ground"])]
+    drive = [problem["along"]]
+    if "across" in problem:
+        ground.append(np.interp(middle, problem["time"], problem["ground_across"]))
+        drive.append(problem["across"])
+    forces = problem["force"] + np.column_stack(ground) @ np.array(drive)
+    force, place, both = body.fExt(), body.q(), np.concatenate([problem[name] for name in names])
+    seen = np.zeros((count + 1, len(both)))
     for k in range(count):
-        np.add(problem["force"], problem["along"] * ground[k], out=force)
+        force[:] = forces[k]
         simulation.computeOneStep()
         simulation.nextStep()
         seen[k + 1] = both @ place

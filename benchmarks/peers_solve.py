@@ -14,8 +14,9 @@ from push_and_sine import Attempt, error, ours
 #: Steps of the engines [s]; heeltoe samples the sine as finely.
 STEPS = (1e-2, 1e-3, 1e-4)
 TOLERANCES = (1e-6, 1e-10)
-#: Steps of Siconos for two blocks, and those that stand for its limit [s].
-BLOCK_STEPS, BLOCK_LIMIT = (1e-3, 1e-4), 2.5e-5
+#: Steps of Siconos for rigid blocks, and those that stand for its limit: with two blocks, and with one shaken both ways
+#: [s].
+BLOCK_STEPS, BLOCK_LIMIT, CIRCLE_LIMIT = (1e-3, 1e-4), 2.5e-5, 1e-5
 YIELD, PEAK = 0.1, 0.4
 
 
@@ -103,7 +104,7 @@ def siconos_blocks() -> list[Solved]:
         time, ground = pulse(size, rest=1.5)
         problem = stack.problem(time, ground)
         *coarse, limit = (
-            at_samples(time, np.arange(round(time[-1] / step) + 1) * step, peer_siconos.two_blocks(problem, step))
+            at_samples(time, np.arange(round(time[-1] / step) + 1) * step, peer_siconos.rigid_blocks(problem, step))
             for step in (*BLOCK_STEPS, BLOCK_LIMIT)
         )
         # The columns of Siconos are gaps and slips of corners; ours slip, heel and toe gap of each crack.
@@ -111,6 +112,26 @@ def siconos_blocks() -> list[Solved]:
         for step, seen in zip(BLOCK_STEPS, coarse, strict=True):
             wrong = float(np.abs(seen - limit).max())
             result.append(Solved(f"both {name}, Gauss-Seidel", f"{step:g} s", 1e3 * wrong, 1e3 * mine, "mm"))
+    return result
+
+
+def siconos_circle() -> list[Solved]:
+    """Shake a block both ways with Siconos."""
+    import both_ways
+    import peer_siconos
+
+    result = []
+    for name, shaken in both_ways.BLOCKS.items():
+        problem, time = shaken.problem(), both_ways.TIME
+        # Both corners slip alike.
+        *coarse, limit = (
+            peer_siconos.rigid_blocks(problem, step)[:: round(time[1] / step), [0, 1, 2, 4]]
+            for step in (*BLOCK_STEPS, CIRCLE_LIMIT)
+        )
+        mine = float(np.abs(shaken.ours() - limit).max())
+        for step, seen in zip(BLOCK_STEPS, coarse, strict=True):
+            wrong = float(np.abs(seen - limit).max())
+            result.append(Solved(f"it {name}, Gauss-Seidel", f"{step:g} s", 1e3 * wrong, 1e3 * mine, "mm"))
     return result
 
 

@@ -18,7 +18,7 @@ def engines() -> str:
     """Measure the push-and-sine block and return Markdown."""
     own = [ours(step) for step in OUR_STEPS]
     _, remarks = peer_newmark.programs()
-    best: list[Attempt] = [attempt for step in STEPS for attempt in peer_newmark.attempts(step)]
+    best: list[Attempt] = peer_newmark.attempts()
     for name in ("peer_mujoco", "peer_pybullet"):
         try:
             peer = import_module(name)
