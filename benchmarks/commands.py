@@ -1,7 +1,7 @@
 """What a user waits for: whole commands from the shell, the interpreter's start included.
 
 python benchmarks/commands.py                                     # printed only
-python benchmarks/commands.py --beside ../other/.venv/bin/heeltoe # and the table of beside.py, with that build
+python benchmarks/commands.py --beside ../other/.venv/bin/heeltoe # and the table of other_build.py, with that build
 """
 
 from __future__ import annotations
@@ -63,6 +63,6 @@ if __name__ == "__main__":
     other = parser.parse_args().beside
     print(report())
     if other is not None:
-        import beside
+        import other_build
 
-        print(f"\n{beside.report(other)}")
+        print(f"\n{other_build.report(other)}")

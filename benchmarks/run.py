@@ -31,7 +31,7 @@ PARTS = {
     "elastic_rocking": "Elastic block that rocks",
     "exported_dam": "The exported dam",
     "commands": "Commands",
-    "beside": "Beside a0d9960f",
+    "other_build": "Beside a0d9960f",
     "app_redraw": "The app in a browser",
 }
 TITLE = "# Measured results\n\nWritten by `python benchmarks/run.py`; what the numbers mean is in the README beside it."

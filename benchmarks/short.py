@@ -1,9 +1,11 @@
-"""Write the table of speed in docs/other-programs.md and paper.md from results.md: `python benchmarks/short.py`."""
+"""Write the table of speed in docs/other-programs.md and paper.md from results.md, and in which of its rows another
+program is quicker: `python benchmarks/short.py`."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import NamedTuple
 
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "benchmarks" / "results.md"
@@ -18,32 +20,58 @@ HEAD = [
     "times ours at equal nodes",
 ]
 ELASTIC = "8-node, exact contact"
-#: Problem, the section and the column of its errors; then what is shown: a name, and how its row begins in columns.
-CHOSEN: tuple[tuple[str, str, str, tuple[tuple[str, dict[str, str]], ...]], ...] = (
-    (
-        "one-way sliding under Taft, *k_y* 0.1",
+
+
+class Problem(NamedTuple):
+    """A problem of the table: its section, what is shown of it (a name, and how its row begins in columns), and the
+    columns of the errors, the times and the ratios."""
+
+    title: str
+    section: str
+    shown: tuple[tuple[str, dict[str, str]], ...]
+    error: str = "relative"
+    time: str = "time per run"
+    ratio: str = "times ours at no larger error"
+
+
+_AT_01 = {"k_y": "0.1"}
+_NEWMARK = (
+    ("Newmark in C, 0.01 s", {"program": "Newmark in C", "step": "0.01 s"}),
+    ("Newmark in C, 0.001 s", {"program": "Newmark in C", "step": "0.001 s"}),
+    ("Newmark in C, 0.0001 s", {"program": "Newmark in C", "step": "0.0001 s"}),
+    ("Newmark in numba, 0.01 s", {"program": "Newmark in numba", "step": "0.01 s"}),
+)
+_ONE_WAY = (("heeltoe", _AT_01 | {"program": "heeltoe"}), *((name, _AT_01 | row) for name, row in _NEWMARK))
+PROBLEMS = (
+    Problem(
+        "one-way sliding under Taft, *k_y* 0.1, with the slip at every sample",
         "Rigid peers",
-        "relative",
         (
-            ("heeltoe", {"k_y": "0.1", "program": "heeltoe", "time per run": r"\S+ \S+ \S+ one call"}),
+            *_ONE_WAY,
             ("pySLAMMER, 0.01 s", {"k_y": "0.1", "program": "pySLAMMER", "step": "0.01 s"}),
             ("pySLAMMER, 0.001 s", {"k_y": "0.1", "program": "pySLAMMER", "step": "0.001 s"}),
         ),
     ),
-    (
+    Problem(
+        "the same block among many, with its slip at the end",
+        "Rigid peers",
+        _ONE_WAY,
+        time="in an ensemble",
+        ratio="in an ensemble, times ours",
+    ),
+    Problem(
         "sliding both ways, pushed and shaken",
         "Rigid peers",
-        "relative",
         (
-            ("heeltoe, 0.002 s", {"settings": "sine sampled", "step": "0.002 s"}),
+            ("heeltoe, 0.002 s", {"program": "heeltoe", "settings": "sine sampled", "step": "0.002 s"}),
+            *((name, row | {"settings": "sine sampled"}) for name, row in _NEWMARK),
             ("MuJoCo, 0.001 s", {"program": "MuJoCo", "settings": "impedance 0.99, ratio 100", "step": "0.001 s"}),
             ("PyBullet, 0.001 s", {"program": "PyBullet", "settings": "200 iterations", "step": "0.001 s"}),
         ),
     ),
-    (
+    Problem(
         "the same block, elastic",
         "Elastic block beside peers",
-        "relative",
         (
             ("heeltoe, 17 nodes on the base, 0.002 s", {"settings": f"8 across, {ELASTIC}", "step": "0.002 s"}),
             ("heeltoe, 33 nodes on the base, 0.002 s", {"settings": f"16 across, {ELASTIC}", "step": "0.002 s"}),
@@ -52,23 +80,23 @@ CHOSEN: tuple[tuple[str, str, str, tuple[tuple[str, dict[str, str]], ...]], ...]
             ("Siconos, 33 nodes, 0.001 s", {"program": "Siconos", "settings": ".*8-node", "step": "0.001 s"}),
         ),
     ),
-    (
+    Problem(
         "an elastic block that rocks",
         "Elastic block that rocks",
-        "relative",
         (
             ("heeltoe, 16 elements across, 0.0002 s", {"program": "heeltoe", "step": "0.0002 s"}),
             ("OpenSees, RockingBC, 16 pieces, 0.0002 s", {"program": "OpenSees RockingBC", "step": "0.0002 s"}),
         ),
     ),
-    (
+    Problem(
         "rocking at any rotation, El Centro",
         "Rotations of any size",
-        "largest relative error",
         (
             ("heeltoe", {"above": "The same block through", "program": "heeltoe"}),
             ("SciPy, DOP853", {"above": "The same block through", "program": "SciPy", "tolerance": "1e-08"}),
         ),
+        error="largest relative error",
+        ratio="times ours",
     ),
 )
 
@@ -97,31 +125,63 @@ def seconds(time: str) -> float:
     return float(number) * {"µs": 1e-6, "ms": 1e-3, "s": 1.0}[unit]
 
 
-def table(text: str) -> str:
-    """Return the table of speed that results have, in Markdown."""
-    lines = [HEAD, ["---"] * len(HEAD)]
-    for problem, section, error, shown in CHOSEN:
+class Line(NamedTuple):
+    """A row of the table: the problem, the program, its error, its time, and ratios to ours, or nothing."""
+
+    problem: str
+    program: str
+    error: str
+    time: str
+    ratio: str
+    alike: str
+
+
+def lines(text: str) -> list[Line]:
+    """Return the rows of the table of speed that results have."""
+    result = []
+    for problem in PROBLEMS:
         ours: dict[str, float] = {}
-        for number, (name, wanted) in enumerate(shown):
-            row = only(rows(text, section), wanted)
-            time = re.match(r"[\d.]+ \S+", row["time per run"])
+        for name, wanted in problem.shown:
+            row = only(rows(text, problem.section), wanted)
+            time = re.match(r"[\d.]+ \S+", row[problem.time])
             if time is None:
                 raise SystemExit(f"no time in the row {row}")
-            ratio = next((value for key, value in row.items() if key.startswith("times ours")), "").split(" ")[0]
             nodes = re.search(r"\d+ nodes", name)
             alike = ""
             if nodes and name.startswith("heeltoe"):
                 ours[nodes[0]] = seconds(time[0])
             elif nodes:
                 alike = f"{seconds(time[0]) / ours[nodes[0]]:,.0f}"
-            lines.append(["" if number else problem, name, row[error], time[0], ratio, alike])
-    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+            ratio = row.get(problem.ratio, "").split(" ")[0]
+            result.append(Line(problem.title, name, row[problem.error], time[0], ratio, alike))
+    return result
+
+
+def table(text: str) -> str:
+    """Return the table of speed that results have, in Markdown."""
+    cells, above = [HEAD, ["---"] * len(HEAD)], ""
+    for line in lines(text):
+        cells.append(["" if line.problem == above else line.problem, *line[1:]])
+        above = line.problem
+    return "".join(f"| {' | '.join(row)} |\n" for row in cells)
+
+
+def quicker(text: str) -> str:
+    """Return in which rows another program takes less time than our quickest run that is as exact, as a list."""
+    lost: dict[str, list[str]] = {}
+    for line in lines(text):
+        if line.ratio and float(line.ratio.replace(",", "")) < 1.0:
+            lost.setdefault(line.problem, []).append(f"{line.program} ({line.ratio})")
+    if not lost:
+        return "No program of this table takes less time than our quickest run that is as exact.\n"
+    named = "".join(f"- {problem}: {'; '.join(programs)}\n" for problem, programs in lost.items())
+    return f"We lose to programs that take less time than our quickest run that is as exact:\n\n{named}"
 
 
 def renewed(page: str, text: str) -> str:
-    """Return a page with the table that results have."""
+    """Return a page with the table that results have, and the sentence below it."""
     before, rest = page.split(BEGINS)
-    return f"{before}{BEGINS}\n{table(text)}\n{ENDS}{rest.split(ENDS)[1]}"
+    return f"{before}{BEGINS}\n{table(text)}\n{quicker(text)}\n{ENDS}{rest.split(ENDS)[1]}"
 
 
 if __name__ == "__main__":

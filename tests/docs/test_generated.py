@@ -34,9 +34,19 @@ def test_the_table_of_speed_is_that_of_the_results(page):
 
 
 def test_a_result_that_changes_changes_the_table():
-    assert SHORT["table"](RESULTS.replace("4.19 ms", "9.19 ms")) != SHORT["table"](RESULTS)
+    shown = next(line.time for line in SHORT["lines"](RESULTS) if line.program.startswith("pySLAMMER"))
+    assert SHORT["table"](RESULTS.replace(f"| {shown} ", "| 9.876 ms ")) != SHORT["table"](RESULTS)
     with pytest.raises(SystemExit, match="choose anew"):
         SHORT["table"](RESULTS.replace("| PyBullet |", "| Bullet |"))
+
+
+def test_rows_in_which_another_program_is_quicker_are_named():
+    quicker = [line for line in SHORT["lines"](RESULTS) if line.ratio and float(line.ratio.replace(",", "")) < 1.0]
+    text = SHORT["quicker"](RESULTS)
+    assert all(f"{line.program} ({line.ratio})" in text for line in quicker)
+    assert text.count("(") == len(quicker)
+    slower = re.sub(r"(?<!\n)\| 0\.\d+ (?=[|(])", "| 7 ", RESULTS)
+    assert SHORT["quicker"](slower).startswith("No program of this table")
 
 
 def figures(page: str) -> set[str]:

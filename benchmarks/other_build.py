@@ -1,8 +1,8 @@
 """This heeltoe beside a build of a0d9960f, the version before the work on speed: the same dams, in turn.
 
-HEELTOE_BESIDE=../other/.venv/bin/heeltoe python benchmarks/beside.py        # printed only
-HEELTOE_BESIDE=../other/.venv/bin/heeltoe python benchmarks/run.py beside    # into results.md
-HEELTOE_BESIDE=... HEELTOE_MILLION=none python benchmarks/beside.py          # without the million dams
+HEELTOE_BESIDE=../other/.venv/bin/heeltoe python benchmarks/other_build.py        # printed only
+HEELTOE_BESIDE=../other/.venv/bin/heeltoe python benchmarks/run.py other_build    # into results.md
+HEELTOE_BESIDE=... HEELTOE_MILLION=none python benchmarks/other_build.py          # without the million dams
 """
 
 from __future__ import annotations
@@ -212,7 +212,7 @@ class Both:
         read: Callable[[Taken], Measured] = of_work,
     ) -> Row:
         """Return the row of work within a process, by an order to each version."""
-        ours, other = (partial(version.work, "beside_work.py") for version in (self.ours, self.other))
+        ours, other = (partial(version.work, "other_build_work.py") for version in (self.ours, self.other))
         return Row(what, (partial(ours, orders[0]), partial(other, orders[1])), asked, read)
 
 
