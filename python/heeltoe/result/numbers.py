@@ -548,6 +548,20 @@ class Tension(StressPlace):
     compression: Annotated[StressPlace, Number("The largest principal compression, where and when.")]
 
 
+class Distribution(Block):
+    """A number over many runs with the shaking varied by up to 1 %, where single runs scatter. Runs without a result
+    count as farther than all others."""
+
+    numbers: Annotated[list[float | None], Number("The number of each run, by `scales`; null where it has no result.")]
+    fractile_16: Annotated[
+        float | None, Number("The number that 16 % of the runs keep to, the way the mean goes; null without a result.")
+    ]
+    fractile_50: Annotated[float | None, Number("The number that half of the runs keep to; null without a result.")]
+    fractile_84: Annotated[
+        float | None, Number("The number that 84 % of the runs keep to, which limits judge; null without a result.")
+    ]
+
+
 class RotationWorth(Block):
     """Worth of a headline number, in its unit; of a rotation [rad] with a bound only where there is one."""
 
@@ -570,7 +584,10 @@ class RotationWorth(Block):
     ]
     shaking: Annotated[
         float | None,
-        Number("Standard deviation over runs with the shaking varied by up to 1 %; null where there are none."),
+        Number(
+            "By how much the shaking, varied by up to 1 %, moves the number to trust: the standard deviation of a run, "
+            "the standard error of a mean; null where there are no such runs."
+        ),
     ]
     surroundings: Annotated[
         float | None,
@@ -578,6 +595,14 @@ class RotationWorth(Block):
             "By how much rock and water that reach farther move it: 1.5 times as far, and up to 1.5 times the "
             "frequency; null where there are none."
         ),
+    ] = None
+    spread: Annotated[
+        float | None,
+        Number("Standard deviation of single runs with the shaking varied by up to 1 %; null where there are none."),
+    ] = None
+    distribution: Annotated[
+        Distribution | None,
+        Number("Its distribution where single runs scatter; left out of numbers of one run.", optional=True),
     ] = None
 
 
@@ -615,7 +640,17 @@ class EvidenceNumbers(Block):
         int | None, Number("Elements along the crack of a third, coarser mesh; null where there is none.")
     ]
     scales: Annotated[list[float], Number("Factors on the ground motion of the runs with the shaking varied.")]
-    residual_slips_m: Annotated[list[float], Number("Residual slips of the runs with the shaking varied.", "m")]
+    residual_slips_m: Annotated[
+        list[float | None],
+        Number("Residual slips of the runs with the shaking varied; null of one without a result.", "m"),
+    ]
+    varied_time_step_s: Annotated[
+        float | None, Number("Time step of the runs with the shaking varied; null where there are none.", "s")
+    ] = None
+    varied_elements_across: Annotated[
+        int | None,
+        Number("Elements along the crack of the runs with the shaking varied; null where there are none."),
+    ] = None
     failed: Annotated[int, Number("Runs with the shaking varied that end without a result.")]
     runs: Annotated[int, Number("Runs in all.")]
     work: Annotated[float, Number("Cost of all runs, in runs of the first mesh and step.")]
@@ -638,7 +673,7 @@ class EvidenceNumbers(Block):
 
     @property
     def scatters(self) -> bool:
-        """Whether single runs scatter, so that the numbers to trust are means."""
+        """Whether single runs scatter, so that the numbers to trust are means of distributions."""
         return self.value_is == "mean"
 
 

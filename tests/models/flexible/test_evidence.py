@@ -11,11 +11,12 @@ from heeltoe.models.flexible.body import reduced
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.evidence import refinement
 from heeltoe.models.flexible.evidence.refinement import _finer, _moved_by_mesh, answer, build_ahead
-from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
+from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials, scales_of
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import with_mesh
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.result.contract import RESIDUAL_SLIP
 from shared.dams import plane_case
 from shared.evidence import evidence_of
 
@@ -123,22 +124,93 @@ def test_other_meshes_of_a_case():
     assert [with_mesh(case, mesh).flexible.elements_across_below for mesh in (-1, 1)] == [4, 16]
 
 
+# A sample, of which every fourth run is one of a pair.
+NINE = (0.99, 0.9925, 0.995, 0.9975, 1.0, 1.0025, 1.005, 1.0075, 1.01)
+
+
+def error_of(numbers):
+    return np.std(numbers, ddof=1) / np.sqrt(len(numbers))
+
+
 def test_where_runs_scatter_the_numbers_are_means(monkeypatch):
     monkeypatch.setattr(refinement, "_scatter", lambda slips, step: True)
+    monkeypatch.setattr(refinement, "scales_of", lambda doublings: NINE)
     response = flexible(dam(elements_across=4), MOTION)
-    evidence = response.evidence
-    longer = f"{2.0 * response.time_step_s} s"
-    members = {across: [slip(s, elements_across=across, time_step=longer) for s in SCALES] for across in (4, 2)}
+    evidence, step = response.evidence, response.time_step_s
+
+    def slips(scales, across, times):
+        return np.array([slip(s, elements_across=across, time_step=f"{times * step} s") for s in scales])
+
+    members, some = slips(NINE, 2, 4.0), NINE[::4]
     worth = evidence["residual_slip_m"]
     assert evidence["value_is"] == "mean"
-    assert response.residual_slip_m == worth["value"] == pytest.approx(np.mean(members[4]), abs=1e-12)
-    assert worth["mesh"] == pytest.approx(abs(np.mean(members[4]) - np.mean(members[2])), abs=1e-12)
-    # The larger of those of both meshes.
-    deviations = [np.std(slips, ddof=1) for slips in members.values()]
-    assert worth["shaking"] == pytest.approx(max(deviations), abs=1e-12)
+    assert evidence["scales"] == list(NINE)
+    assert (evidence["varied_elements_across"], evidence["varied_time_step_s"]) == (2, pytest.approx(4.0 * step))
+    assert evidence["residual_slips_m"] == worth["distribution"]["numbers"] == pytest.approx(members, abs=1e-12)
+    assert response.residual_slip_m == worth["value"] == pytest.approx(np.mean(members), abs=1e-12)
+    assert worth["spread"] == pytest.approx(np.std(members, ddof=1), abs=1e-12)
+    assert worth["shaking"] == pytest.approx(error_of(members), abs=1e-12)
+    for name, across, times in (("step", 2, 2.0), ("mesh", 4, 4.0)):
+        changes = slips(some, across, times) - members[::4]
+        assert worth[name] == pytest.approx(max(abs(np.mean(changes)), error_of(changes)), abs=1e-12)
+    parts = [worth[name] for name in ("step", "mesh", "shaking")]
+    assert worth["uncertainty"] == pytest.approx(np.linalg.norm(parts))
     assert worth["run"] == pytest.approx(response.histories["slip_m"][-1], abs=1e-12) != worth["value"]
     assert any("single runs scatter" in str(warning) for warning in response.warnings)
     assert "numerically ±" in response.to_json()["verdict"]
+
+
+def sample(slips, scales, *, fails=()):
+    """Return runs that slide as far as `slips` says of a factor."""
+    good = np.array([scale not in fails for scale in scales])
+    numbers = {RESIDUAL_SLIP.key: np.array([slips(scale) for scale in scales])}
+    return refinement._Sample(Level(-1, -1), tuple(scales), numbers, good)
+
+
+def test_pairs_tell_the_difference_of_two_levels_below_the_scatter_of_either():
+    """By hand: slips that go up and down by 0.1 m with the shaking alike on both, 4 mm farther on the one; and one that
+    differs by 1, -1, 1, -1 mm, whose mean of nothing has a standard error of 1.155/2 mm."""
+    scatter = {scale: 0.5 + 0.1 * (-1.0) ** place for place, scale in enumerate(NINE)}
+    own = sample(lambda scale: scatter[scale], NINE)
+    farther = sample(lambda scale: scatter[scale] + 0.004, NINE[::4])
+    assert own.moved(RESIDUAL_SLIP.key, farther) == pytest.approx(0.004)
+    jump = dict(zip(NINE[1:5], (1e-3, -1e-3, 1e-3, -1e-3), strict=True))
+    other = sample(lambda scale: scatter[scale] + jump[scale], NINE[1:5])
+    assert own.moved(RESIDUAL_SLIP.key, other) == pytest.approx(1e-3 * np.sqrt(4.0 / 3.0) / 2.0)
+    # Nothing is left to compare: the mean itself is in doubt.
+    lost = sample(lambda scale: scatter[scale], NINE[:4], fails=NINE[:3])
+    assert own.moved(RESIDUAL_SLIP.key, lost) == pytest.approx(np.mean(list(scatter.values())))
+
+
+def test_runs_without_a_result_are_counted_and_have_no_part_in_a_mean():
+    slips = sample(lambda scale: 0.3 if scale < 1.0 else 0.5, NINE, fails=(1.01,))
+    assert slips.values(RESIDUAL_SLIP.key) == [0.3] * 4 + [0.5] * 4 + [None]
+    assert slips.known(RESIDUAL_SLIP.key).mean() == pytest.approx(0.4)
+
+
+@pytest.mark.parametrize(
+    ("deviation", "enough"),
+    # 3 % of 0.4 m by 8 deviations.
+    [(0.095, True), (0.097, False)],
+)
+def test_a_mean_is_known_where_its_standard_error_is_three_per_cent(deviation, enough):
+    scales = scales_of(0)
+    # Half of them above and half below, but for the middle one.
+    way = np.array([*([1.0, -1.0] * 32), 0.0])
+    size = deviation * np.sqrt(65.0 / 64.0) * way
+    numbers = dict(zip(scales, 0.4 + size, strict=True))
+    mean = sample(lambda scale: numbers[scale], scales)
+    assert mean.known(RESIDUAL_SLIP.key).mean() == pytest.approx(0.4)
+    assert mean.error(RESIDUAL_SLIP.key) == pytest.approx(deviation / 8.0, rel=0.01)
+    assert mean.is_enough is enough
+
+
+def test_samples_grow_by_runs_between_those_that_are_there():
+    first, second = scales_of(0), scales_of(1)
+    assert (len(first), len(second)) == (65, 129)
+    assert second[::2] == first
+    assert set(SCALES) <= set(first)
+    assert (first[0], first[-1]) == (0.99, 1.01)
 
 
 def test_kinks_that_fewer_elements_cannot_follow_are_compared_with_more():
@@ -147,17 +219,6 @@ def test_kinks_that_fewer_elements_cannot_follow_are_compared_with_more():
     case = plane_case(FIELDS | {"crack": crack, "flexible": {"elements_across": 8}})
     evidence = flexible(case, MOTION).evidence
     assert (evidence["elements_across"], evidence["other_elements_across"]) == (8, 16)
-
-
-def test_means_are_compared_with_a_third_mesh_where_two_may_agree_by_chance(monkeypatch):
-    monkeypatch.setattr(refinement, "_scatter", lambda slips, step: True)
-    response = flexible(dam(elements_across=8), MOTION)
-    longer = f"{2.0 * response.time_step_s} s"
-    means = [np.mean([slip(s, elements_across=n, time_step=longer) for s in SCALES]) for n in (8, 4, 2)]
-    moved = np.abs(np.diff(means))
-    assert moved[0] < moved[1] / 4.0
-    assert response.evidence["third_elements_across"] == 2
-    assert response.evidence["residual_slip_m"]["mesh"] == pytest.approx(moved[1] / 4.0, abs=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -187,11 +248,11 @@ def test_the_work_of_runs_is_counted_once():
 
 
 def test_a_mesh_whose_runs_are_too_many_is_not_built(monkeypatch):
-    """By hand: of twice the elements one run at 4, five at half of that; of what is larger five on the first mesh at a
-    half."""
+    """By hand: of twice the elements one run at 4, one at half of that and 17 at a quarter; 65 on the first mesh at a
+    quarter, and 17 of what is larger."""
     case = read_case(FIELDS | {"flexible": {"elements_across": 2}, "motion": {"file": "elcentro-1940-180-nga"}})
     shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(MOTION, None, 1.0).shaking)
-    trials, work = Trials(shaken, 1e-3, 0.1), 4.0 + 5.0 * 2.0 + 5.0 * 0.5
+    trials, work = Trials(shaken, 1e-3, 0.1), 4.0 + 2.0 + 17.0 * 1.0 + (65.0 + 17.0) * 0.25
     finer = Level(1, 0)
     assert trials.cost(refinement._fewest(trials, finer, -1, full=True, means=True)) == work
 

@@ -2,19 +2,23 @@
 
 A result that is converged in its step may depend on the mesh, and one that is converged in both on the last per cent of
 the shaking. Where friction flutters or a dam strikes and bounces, a single run is one of many equals, which say little
-about step or mesh; their mean does."""
+about step or mesh; their distribution does."""
 
 from __future__ import annotations
+
+import math
 
 from heeltoe.case.model import Case
 from heeltoe.models.flexible.body.reduced import FlexibleDam
 from heeltoe.result.contract import HEADLINES, JOINT_METER_M
-from heeltoe.result.numbers import EvidenceNumbers, HeadlineWorth
+from heeltoe.result.numbers import Distribution, EvidenceNumbers, HeadlineWorth
 
 #: By how much of its value a slip that is said to be converged may be uncertain, and at least by how much [m].
 LIMIT, LEAST_M = 0.10, 10.0 * JOINT_METER_M
 #: The uncertainty that is said is at least this part of the value; and of lengths at least this [m].
 FLOOR, FLOOR_M = 0.03, 0.5 * JOINT_METER_M
+#: The standard error of a mean that needs no further runs is at most this part of it.
+ERROR_OF_MEAN = 0.03
 #: So much all runs of a result may cost, in single ones with the elements of the case at the first step.
 BUDGET = 20.0
 
@@ -51,10 +55,14 @@ def worth_of(
     surroundings: float | None = None,
     *,
     least: float = 0.0,
+    spread: float | None = None,
+    distribution: Distribution | None = None,
 ) -> HeadlineWorth:
     """Return the uncertainty of a number: its changes taken together, and never less than two meshes or two steps that
-    agree by chance may hide, nor than `least` in the unit of the number."""
-    moved = sum(part or 0.0 for part in (step, mesh, shaking, surroundings))
+    agree by chance may hide, nor than `least` in the unit of the number. The changes of a mean, the number that has a
+    `distribution`, are errors of independent samples, which add by their squares; those of a run add."""
+    parts = [part or 0.0 for part in (step, mesh, shaking, surroundings)]
+    moved = sum(parts) if distribution is None else math.hypot(*parts)
     return HeadlineWorth(
         value=value,
         run=run,
@@ -63,6 +71,8 @@ def worth_of(
         mesh=mesh,
         shaking=shaking,
         surroundings=surroundings,
+        spread=shaking if distribution is None else spread,
+        distribution=distribution,
     )
 
 

@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats
 from heeltoe.case.options import Flexible
@@ -17,16 +18,19 @@ from heeltoe.models.flexible.body.cost import wave_bodies
 from heeltoe.models.flexible.body.reduced import FlexibleDam
 from heeltoe.models.flexible.evidence.evidence import (
     BUDGET,
+    ERROR_OF_MEAN,
     FLOOR_M,
+    LIMIT,
     allowed,
     may_have_no_limit,
     most_moved_by,
     worth_of,
 )
-from heeltoe.models.flexible.evidence.trials import CROSS_SLIP, SCALES, SOFTENING, Level, Trials
+from heeltoe.models.flexible.evidence.trials import CROSS_SLIP, SCALES, SOFTENING, Level, Trials, scales_of
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import FEWEST_ACROSS
 from heeltoe.result.contract import CRACKED, HEADLINES, RESIDUAL_SLIP
+from heeltoe.result.distribution import distribution_of
 from heeltoe.result.numbers import EvidenceNumbers, HeadlineWorth, RotationWorth
 
 # Two meshes may agree by chance. Twice the elements of quadratic shape make what they leave a quarter at best, so of
@@ -37,7 +41,12 @@ _LEFT, _LEAST_ACROSS = 0.25, 2
 _SCATTERS, _SCATTERS_BY_STEP = 0.2, 0.1
 # What is less than this part of the uncertainty that is allowed need not be refined.
 _MATTERS = 0.25
-_AS_IT_IS = (1.0,)
+_AS_IT_IS: tuple[float, ...] = (1.0,)
+# Each so many runs of a sample are repeated with another step, another mesh and larger surroundings, and a sample is
+# doubled so often at most.
+_PAIRED, _DOUBLINGS = 4, 3
+# Fewer runs with a result have no mean.
+_FEWEST = 2
 
 _Wanted = list[tuple[Level, Sequence[float]]]
 
@@ -127,8 +136,13 @@ def _fewest(trials: Trials, level: Level, change: int, *, full: bool, means: boo
     halvings = level.halvings + change
     wanted: _Wanted = [(level, _AS_IT_IS), (Level(level.mesh, halvings), _AS_IT_IS)]
     if full:
-        scales, longer = SCALES if means else _AS_IT_IS, min(level.halvings, halvings)
-        wanted.append((Level(level.mesh, longer), scales))
+        longer = min(level.halvings, halvings)
+        wanted.append((Level(level.mesh, longer), _AS_IT_IS))
+        scales = _AS_IT_IS
+        if means:
+            sample = scales_of(0)
+            scales, longer = _paired(sample), longer - 1
+            wanted += [(Level(level.mesh - 1, longer), sample), (Level(level.mesh, longer), scales)]
         if wave_bodies(trials.dam_of(0).case):
             wanted.append((Level(level.mesh - 1, longer, larger=True), scales))
     return wanted
@@ -158,20 +172,6 @@ def _finer(evidence: EvidenceNumbers, level: Level, options: Flexible, *, lowere
     return Level(level.mesh, level.halvings + 1) if step > mesh else Level(level.mesh + 1, level.halvings)
 
 
-def _worth(
-    key: str,
-    value: float,
-    run: float,
-    other: float,
-    mesh: float | None,
-    varied: Sequence[Floats] | None,
-    surroundings: float | None,
-    least: float,
-) -> HeadlineWorth:
-    deviation = None if varied is None else max(float(runs.std(ddof=1)) for runs in varied)
-    return worth_of(value, run, abs(run - other), mesh, deviation, surroundings, least=least)
-
-
 def _rotation(worth: HeadlineWorth, *, bounded: bool) -> RotationWorth:
     return RotationWorth(**dict(worth) | ({} if bounded else {"uncertainty": None}))
 
@@ -179,11 +179,73 @@ def _rotation(worth: HeadlineWorth, *, bounded: bool) -> RotationWorth:
 def _moved_by_mesh(
     key: str, own: dict[str, Floats], beside: dict[str, Floats] | None, third: dict[str, Floats] | None
 ) -> float | None:
-    """Return by how much the mesh moves a headline number; None where there is no other mesh."""
+    """Return by how much the mesh moves a headline number of a run; None where there is no other mesh."""
     if beside is None:
         return None
-    moved = abs(float(own[key].mean() - beside[key].mean()))
-    return moved if third is None else max(moved, _LEFT * abs(float(beside[key].mean() - third[key].mean())))
+    moved = abs(float(own[key][0] - beside[key][0]))
+    return moved if third is None else max(moved, _LEFT * abs(float(beside[key][0] - third[key][0])))
+
+
+@dataclass(frozen=True)
+class _Sample:
+    """Runs of a crack with the shaking varied, at one level.
+
+    Attributes
+    ----------
+    level, scales
+        How they are made, and the factors on the shaking (n,).
+    numbers, good
+        Their headline numbers by name, and which of them have a result, (n,) each.
+    """
+
+    level: Level
+    scales: tuple[float, ...]
+    numbers: dict[str, Floats]
+    good: NDArray[np.bool_]
+
+    def known(self, key: str) -> Floats:
+        """Return the numbers of the runs that have a result."""
+        return self.numbers[key][self.good]
+
+    def values(self, key: str) -> list[float | None]:
+        """Return the number of each run; None of one without a result."""
+        return [float(value) if fine else None for value, fine in zip(self.numbers[key], self.good, strict=True)]
+
+    def error(self, key: str) -> float:
+        """Return the standard error of the mean."""
+        known = self.known(key)
+        return float(known.std(ddof=1) / math.sqrt(known.size))
+
+    @property
+    def is_enough(self) -> bool:
+        """Whether the mean of the slip is known well enough."""
+        mean = float(self.known(RESIDUAL_SLIP.key).mean())
+        return self.error(RESIDUAL_SLIP.key) <= ERROR_OF_MEAN / LIMIT * allowed(mean)
+
+    def moved(self, key: str, other: _Sample) -> float:
+        """Return by how much the mean moves to runs with some of the same factors at another level: the mean difference
+        of pairs, and at least its standard error, below which no difference is known. Without pairs nothing bounds the
+        mean."""
+        place = {scale: row for row, scale in enumerate(self.scales)}
+        rows = np.array([place[scale] for scale in other.scales])
+        both = self.good[rows] & other.good
+        changes = (other.numbers[key] - self.numbers[key][rows])[both]
+        if changes.size < 2:
+            return abs(float(self.known(key).mean()))
+        return max(abs(float(changes.mean())), float(changes.std(ddof=1) / math.sqrt(changes.size)))
+
+
+def _paired(scales: tuple[float, ...]) -> tuple[float, ...]:
+    """Return the factors of a sample at which it is compared with another level; few are all needed."""
+    return scales[::_PAIRED] if len(scales) > len(SCALES) else scales
+
+
+def _deviation(numbers: Floats) -> float:
+    return float(numbers.std(ddof=1))
+
+
+def _difference(key: str, one: dict[str, Floats], other: dict[str, Floats]) -> float:
+    return abs(float(one[key][0] - other[key][0]))
 
 
 def _scatter(slips: Floats, step: float) -> bool:
@@ -238,17 +300,58 @@ class _Stand:
         """Where the shaking is varied at first: the coarser of the two meshes."""
         return self._own if self.mesh is None else min(self.mesh, self._own)
 
+    @cached_property
+    def _rough(self) -> Level:
+        """Where samples are drawn: where the shaking is varied at first, at twice the step if the case leaves that open
+        and it still follows the dam. What that changes, pairs of runs bound."""
+        cheap = self._cheap
+        longer = Level(cheap.mesh, cheap.halvings - 1)
+        dam = self._trials.dam_of(cheap.mesh)
+        free = self._options.time_step is None and dam.may_step(self._trials.step_of(longer))
+        return longer if free else cheap
+
+    @property
+    def _pairs(self) -> dict[str, Level]:
+        """What a mean is compared with, by what that moves it by: half the step, the finer of the two meshes, and rock
+        and water that reach farther."""
+        rough = self._rough
+        pairs = {"step": replace(rough, halvings=rough.halvings + 1)}
+        if self.mesh is not None:
+            pairs["mesh"] = replace(rough, mesh=max(self.mesh.mesh, self._level.mesh))
+        if self._larger is not None:
+            pairs["surroundings"] = replace(rough, larger=True)
+        return pairs
+
     def wanted(self, *, means: bool) -> _Wanted:
         """Return the runs that :meth:`evidence` needs, or needs where means are compared."""
         wanted: _Wanted = [(self._level, _AS_IT_IS), (self._step, _AS_IT_IS)]
         if self._full:
-            wanted += [(self._cheap, SCALES), (self._own, SCALES if means else _AS_IT_IS)]
-            if self.mesh is not None:
-                wanted.append((self.mesh, SCALES if means else _AS_IT_IS))
-            for level in (self._third, self._larger):
-                if level is not None:
-                    wanted.append((level, SCALES if means else _AS_IT_IS))
-        return wanted
+            wanted += [(self._cheap, SCALES), (self._own, _AS_IT_IS)]
+            wanted += [(level, _AS_IT_IS) for level in (self.mesh, self._third, self._larger) if level is not None]
+        return wanted + self._of_sample(scales_of(0)) if means else wanted
+
+    def _of_sample(self, scales: tuple[float, ...]) -> _Wanted:
+        """Return the runs of a sample and of its pairs."""
+        return [(self._rough, scales), *((level, _paired(scales)) for level in self._pairs.values())]
+
+    def _sample(self, level: Level, scales: tuple[float, ...], crack: int) -> _Sample:
+        numbers = self._trials.numbers(level, scales, crack)
+        return _Sample(level, scales, numbers, self._trials.have_results(level, scales))
+
+    def _drawn(self, crack: int) -> tuple[_Sample, bool]:
+        """Return runs with the shaking varied until the mean of a crack's slip is known well enough, or the next ones
+        cost more than a result may, and whether that is why there are no more."""
+        trials, scales = self._trials, SCALES
+        for doublings in range(_DOUBLINGS + 1):
+            more = scales_of(doublings)
+            work = trials.work + trials.cost(self._of_sample(more))
+            if work > BUDGET or not trials.expected(self._level, work).within(trials.dam_of(0).case):
+                return self._sample(self._rough, scales, crack), True
+            scales = more
+            sample = self._sample(self._rough, scales, crack)
+            if np.sum(sample.good) < _FEWEST or sample.is_enough:
+                return sample, False
+        return sample, False
 
     def evidences(self, *, spent: bool = False) -> tuple[EvidenceNumbers, ...]:
         """Return what the run at this level is worth, crack by crack."""
@@ -284,35 +387,50 @@ class _Stand:
     def _evidence(self, crack: int, *, spent: bool) -> EvidenceNumbers:
         trials = self._trials
         run, other = trials.numbers(self._level, _AS_IT_IS, crack), trials.numbers(self._step, _AS_IT_IS, crack)
-        varied = trials.numbers(self._cheap, SCALES, crack) if self._full else None
+        varied = self._sample(self._cheap, SCALES, crack) if self._full else None
         step = float(run[RESIDUAL_SLIP.key][0] - other[RESIDUAL_SLIP.key][0])
-        mean = varied is not None and _scatter(varied[RESIDUAL_SLIP.key], step)
-        scales = SCALES if mean else _AS_IT_IS
-        beside = None if self.mesh is None else trials.numbers(self.mesh, scales, crack)
-        own = trials.numbers(self._own, scales, crack) if self._full else run
-        third = None if self._third is None else trials.numbers(self._third, scales, crack)
-        farther = None if self._larger is None else trials.numbers(self._larger, scales, crack)
-        near = None if farther is None else trials.numbers(self._cheap, scales, crack)
-        # Of runs that scatter those of both meshes tell by how much.
-        ensembles = ([own] if beside is None else [own, beside]) if mean else None if varied is None else [varied]
+        mean = varied is not None and _scatter(varied.numbers[RESIDUAL_SLIP.key], step)
+        pairs = dict[str, _Sample]()
+        if mean:
+            varied, stopped = self._drawn(crack)
+            spent = spent or stopped
+            mean = bool(np.sum(varied.good) >= _FEWEST)
+        if mean and varied is not None:
+            some = _paired(varied.scales)
+            pairs = {name: self._sample(level, some, crack) for name, level in self._pairs.items()}
+        own, beside, third, farther, near = (
+            None if level is None or mean else trials.numbers(level, _AS_IT_IS, crack)
+            for level in (self._own, self.mesh, self._third, self._larger, self._larger and self._cheap)
+        )
 
         dam = trials.dam_of(self._level.mesh).dam
         width, lowered, missing = dam.sections[crack].crack_width, self._lowered(crack, dam), self._missing(crack)
 
         def worth(key: str) -> HeadlineWorth:
-            value = float(own[key].mean()) if mean else float(run[key][0])
             least = FLOOR_M if key.endswith("_m") else FLOOR_M / width
-            mesh = _moved_by_mesh(key, own, beside, third)
-            return _worth(
-                key,
+            single = float(run[key][0])
+            value, moved = single, dict[str, float | None](step=abs(single - float(other[key][0])))
+            if mean and varied is not None:
+                value = float(varied.known(key).mean())
+                moved |= {name: varied.moved(key, pair) for name, pair in pairs.items()}
+                moved["shaking"] = varied.error(key)
+            elif self._full and own is not None:
+                moved["mesh"] = _moved_by_mesh(key, own, beside, third)
+                moved["surroundings"] = None if farther is None or near is None else _difference(key, farther, near)
+                moved["shaking"] = None if varied is None else _deviation(varied.numbers[key])
+            mesh = moved.get("mesh")
+            drawn = varied if mean else None
+            return worth_of(
                 value,
-                float(run[key][0]),
-                float(other[key][0]),
+                single,
+                moved["step"] or 0.0,
                 mesh if mesh is None or missing >= 1.0 else (1.0 + missing) * mesh,
-                None if ensembles is None else [runs[key] for runs in ensembles],
-                None if farther is None or near is None else abs(float(farther[key].mean() - near[key].mean())),
+                moved.get("shaking"),
+                moved.get("surroundings"),
                 # A joint of another strength may do anything between this and nothing.
-                max(least, abs(value)) if missing >= 1.0 else least,
+                least=max(least, abs(value)) if missing >= 1.0 else least,
+                spread=None if drawn is None else _deviation(drawn.known(key)),
+                distribution=None if drawn is None else distribution_of(drawn.values(key)),
             )
 
         cracked = None
@@ -326,13 +444,13 @@ class _Stand:
             if lowered:
                 # A strength that depends on the mesh is no evidence of how far the joint cracks.
                 least = max(length.run, width - length.run)
-            moved = (length.step, length.mesh, length.shaking, length.surroundings)
+            # That of a single run, where numbers are means.
+            moved = (length.step, length.mesh, length.spread, length.surroundings)
             cracked = worth_of(length.run, length.run, *moved, least=least)
         slip = worth(RESIDUAL_SLIP.key)
         on_rock = dam.rock is not None and crack == len(dam.lines) - 1
         no_limit = may_have_no_limit(trials.dam_of(0).case, dam)
-        failed = 0 if varied is None else trials.failed(self._own if mean else self._cheap, SCALES)
-        slips = [] if ensembles is None else ensembles[0][RESIDUAL_SLIP.key].tolist()
+        failed = 0 if varied is None else int(np.sum(~varied.good))
         headline_worths: dict[str, Any] = {item.key: worth(item.key) for item in HEADLINES}
         for item in HEADLINES:
             if item.kind == "rotation":
@@ -349,8 +467,10 @@ class _Stand:
             elements_across=self._options.elements_across,
             other_elements_across=None if self.mesh is None else trials.across_of(self.mesh),
             third_elements_across=None if third is None or self._third is None else trials.across_of(self._third),
-            scales=list(SCALES) if slips else [],
-            residual_slips_m=slips,
+            scales=[] if varied is None else list(varied.scales),
+            residual_slips_m=[] if varied is None else varied.values(RESIDUAL_SLIP.key),
+            varied_time_step_s=None if varied is None else trials.step_of(varied.level),
+            varied_elements_across=None if varied is None else trials.across_of(varied.level),
             failed=failed,
             runs=trials.runs,
             work=trials.work,

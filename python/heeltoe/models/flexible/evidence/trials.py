@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats
 from heeltoe.base.beside import pass_notes
@@ -27,11 +28,21 @@ SOFTENING = "softening_length_m"
 #: Slip across the valley at the end [m], beside them, too.
 CROSS_SLIP = "residual_slip_cross_m"
 #: Factors on the shaking: as it is, and up to 1 % either way.
-SCALES = (1.0, 0.99, 0.995, 1.005, 1.01)
+SCALES: tuple[float, ...] = (1.0, 0.99, 0.995, 1.005, 1.01)
+# Steps of the factors between the least and the largest one of a sample that may be a distribution.
+_OF_SAMPLE = 64
 #: Rock and water that reach farther do so by this factor, and answer well up to a frequency that is higher by it.
 LARGER = 1.5
 # Twice as many elements along the crack cost about so many times as much; half the step twice.
 _WORK_OF_MESH = 4.0
+
+
+def scales_of(doublings: int) -> tuple[float, ...]:
+    """Return 65 factors on the shaking, equally spaced from 0.99 to 1.01, or about twice as many as often as
+    `doublings` says; those of fewer doublings and :data:`SCALES` are among them."""
+    # Rounded, so that the same factor is the same number.
+    spaced = np.linspace(0.99, 1.01, _OF_SAMPLE * 2**doublings + 1)
+    return tuple(round(float(scale), 12) for scale in spaced)
 
 
 @dataclass(frozen=True, order=True)
@@ -191,10 +202,10 @@ class Trials:
             CROSS_SLIP: np.array([row["cross_slip"] for row in rows]),
         }
 
-    def failed(self, level: Level, scales: Sequence[float]) -> int:
-        """Return how many of these runs, all made before, end without a result."""
+    def have_results(self, level: Level, scales: Sequence[float]) -> NDArray[np.bool_]:
+        """Return (n,) which of these runs, all made before, end with a result."""
         widths = [section.crack_width for section in self.dam_of(level.mesh).dam.sections]
-        return sum(not _outcome(self._numbers[level, scale], widths).has_result for scale in scales)
+        return np.array([_outcome(self._numbers[level, scale], widths).has_result for scale in scales])
 
 
 def _outcome(cracks: Sequence[Mapping[str, float]], widths: Sequence[float]) -> Outcome:
