@@ -10,7 +10,8 @@ import pytest
 
 from heeltoe import GroundMotion, flexible, read_case, verdict
 from heeltoe.case.options import Limits
-from heeltoe.result.limits import check_limits
+from heeltoe.result.distribution import distribution_of
+from heeltoe.result.limits import check_limits, judge_response
 from heeltoe.result.response import Response
 from shared.dams import BASE, FAST, plane_case
 from shared.responses import with_numbers
@@ -87,15 +88,16 @@ def test_without_evidence_nothing_is_said_of_certainty(response):
     assert (slip.met, slip.certain, slip.uncertainty) == (True, True, 0.0)
 
 
-def test_where_single_runs_scatter_the_mean_is_judged():
+def test_where_single_runs_scatter_a_fractile_is_judged():
     time = np.linspace(0.0, 2.0, 201)
     motion = GroundMotion.from_points(time, 5.0 * np.sin(2.0 * np.pi * 2.0 * time))
     result = flexible(plane_case(SCATTERS), motion)
     worth = result.evidence["residual_slip_m"]
     assert result.evidence["value_is"] == "mean"
     (check,) = result.limits
-    assert check.value == abs(worth["value"]) != abs(worth["run"])
-    assert check.uncertainty == worth["uncertainty"] > 0.0
+    assert check.value == abs(worth["distribution"]["fractile_84"]) > abs(worth["value"])
+    assert (check.exceeding, check.met) == (0.0, True)
+    assert check.uncertainty > worth["uncertainty"] > 0.0
 
 
 def test_rotation_and_crest_have_limits_with_units_and_utilisation():
@@ -108,3 +110,75 @@ def test_rotation_and_crest_have_limits_with_units_and_utilisation():
     assert hard.utilisation == pytest.approx(hard.value / 0.2)
     assert (hard.met, far.met) == (False, True)
     assert "its crest acceleration of" in verdict(result)
+
+
+# Slips of a hundred runs, 1 to 100 mm, upstream, in no order.
+RUNS = [-0.001 * (1 + 37 * place % 100) for place in range(100)]
+
+
+def scattered(response: Response, runs=RUNS):
+    """Return a response whose residual slip is one of many."""
+    result = with_numbers(response, **NUMBERS)
+    evidence = result.evidence
+    worth = replace(
+        evidence.residual_slip_m,
+        value=-0.0505,
+        uncertainty=0.003,
+        shaking=0.002,
+        distribution=distribution_of(runs),
+    )
+    evidence = replace(evidence, residual_slip_m=worth, value_is="mean")
+    return with_numbers(result, evidence=evidence, residual_slip_m=-0.0505)
+
+
+@pytest.mark.parametrize(
+    ("limit", "met", "exceeding", "words"),
+    [
+        (
+            "90 mm",
+            True,
+            0.10,
+            "All limits are met. With the shaking varied by 1 %, 10 % exceed the limit of residual slip.",
+        ),
+        (
+            "70 mm",
+            False,
+            0.30,
+            "A limit is not met: its residual slip of 84.0 mm, which 84 % of the runs keep to, is more than the "
+            "70.0 mm allowed. With the shaking varied by 1 %, 30 % exceed the limit of residual slip.",
+        ),
+    ],
+)
+def test_a_slip_that_scatters_is_judged_by_what_84_per_cent_of_the_runs_keep_to(response, limit, met, exceeding, words):
+    result = scattered(response)
+    limits = Limits(residual_slip=limit)
+    (check,) = check_limits(limits, result)
+    assert check.value == pytest.approx(0.084)
+    assert (check.met, check.certain) == (met, True)
+    assert check.exceeding == pytest.approx(exceeding)
+    assert verdict(replace(result, limits=(check,))).endswith(words)
+    # The mean of all has the standard error of 0.002 m, the fractile of a normal sample 1.5 times as much.
+    assert check.uncertainty == pytest.approx(np.sqrt(0.003**2 + (1.5**2 - 1.0) * 0.002**2))
+    (same,) = judge_response(limits, result)[0].met.values()
+    assert same == check.met
+
+
+def test_runs_without_a_result_exceed_every_limit(response):
+    """By hand: with 16 of 100 lost, 84 % keep to the largest that is known; with 17, no limit is met."""
+    known = sorted(RUNS)[::-1]
+    for lost, met in ((16, True), (17, False)):
+        result = scattered(response, known[: 100 - lost] + [None] * lost)
+        (check,) = check_limits(Limits(residual_slip="90 mm"), result)
+        assert check.value == pytest.approx(0.001 * (100 - lost))
+        assert check.exceeding == pytest.approx(lost / 100.0)
+        assert check.met == met
+
+
+def test_a_verdict_has_mean_and_fractiles_and_says_what_is_not_converged(response):
+    result = scattered(response)
+    text = verdict(result)
+    assert "slides 50.5 mm in the mean (numerically ± 3.0 mm) upstream" in text.replace("3.00", "3.0")
+    assert "16 to 84 % of the runs 16.0 mm to 84.0 mm, as 1 % of the shaking decides" in text
+    assert "not converged" not in text
+    doubtful = with_numbers(result, evidence=replace(result.evidence, converged=False))
+    assert "in the mean (not converged, numerically ± 3" in verdict(doubtful)

@@ -10,6 +10,8 @@ from heeltoe.result.numbers import Distribution
 #: The part of the runs that must keep to a limit: one standard deviation above the median of a normal distribution.
 JUDGED = 0.84
 _LOW, _MIDDLE = 0.16, 0.50
+#: Shares that differ by less are the same.
+ROUNDING = 1e-9
 
 
 def fractile(values: Sequence[float | None], share: float) -> float | None:
@@ -30,7 +32,7 @@ def fractile(values: Sequence[float | None], share: float) -> float | None:
     """
     known = sorted(value for value in values if value is not None)
     # Rounding must not ask for one more value than the share is.
-    place = math.ceil(share * len(values) - 1e-9) - 1
+    place = math.ceil(share * len(values) - ROUNDING) - 1
     return known[place] if place < len(known) else None
 
 
@@ -49,6 +51,8 @@ def distribution_of(values: Sequence[float | None]) -> Distribution:
     return Distribution(numbers=list(values), fractile_16=low, fractile_50=middle, fractile_84=high)
 
 
-def judged_size(values: Sequence[float | None]) -> float | None:
-    """Return the size, without its sign, by which limits judge a number."""
-    return fractile([None if value is None else abs(value) for value in values], JUDGED)
+def judged_size(sizes: Sequence[float | None]) -> float:
+    """Return the size by which limits judge a number: that which 84 % of the runs keep to, or the largest that is known
+    where more of them have no result; at least one has."""
+    size = fractile(sizes, JUDGED)
+    return max(known for known in sizes if known is not None) if size is None else size

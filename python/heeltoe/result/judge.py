@@ -19,6 +19,7 @@ from heeltoe.base.arrays import Floats, Integers
 from heeltoe.base.blocks import Block, Number
 from heeltoe.result.contract import CRACKED, JOINT_METER_M, OPENINGS, PEAKS, RESIDUAL_SLIP, ROTATIONS, WIDTH
 from heeltoe.result.crest import ACCELERATION, CREST_PEAKS, DISPLACEMENT
+from heeltoe.result.distribution import JUDGED, ROUNDING
 from heeltoe.result.histories import GAPS, ROTATION, SLIP
 from heeltoe.result.outcome import Outcome
 
@@ -59,7 +60,10 @@ class LimitCheck(Block):
     name: Annotated[str, Number("Field of limits in the case.")]
     value: Annotated[
         float | None,
-        Number("Size of the result in `unit`; null of a dam that has failed without a result."),
+        Number(
+            "Size of the result in `unit`: where single runs scatter, the one that 84 % of them keep to; null of a dam "
+            "that has failed without a result."
+        ),
     ]
     allowed: Annotated[float, Number("How much the case allows, in `unit`.")]
     failed: Annotated[
@@ -73,6 +77,14 @@ class LimitCheck(Block):
         Number(
             "Elevation of the crack that has this result, where there are several; each bonded joint has its own.",
             "m",
+            optional=True,
+        ),
+    ] = None
+
+    exceeding: Annotated[
+        float | None,
+        Number(
+            "Share of the runs with the shaking varied by up to 1 % that exceed the limit, where single runs scatter.",
             optional=True,
         ),
     ] = None
@@ -102,7 +114,9 @@ class LimitCheck(Block):
     @property
     def met(self) -> Annotated[bool, Number("Whether the dam holds, and the result is within the limit.")]:
         """Whether the limit is kept."""
-        return not self.failed and self.value is not None and self.value <= self.allowed
+        # Of runs without a result the value knows nothing.
+        many = self.exceeding is not None and self.exceeding > 1.0 - JUDGED + ROUNDING
+        return not (self.failed or many) and self.value is not None and self.value <= self.allowed
 
     @property
     def certain(
@@ -181,7 +195,8 @@ class Judgement:
 
     def size(self, limit: str) -> Floats:
         """Return (n, cracks) the size of the quantity that a limit bounds; not a number without a result."""
-        sizes = np.max([np.abs(self.columns[key]) for key in LIMITS[limit].keys], axis=0)
+        keys = (limit,) if limit in self.columns else LIMITS[limit].keys
+        sizes = np.max([np.abs(self.columns[key]) for key in keys], axis=0)
         return np.where(self.has_result[:, None], sizes, np.nan)
 
     def worst(self, limit: str) -> Floats:
@@ -241,7 +256,8 @@ def judge(columns: Mapping[str, Any], limits: Mapping[str, float]) -> Judgement:
     ----------
     columns
         ``outcome``, (n,) words, and numbers by their JSON names, (n,) or (n, cracks): those that the limits limit,
-        the residual slip, and ``crack_width_m`` with the peak slips or ``slid_off``.
+        the residual slip, and ``crack_width_m`` with the peak slips or ``slid_off``. A column by the name of a limit
+        is judged instead of the numbers that it limits.
     limits
         Allowed values by the name of the limit, SI, accelerations in g.
     """

@@ -153,7 +153,7 @@ def _limits_met(response: ResponseData, units: str) -> str:
     if broken:
         doubt = "" if any(check.certain for check in response.limits if not check.met) else ", though not for certain"
         subject = "A limit is" if len(broken) == 1 else f"{len(broken)} limits are"
-        return f"{subject} not met{doubt}: {listed([f'its {item}' for item in broken])}."
+        return f"{subject} not met{doubt}: {listed([f'its {item}' for item in broken])}.{_chance(response)}"
     doubted = [
         f"{limited(check, units)} of {_judged(check, units)} may be more than the "
         f"{measured(check.allowed, check.unit, units)} allowed"
@@ -161,12 +161,23 @@ def _limits_met(response: ResponseData, units: str) -> str:
         if not check.certain
     ]
     if doubted:
-        return f"All limits are met, but not for certain: {listed([f'its {item}' for item in doubted])}."
+        may = listed([f"its {item}" for item in doubted])
+        return f"All limits are met, but not for certain: {may}.{_chance(response)}"
     if response.model == "rigid":
         return "As a rigid block it meets all limits; as a dam that vibrates it may not."
     if response.model == "decoupled":
         return "As a rigid block it meets all limits; as a dam whose top vibrates, too, it may not."
-    return "All limits are met."
+    return f"All limits are met.{_chance(response)}"
+
+
+def _chance(response: ResponseData) -> str:
+    """Say how many of the runs with the shaking varied exceed a limit, where single runs scatter."""
+    shares = [
+        f"{100.0 * check.exceeding:.0f} % exceed the limit of {check.label}"
+        for check in response.limits
+        if check.exceeding is not None
+    ]
+    return f" With the shaking varied by 1 %, {listed(shares)}." if shares else ""
 
 
 def limited(check: LimitCheck, units: str = "si") -> str:
@@ -184,7 +195,9 @@ def _judged(check: LimitCheck, units: str) -> str:
     """Return a result, and how uncertain it is where that decides."""
     assert check.value is not None
     value = measured(check.value, check.unit, units)
-    return value if check.certain else f"{value} ± {measured(check.uncertainty, check.unit, units)}"
+    if not check.certain:
+        value = f"{value} ± {measured(check.uncertainty, check.unit, units)}"
+    return value if check.exceeding is None else f"{value}, which 84 % of the runs keep to,"
 
 
 def _spread(response: ResponseData, units: str) -> str:
@@ -348,13 +361,26 @@ def _elastic_slip(response: ResponseData, units: str) -> str:
         return f"{dam} does not slide."
     if abs(slip) < JOINT_METER_M:
         return f"{dam} does not slide: its crack shifts by up to {length(largest, units)} and comes back."
+    scatter = _scatter(response, units)
     if response.lets_go():
         text = f"{dam} slides {_worth(response, units)} {_way(slip)}{_spread(response, units)}"
-        return text + _on_the_way(slip, down, up, JOINT_METER_M, units) + "."
+        return text + _on_the_way(slip, down, up, JOINT_METER_M, units) + scatter + "."
     return (
-        f"{dam} creeps {_worth(response, units)} {_way(slip)}{_spread(response, units)}: parts of the crack slip in "
-        "turn, while the rest holds."
+        f"{dam} creeps {_worth(response, units)} {_way(slip)}{_spread(response, units)}{scatter}: parts of the crack "
+        "slip in turn, while the rest holds."
     )
+
+
+def _scatter(response: ResponseData, units: str) -> str:
+    """Return how far single runs slide, where they scatter."""
+    evidence = getattr(response, "evidence", None)
+    distribution = None if evidence is None else evidence.residual_slip_m.distribution
+    if distribution is None or distribution.fractile_16 is None:
+        return ""
+    low = length(abs(distribution.fractile_16), units)
+    far = distribution.fractile_84
+    high = "no result" if far is None else length(abs(far), units)
+    return f", 16 to 84 % of the runs {low} to {high}, as 1 % of the shaking decides"
 
 
 def _worth(response: ResponseData, units: str) -> str:
@@ -365,7 +391,10 @@ def _worth(response: ResponseData, units: str) -> str:
     known = f"numerically ± {length(evidence.residual_slip_m.uncertainty, units)}"
     if evidence.no_limit:
         known = "it may grow with each finer mesh"
-    return f"{slip} ({known}{_damping(response, units)})"
+    elif not evidence.converged:
+        known = f"not converged, {known}"
+    mean = " in the mean" if evidence.scatters else ""
+    return f"{slip}{mean} ({known}{_damping(response, units)})"
 
 
 def _damping(response: ResponseData, units: str) -> str:
