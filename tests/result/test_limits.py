@@ -10,10 +10,10 @@ import pytest
 
 from heeltoe import GroundMotion, flexible, read_case, verdict
 from heeltoe.case.options import Limits
-from heeltoe.result.distribution import distribution_of
 from heeltoe.result.limits import check_limits, judge_response
 from heeltoe.result.response import Response
 from shared.dams import BASE, FAST, plane_case
+from shared.evidence import scattered
 from shared.responses import with_numbers
 
 NUMBERS = {
@@ -116,21 +116,6 @@ def test_rotation_and_crest_have_limits_with_units_and_utilisation():
 RUNS = [-0.001 * (1 + 37 * place % 100) for place in range(100)]
 
 
-def scattered(response: Response, runs=RUNS):
-    """Return a response whose residual slip is one of many."""
-    result = with_numbers(response, **NUMBERS)
-    evidence = result.evidence
-    worth = replace(
-        evidence.residual_slip_m,
-        value=-0.0505,
-        uncertainty=0.003,
-        shaking=0.002,
-        distribution=distribution_of(runs),
-    )
-    evidence = replace(evidence, residual_slip_m=worth, value_is="mean")
-    return with_numbers(result, evidence=evidence, residual_slip_m=-0.0505)
-
-
 @pytest.mark.parametrize(
     ("limit", "met", "exceeding", "words"),
     [
@@ -150,7 +135,7 @@ def scattered(response: Response, runs=RUNS):
     ],
 )
 def test_a_slip_that_scatters_is_judged_by_what_84_per_cent_of_the_runs_keep_to(response, limit, met, exceeding, words):
-    result = scattered(response)
+    result = scattered(with_numbers(response, **NUMBERS), RUNS)
     limits = Limits(residual_slip=limit)
     (check,) = check_limits(limits, result)
     assert check.value == pytest.approx(0.084)
@@ -167,7 +152,7 @@ def test_runs_without_a_result_exceed_every_limit(response):
     """By hand: with 16 of 100 lost, 84 % keep to the largest that is known; with 17, no limit is met."""
     known = sorted(RUNS)[::-1]
     for lost, met in ((16, True), (17, False)):
-        result = scattered(response, known[: 100 - lost] + [None] * lost)
+        result = scattered(with_numbers(response, **NUMBERS), known[: 100 - lost] + [None] * lost)
         (check,) = check_limits(Limits(residual_slip="90 mm"), result)
         assert check.value == pytest.approx(0.001 * (100 - lost))
         assert check.exceeding == pytest.approx(lost / 100.0)
@@ -175,7 +160,7 @@ def test_runs_without_a_result_exceed_every_limit(response):
 
 
 def test_a_verdict_has_mean_and_fractiles_and_says_what_is_not_converged(response):
-    result = scattered(response)
+    result = scattered(with_numbers(response, **NUMBERS), RUNS)
     text = verdict(result)
     assert "slides 50.5 mm in the mean (numerically ± 3.0 mm) upstream" in text.replace("3.00", "3.0")
     assert "16 to 84 % of the runs 16.0 mm to 84.0 mm, as 1 % of the shaking decides" in text

@@ -2,9 +2,39 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from heeltoe.models.flexible.evidence.evidence import BUDGET, allowed, most_moved_by, worth_of
 from heeltoe.result.contract import HEADLINES
+from heeltoe.result.distribution import distribution_of
 from heeltoe.result.numbers import EvidenceNumbers
+from shared.responses import with_numbers
+
+
+def scattered(response, runs):
+    """Return an elastic response whose residual slip is one of `runs` [m], None of one without a result; their mean is
+    uncertain by 3 mm, 2 mm of it as its standard error."""
+    known = [slip for slip in runs if slip is not None]
+    mean = sum(known) / len(known)
+    evidence = response.evidence or evidence_of((0.001, 0.002, 0.003))
+    worth = replace(
+        evidence.residual_slip_m,
+        value=mean,
+        uncertainty=0.003,
+        shaking=0.002,
+        distribution=distribution_of(runs),
+    )
+    scales = [0.99 + 0.02 * place / (len(runs) - 1) for place in range(len(runs))]
+    evidence = replace(
+        evidence,
+        residual_slip_m=worth,
+        value_is="mean",
+        converged=True,
+        scales=scales,
+        residual_slips_m=list(runs),
+        failed=len(runs) - len(known),
+    )
+    return with_numbers(response, evidence=evidence, residual_slip_m=mean)
 
 
 def evidence_of(moved, *, scatters=False, failed=0):

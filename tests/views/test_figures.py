@@ -14,6 +14,7 @@ from heeltoe import flexible, read_case, rigid, with_spread
 from heeltoe.base.atomic_files import LISTED
 from heeltoe.errors.error import InputError
 from heeltoe.result.histories import Histories
+from heeltoe.result.judge import LimitCheck
 from heeltoe.views.figures.all import all_figures
 from heeltoe.views.figures.crack import contact_pressure, crack_figure, pressure_figure
 from heeltoe.views.figures.dam import mesh_figure, modes_figure
@@ -30,6 +31,7 @@ from heeltoe.views.figures.write import save_all
 from heeltoe.views.files.write import write_all
 from shared.dams import ALL_EXAMPLES, BASE, BLOCK, FAST, example
 from shared.drawn import check, texts
+from shared.evidence import scattered
 from shared.responses import with_numbers
 
 ROCKING = ["reservoir.depth=60m", "motion.pga=1.2g", "motion.duration=8s"]
@@ -411,3 +413,17 @@ def test_what_a_crack_with_a_law_bears_stays_below_what_it_could():
     assert could.get_ydata()[0] > could.get_ydata()[-1]
     assert np.all(np.diff(slip.get_ydata()) >= 0.0)
     assert "friction" not in all_figures(None, rigid(read_case(BASE, [{"motion": motion}])))
+
+
+def test_a_slip_that_scatters_has_a_histogram(both):
+    """By hand: 40 runs at 0.1 m and 60 at 0.3 m, whose mean is 0.22 m."""
+    response = scattered(both, [0.1] * 40 + [0.3] * 60)
+    limit = LimitCheck(name="residual_slip", value=0.3, allowed=0.25, failed=False, exceeding=0.6)
+    response = replace(response, limits=(limit,))
+    assert "scatter" not in all_figures(None, both)
+    axes = all_figures(None, response)["scatter"].axes[0]
+    assert [bar.get_height() for bar in axes.patches if bar.get_height()] == [40.0, 60.0]
+    lines = {line.get_label(): line.get_xdata()[0] for line in axes.lines}
+    assert lines == pytest.approx(
+        {"mean": 220.0, "16 % slide less far": 100.0, "84 % slide less far": 300.0, "limit": 250.0}
+    )

@@ -223,7 +223,7 @@ CATALOGUE: dict[str, Row] = {
         "caution",
         "flexible.evidence",
         "single runs scatter: {runs} of them, the shaking varied by 1 %, slide {slip_m:.4g mm} in the mean with a "
-        "standard deviation of {scatter_m:.3g mm}; the numbers are means, histories and figures those of one run",
+        "standard deviation of {scatter_m:.3g mm}; the numbers are means, histories and most figures those of one run",
     ),
     "not-converged": (
         "grave",

@@ -221,7 +221,7 @@ def _about_the_evidence(evidence: EvidenceNumbers) -> Iterator[Notice]:
             stopped=spent if evidence.budget_spent else "refining would not help, or is not its own",
         )
     if evidence.scatters:
-        yield Notice("runs-scatter", slip_m=slip.value, scatter_m=slip.shaking or 0.0, runs=runs)
+        yield Notice("runs-scatter", slip_m=slip.value, scatter_m=slip.spread or 0.0, runs=runs)
 
 
 def _about_the_growth(growth: SelfExcitation | None, raw: DamSummary) -> Iterator[Notice]:

@@ -20,11 +20,11 @@ _MOVERS = {
     "full": "step, mesh and 1 % of the shaking move it",
     "step": "the step moves it, mesh and shaking were not tried,",
 }
-_MEAN = {
-    True: " Single runs scatter: the slip to trust is the mean of those with the shaking varied; histories and figures "
-    "are those of one of them.",
-    False: "",
-}
+_MEAN = (
+    " Single runs scatter: the numbers to trust are means over {runs:d} runs with the shaking varied, each with its "
+    "standard error, and limits are judged by the size that 84 % of the runs keep to. Histories and figures are those "
+    "of one run."
+)
 
 _WALK = {
     False: "The rigid block is computed exactly from event to event: there is no time step to converge in.",
@@ -43,6 +43,7 @@ def evidence(subject: Subject) -> Section:
     for run in subject.runs:
         if run.response.elastic and run.response.summary:
             blocks += _convergence(subject, run)
+            blocks += subject.figure("scatter")
         elif run.response.model == "rigid" and run.response.summary:
             blocks.append(paragraph(_WALK[varies(subject.case)]))
     return Section("How far to trust it", tuple(blocks))
@@ -97,7 +98,8 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
     else:
         stands = _NO_LIMIT if result["no_limit"] else _STANDS[result["converged"]]
         movers = _MOVERS["step" if result["asked"] == "step" else "full"]
-        said = paragraph(stands.format(movers) + _MEAN[result["value_is"] == "mean"])
+        mean = _MEAN.format(runs=len(result["scales"])) if result["value_is"] == "mean" else ""
+        said = paragraph(stands.format(movers) + mean)
     # Worth of the number that is judged first.
     labels = (
         *labels_of(ElasticDam),

@@ -172,6 +172,7 @@ def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]
 def _elastic_drawings(response: FlexibleResponse, units: str) -> dict[str, Callable[[], Figure]]:
     from heeltoe.views.figures.crack import crack_figure, joint_figure, joints_figure, pressure_figure
     from heeltoe.views.figures.dam import mesh_figure, modes_figure
+    from heeltoe.views.figures.scatter import scatter_figure
     from heeltoe.views.figures.stress.deformed import deformed_figure
     from heeltoe.views.figures.stress.tension import tension_figure
     from heeltoe.views.figures.water_pressure import water_pressure_figure
@@ -183,7 +184,9 @@ def _elastic_drawings(response: FlexibleResponse, units: str) -> dict[str, Calla
     wet = {} if response.crack.water is None else {"water-pressure": lambda: water_pressure_figure(response, units)}
     if response.joint is not None:
         drawn["joint"] = lambda: joint_figure(response, units)
+    scatters = response.evidence is not None and response.evidence.scatters
     return {
+        **({"scatter": lambda: scatter_figure(response, units)} if scatters else {}),
         "crack": lambda: crack_figure(response, units),
         "pressure": lambda: pressure_figure(response, units),
         **wet,

@@ -18,6 +18,7 @@ NAMES = (
     "energy",
     "path",
     "spectrum",
+    "scatter",
     "crack-level",
     "slips",
     "joints",
