@@ -7,6 +7,7 @@ on where it stopped."""
 from __future__ import annotations
 
 import json
+import math
 import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass
@@ -244,9 +245,11 @@ def _moved(shaken: ShakenDam, evidence: EvidenceNumbers, crack: int) -> dict[str
     """Return the numbers of a crack that have a bound: value, uncertainty, and by how much twice the elements and a
     quarter of the step move it."""
     trials = Trials(shaken, evidence.time_step_s, _FRAMES)
-    scales = SCALES if evidence.scatters else SCALES[:1]
-    # Means are over runs at the longer of the two steps.
-    halvings = -1 if evidence.scatters and evidence.other_time_step_s > evidence.time_step_s else 0
+    scales, halvings = SCALES[:1], 0
+    if evidence.scatters:
+        # Means are over runs at a longer step; some of them say enough.
+        scales = tuple(evidence.scales[::4]) if len(evidence.scales) > len(SCALES) else SCALES
+        halvings = -round(math.log2((evidence.varied_time_step_s or evidence.time_step_s) / evidence.time_step_s))
     finer, shorter = Level(1, halvings), Level(0, halvings + 2)
     worths = {item.key: getattr(evidence, item.key) for item in HEADLINES} | {CRACKED: evidence.cracked_length_m}
     mesh, step = (trials.numbers(level, scales, crack) for level in (finer, shorter))
