@@ -24,9 +24,10 @@ impl FacesOperator<'_, '_> {
         solver: &mut Solver,
         across: &mut Across,
     ) -> Report {
-        let status = &solver.status;
-        self.fill(problem, |contact| status[contact] != Status::Absent);
-        let moved = across.moved;
+        let (status, moved) = (&solver.status, across.moved);
+        if moved {
+            self.fill(problem, |contact| status[contact] != Status::Absent);
+        }
         let (disc, rows) = across.problem();
         let solution = (&mut solver.p[..], &mut solver.u[..]);
         let report = disc.solve::<W>(problem, rows, &mut solver.status, solution, moved);

@@ -15,24 +15,26 @@
 //! p_e = mu p_n,      s u_q + (1 - s) / rho p_q = 0,      s = mu p_n / |z|
 //! ```
 //!
-//! so that two unknowns are left of a node that slips. The states, directions and shares of the last step are tried first.
-//! From step to step directions turn little: the factors of the last few sets are kept, and with them
+//! The states, directions and shares of the last step are tried first. From step to step they change little: the inverse
+//! of the matrix goes along, three of its rows for each node that changes, and with it
 //!
 //! ```text
 //! p_T = mu p_n e(phi),      u_n + h = 0,      u_q = 0      and, where it sticks,      u_T = 0
 //! ```
 //!
-//! are solved by corrections of p and phi, as long as each leaves little of what was amiss. Where sets of states come round in a circle, sweeps help: each node by itself, the others held, has a solution by one
-//! number `lambda >= 0` with `u_T = -lambda p_T`.
+//! are solved by corrections of p and phi, as long as each leaves little of what was amiss. What the corrections before
+//! have shown of the matrix is used (Broyden; Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, chapter
+//! 7). Where sets of states come round in a circle, sweeps help: each node by itself, the others held, has a solution by
+//! one number `lambda >= 0` with `u_T = -lambda p_T`. A law adds a constant to `mu p_n`.
 //!
 //! A neighbour that a node touches is a plastic stop: where it pushes, `u_y = 0`, it takes all that acts across the valley,
 //! and friction acts along the crack alone. The forces that a node bears there are a convex set, half of a disc and half of a
 //! strip, to which the slip is normal; one that stopped a node within a step would make them jump.
 
-use super::super::simd::{apart, fill, fma, in_groups, inlined, largest, Group, Lanes, LANES};
+use super::super::simd::{add_times, apart, dot, fill, in_groups, inlined, largest, Group, Lanes, LANES};
 use super::super::status::Status;
 use super::problem::Problem;
-use super::triangles::{eliminate, inverse, substitute};
+use super::triangles::{eliminate, inverse};
 use super::Report;
 
 /// Most sets of states in turn, at first and between sweeps.
@@ -44,12 +46,14 @@ const SWEEPS: u32 = 4000;
 /// Relative to the largest impulse or velocity: what counts as a violation, and by how much friction may be off.
 const SLACK: f64 = 1e-11;
 const RIGHT: f64 = 1e-10;
-/// Sets whose factors are kept; corrections by old ones at most, and what each may leave of what was amiss.
-const KEPT: usize = 16;
-const CORRECTIONS: u32 = 12;
-const CLOSER: f64 = 0.25;
-/// Solutions by the same factors after which their inverse pays.
-const INVERT_AFTER: u32 = 3;
+/// Corrections at most, and what each may leave of what was amiss.
+const CORRECTIONS: usize = 12;
+const CLOSER: f64 = 0.5;
+/// By how much the direction of a slip (as a sine) and its share may be others than those in the inverse.
+const TURNED: f64 = 0.05;
+const SHARED: f64 = 0.05;
+/// A pivot, against rows of about 1, of a change that is not to be made.
+const VANISHES: f64 = 1e-7;
 /// Halvings in the search for a node's lambda, which are more than a double holds.
 const HALVINGS: u32 = 200;
 
@@ -112,52 +116,43 @@ impl State {
     }
 }
 
-/// An impulse that is not known: what it is to its contact, what its equation feels there, and of itself beside.
-#[derive(Clone, Copy)]
-struct Unknown {
-    contact: usize,
-    column: [f64; 3],
-    row: [f64; 3],
-    own: f64,
+/// An equation of a contact: what it takes of the velocities there, what of the impulses, and its right-hand side.
+#[derive(Clone, Copy, Default)]
+struct Row {
+    felt: [f64; 3],
+    own: [f64; 3],
     right: f64,
 }
 
 /// The solver, with the states of the last step.
 pub(in super::super) struct Disc {
     states: Vec<State>,
-    unknowns: Vec<Unknown>,
+    /// The inverse of the equations, column by column, each filled up to whole groups; impulses and equations stand in
+    /// the order along, normal, across, each of all contacts.
+    inverse: Vec<Group>,
+    /// The set it belongs to; empty where it is good for nothing.
+    of: Vec<(State, Side)>,
+    /// Right-hand sides, and room for a solution, for rows and columns, and for the corrections of a set.
     x: Vec<f64>,
     sum: Vec<Group>,
-    /// The factors of the last few sets, and the one in use.
-    kept: Vec<Factors>,
-    now: usize,
-    turns: u64,
-}
-
-/// The factors of a set of states, in the directions and with the shares that it had.
-#[derive(Default)]
-struct Factors {
-    /// The set they belong to; empty where they are good for nothing any more.
-    of: Vec<(State, Side)>,
+    room: Vec<Group>,
     lu: Vec<f64>,
     pivots: Vec<usize>,
-    /// How often they have been used, and the inverse, column by column, once that pays.
-    used: u32,
-    inverse: Vec<Group>,
-    /// When they came into use last.
-    turn: u64,
+    steps: Vec<Group>,
 }
 
 impl Disc {
     pub(in super::super) fn new(contacts: usize) -> Self {
         Disc {
             states: vec![State::Stick; contacts],
-            unknowns: Vec::new(),
-            x: Vec::new(),
-            sum: Vec::new(),
-            kept: (0..KEPT).map(|_| Factors::default()).collect(),
-            now: 0,
-            turns: 0,
+            inverse: Vec::new(),
+            of: Vec::new(),
+            x: vec![0.0; 3 * contacts],
+            sum: vec![[0.0; LANES]; (3 * contacts).div_ceil(LANES)],
+            room: Vec::new(),
+            lu: Vec::new(),
+            pivots: Vec::new(),
+            steps: Vec::new(),
         }
     }
 
@@ -237,7 +232,7 @@ impl Disc {
     fn go_on<W: Lanes>(&mut self, way: &mut Way, most: u32, report: &mut Report) -> bool {
         for _ in 0..most {
             report.iterations += 1;
-            if !self.correct::<W>(way) {
+            if !(self.follow::<W>(way) && self.correct::<W>(way)) {
                 if !self.impulses::<W>(way) {
                     return false;
                 }
@@ -250,26 +245,105 @@ impl Disc {
         false
     }
 
-    /// Correct the impulses of the last step by the factors of the set of states; false where these are not known, or do
-    /// not come closer fast.
+    /// Let the inverse follow the states, contact by contact; false where there is none, or too much has changed.
+    #[inline(always)]
+    fn follow<W: Lanes>(&mut self, way: &Way) -> bool {
+        if self.of.is_empty() {
+            return false;
+        }
+        let far = |((state, side), (of, of_side)): ((&State, &Side), &(State, Side))| {
+            side != of_side
+                || match (*state, *of) {
+                    (State::Slip(to, share), State::Slip(other, of_share)) => {
+                        to[0] * other[0] + to[1] * other[1] < 0.0
+                            || (to[0] * other[1] - to[1] * other[0]).abs() > TURNED
+                            || (share - of_share).abs() > SHARED
+                    }
+                    (state, of) => state != of,
+                }
+        };
+        let pairs = || self.states.iter().zip(&way.rows.side).zip(&self.of);
+        let changed = pairs().filter(|pair| far(*pair)).count();
+        if changed > self.states.len() / 3 + 1 {
+            return false;
+        }
+        let mut left = changed;
+        for contact in 0..self.states.len() {
+            if left == 0 {
+                break;
+            }
+            let now = (self.states[contact], way.rows.side[contact]);
+            if far(((&now.0, &now.1), &self.of[contact])) {
+                left -= 1;
+                if !self.replace::<W>(way, contact) {
+                    self.of.clear();
+                    return false;
+                }
+                self.of[contact] = now;
+            }
+        }
+        true
+    }
+
+    /// Replace the equations of a contact in the inverse; false where they have no solution. With the new rows `r` and the
+    /// columns `A_c` of the inverse `A` that stand for the old ones, columns become `A - A_c (r A_c)^-1 r A`.
+    #[inline(always)]
+    fn replace<W: Lanes>(&mut self, way: &Way, contact: usize) -> bool {
+        let m = self.states.len();
+        let (n, stride) = (3 * m, (3 * m).div_ceil(LANES));
+        self.room.clear();
+        self.room.resize(6 * stride, [0.0; LANES]);
+        let (rows, old) = self.room.split_at_mut(3 * stride);
+        let equations = way.equations(contact, self.states[contact]);
+        for (k, equation) in equations.iter().enumerate() {
+            way.write(contact, equation, rows[k * stride..][..stride].as_flattened_mut());
+            let column = &self.inverse[(contact + k * m) * stride..][..stride];
+            old[k * stride..][..stride].copy_from_slice(column);
+        }
+        let mut inner = [[0.0; 6]; 3];
+        for (r, inner) in inner.iter_mut().enumerate() {
+            for c in 0..3 {
+                let (row, column) = (&rows[r * stride..][..stride], &old[c * stride..][..stride]);
+                inner[c] = dot(row.as_flattened(), column.as_flattened());
+            }
+            inner[3 + r] = 1.0;
+        }
+        let Some(inner) = inverse_of_three(inner) else {
+            return false;
+        };
+        let own = [contact, m + contact, 2 * m + contact];
+        for j in (0..n).filter(|j| !own.contains(j)) {
+            let column = &mut self.inverse[j * stride..][..stride];
+            let mut felt = [W::all(0.0); 3];
+            for (g, group) in column.iter().enumerate() {
+                let group = W::load(group);
+                for (r, felt) in felt.iter_mut().enumerate() {
+                    *felt = W::load(&rows[r * stride + g]).fma(group, *felt);
+                }
+            }
+            let mut groups = [[0.0; LANES]; LANES];
+            for r in 0..3 {
+                felt[r].store(&mut groups[r]);
+            }
+            let felt = W::sums(&groups);
+            for c in 0..3 {
+                let by = -(inner[c][0] * felt[0] + inner[c][1] * felt[1] + inner[c][2] * felt[2]);
+                add_times::<W>(by, &old[c * stride..][..stride], column);
+            }
+        }
+        for (k, j) in own.into_iter().enumerate() {
+            let column = &mut self.inverse[j * stride..][..stride];
+            column.fill([0.0; LANES]);
+            for c in 0..3 {
+                add_times::<W>(inner[c][k], &old[c * stride..][..stride], column);
+            }
+        }
+        true
+    }
+
+    /// Correct the impulses of the last step by the inverse; false where they do not come closer fast.
     #[inline(always)]
     fn correct<W: Lanes>(&mut self, way: &mut Way) -> bool {
-        let (states, side) = (&self.states, &way.rows.side);
-        let same = |factors: &Factors| {
-            let sides = states.iter().zip(side);
-            let mut pairs = sides.zip(&factors.of);
-            factors.of.len() == states.len()
-                && pairs.all(|((state, side), (of, of_side))| {
-                    side == of_side && std::mem::discriminant(state) == std::mem::discriminant(of)
-                })
-        };
-        if !same(&self.kept[self.now]) {
-            let Some(known) = self.kept.iter().position(same) else {
-                return false;
-            };
-            self.turns += 1;
-            (self.now, self.kept[known].turn) = (known, self.turns);
-        }
         let m = self.states.len();
         for (contact, state) in self.states.iter().enumerate() {
             if !state.closed() {
@@ -284,6 +358,7 @@ impl Disc {
         }
         let enough = RIGHT * largest(&way.problem.b).max(largest(&way.rows.b));
         let mut before = f64::INFINITY;
+        self.steps.clear();
         for _ in 0..CORRECTIONS {
             way.velocities::<W>();
             let now = self.amiss(way);
@@ -294,63 +369,67 @@ impl Disc {
                 break;
             }
             before = now;
-            self.solve_known::<W>();
+            self.find::<W>();
+            self.learn::<W>();
             if !self.apply(way) {
                 break;
             }
         }
-        self.kept[self.now].of.clear();
+        self.of.clear();
         false
     }
 
-    /// Turn the right-hand sides into the solution by the factors in use, or by their inverse.
+    /// Turn the right-hand sides into the solution by the inverse.
     #[inline(always)]
-    fn solve_known<W: Lanes>(&mut self) {
-        let (factors, n) = (&mut self.kept[self.now], self.x.len());
-        factors.used += 1;
-        if factors.used < INVERT_AFTER || n == 0 {
-            return substitute::<W>(&factors.lu, &factors.pivots, &mut self.x);
+    fn find<W: Lanes>(&mut self) {
+        self.sum.fill([0.0; LANES]);
+        inlined::combine::<W>(&self.inverse, self.sum.len(), &self.x, &mut self.sum);
+    }
+
+    /// Change a correction by what those before it have shown, and keep it.
+    #[inline(always)]
+    fn learn<W: Lanes>(&mut self) {
+        let stride = self.sum.len();
+        let mut steps = self.steps.chunks_exact(stride);
+        if let Some(mut last) = steps.next() {
+            let share = |step: &[Group], sum: &[Group]| {
+                let (step, sum) = (step.as_flattened(), sum.as_flattened());
+                dot(step, sum) / dot(step, step)
+            };
+            for step in steps {
+                add_times::<W>(share(last, &self.sum), step, &mut self.sum);
+                last = step;
+            }
+            let left = 1.0 - share(last, &self.sum);
+            if left > CLOSER {
+                self.sum.as_flattened_mut().iter_mut().for_each(|x| *x /= left);
+            }
         }
-        if factors.used == INVERT_AFTER {
-            inverse::<W>(&factors.lu, &factors.pivots, n, &mut factors.inverse);
-        }
-        let stride = n.div_ceil(LANES);
-        self.sum.clear();
-        self.sum.resize(stride, [0.0; LANES]);
-        inlined::combine::<W>(&factors.inverse, stride, &self.x, &mut self.sum);
-        self.x.copy_from_slice(&self.sum.as_flattened()[..n]);
+        self.steps.extend_from_slice(&self.sum);
     }
 
     /// Write by what the velocities are amiss, as right-hand sides, and return the most of it.
     #[inline(always)]
     fn amiss(&mut self, way: &Way) -> f64 {
         let (m, rows, x) = (self.states.len(), &*way.rows, &mut self.x);
-        x.clear();
         for (contact, state) in self.states.iter().enumerate() {
             let stopped = rows.side[contact] != Side::None;
-            let (u_t, u_n) = (way.u[contact], way.u[m + contact] + way.problem.h[contact]);
-            match *state {
-                State::Stick => {
-                    x.extend([-u_t, -u_n]);
-                    if !stopped {
-                        x.push(-rows.u[contact]);
-                    }
+            let (u_t, u_y) = (way.u[contact], rows.u[contact]);
+            let u_n = way.u[m + contact] + way.problem.h[contact];
+            let across = if stopped { -u_y } else { 0.0 };
+            let [t, n, y] = match *state {
+                State::Stick => [-u_t, -u_n, -u_y],
+                State::Slip([t, y], _) if !stopped => {
+                    let share = match self.of[contact].0 {
+                        State::Slip(_, share) => share,
+                        _ => 1.0,
+                    };
+                    [0.0, -u_n, share * (y * u_t - t * u_y)]
                 }
-                State::Slip([t, y], _) => {
-                    x.push(-u_n);
-                    if !stopped {
-                        let share = match self.kept[self.now].of[contact].0 {
-                            State::Slip(_, share) => share,
-                            _ => 1.0,
-                        };
-                        x.push(share * (y * u_t - t * rows.u[contact]));
-                    }
-                }
-                State::Absent | State::Open => {}
-            }
-            if stopped {
-                x.push(-rows.u[contact]);
-            }
+                State::Slip(..) => [0.0, -u_n, across],
+                State::Absent | State::Open => [0.0, 0.0, across],
+            };
+            (x[contact], x[m + contact], x[2 * m + contact]) = (t, n, y);
         }
         largest(x)
     }
@@ -358,27 +437,22 @@ impl Disc {
     /// Change impulses and directions by the solution; false where a node that slips is not pressed any more.
     #[inline(always)]
     fn apply(&mut self, way: &mut Way) -> bool {
-        let m = self.states.len();
-        let mut x = self.x.iter();
-        let mut next = || x.next().copied().unwrap_or(0.0);
+        let (m, x) = (self.states.len(), self.sum.as_flattened());
         for (contact, state) in self.states.iter_mut().enumerate() {
             let stopped = way.rows.side[contact] != Side::None;
+            let [along, normal, across] = [x[contact], x[m + contact], x[2 * m + contact]];
             match state {
                 State::Stick => {
-                    way.p[contact] += next();
-                    way.p[m + contact] += next();
-                    if !stopped {
-                        way.rows.p[contact] += next();
-                    }
+                    way.p[contact] += along;
+                    way.p[m + contact] += normal;
                 }
                 State::Slip(to, _) => {
-                    let normal = next();
                     if !stopped {
-                        let limit = way.problem.mu_slip[contact] * (way.p[m + contact] + normal);
+                        let limit = way.limit(contact, true, way.p[m + contact] + normal);
                         if limit <= 0.0 {
                             return false;
                         }
-                        let turn = next() / limit;
+                        let turn = (to[0] * across - to[1] * along) / limit;
                         let turned = [to[0] - to[1] * turn, to[1] + to[0] * turn];
                         let size = length(turned[0], turned[1]);
                         *to = [turned[0] / size, turned[1] / size];
@@ -387,112 +461,42 @@ impl Disc {
                 }
                 State::Absent | State::Open => {}
             }
-            if stopped {
-                way.rows.p[contact] += next();
+            if stopped || *state == State::Stick {
+                way.rows.p[contact] += across;
             }
         }
         true
     }
 
-    /// Find the impulses of the states as they are; false where they have none.
+    /// Find the inverse of the states as they are, and their impulses; false where they have none.
     #[inline(always)]
     fn impulses<W: Lanes>(&mut self, way: &mut Way) -> bool {
-        self.write(way);
-        self.turns += 1;
-        let oldest = (0..KEPT).min_by_key(|k| self.kept[*k].turn * u64::from(!self.kept[*k].of.is_empty()));
-        self.now = oldest.unwrap_or(0);
-        self.assemble::<W>(way);
-        let factors = &mut self.kept[self.now];
-        factors.of.clear();
-        if !eliminate::<W>(&mut factors.lu, self.unknowns.len(), &mut factors.pivots) {
+        let m = self.states.len();
+        let n = 3 * m;
+        self.of.clear();
+        self.lu.resize(n * n, 0.0);
+        let mut row = vec![0.0; n];
+        for (contact, state) in self.states.iter().enumerate() {
+            for (k, equation) in way.equations(contact, *state).iter().enumerate() {
+                let r = contact + k * m;
+                self.x[r] = equation.right;
+                way.write(contact, equation, &mut row);
+                for (c, value) in row.iter().enumerate() {
+                    self.lu[c * n + r] = *value;
+                }
+            }
+        }
+        if !eliminate::<W>(&mut self.lu, n, &mut self.pivots) {
             return false;
         }
+        inverse::<W>(&self.lu, &self.pivots, n, &mut self.inverse);
         let sides = self.states.iter().copied().zip(way.rows.side.iter().copied());
-        factors.of.extend(sides);
-        (factors.turn, factors.used) = (self.turns, 0);
-        self.x.clear();
-        self.x.extend(self.unknowns.iter().map(|unknown| unknown.right));
-        substitute::<W>(&factors.lu, &factors.pivots, &mut self.x);
-        let m = self.states.len();
-        way.p.fill(0.0);
-        way.rows.p.fill(0.0);
-        for (unknown, x) in self.unknowns.iter().zip(&self.x) {
-            let [t, n, y] = unknown.column;
-            way.p[unknown.contact] += t * x;
-            way.p[m + unknown.contact] += n * x;
-            way.rows.p[unknown.contact] += y * x;
-        }
+        self.of.extend(sides);
+        self.find::<W>();
+        let x = self.sum.as_flattened();
+        way.p.copy_from_slice(&x[..2 * m]);
+        way.rows.p.copy_from_slice(&x[2 * m..n]);
         true
-    }
-
-    /// Write the unknowns.
-    fn write(&mut self, way: &Way) {
-        let (problem, rows, m) = (way.problem, &*way.rows, self.states.len());
-        self.unknowns.clear();
-        for (contact, state) in self.states.iter().enumerate() {
-            let b = [
-                problem.b[contact],
-                problem.b[m + contact] + problem.h[contact],
-                rows.b[contact],
-            ];
-            let mut add = |column: [f64; 3], row: [f64; 3], own: f64, right: f64| {
-                self.unknowns.push(Unknown {
-                    contact,
-                    column,
-                    row,
-                    own,
-                    right,
-                });
-            };
-            let stopped = rows.side[contact] != Side::None;
-            match *state {
-                State::Stick => {
-                    add([1.0, 0.0, 0.0], [1.0, 0.0, 0.0], 0.0, -b[0]);
-                    add([0.0, 1.0, 0.0], [0.0, 1.0, 0.0], 0.0, -b[1]);
-                    if !stopped {
-                        add([0.0, 0.0, 1.0], [0.0, 0.0, 1.0], 0.0, -b[2]);
-                    }
-                }
-                State::Slip([t, y], share) => {
-                    let mu = problem.mu_slip[contact];
-                    add([mu * t, 1.0, mu * y], [0.0, 1.0, 0.0], 0.0, -b[1]);
-                    if !stopped {
-                        let across = [-share * y, 0.0, share * t];
-                        let right = share * (y * b[0] - t * b[2]);
-                        add([-y, 0.0, t], across, (1.0 - share) / way.rho(contact), right);
-                    }
-                }
-                State::Absent | State::Open => {}
-            }
-            if stopped {
-                add([0.0, 0.0, 1.0], [0.0, 0.0, 1.0], 0.0, -b[2]);
-            }
-        }
-    }
-
-    /// Write the matrix of the unknowns, column by column.
-    #[inline(always)]
-    fn assemble<W: Lanes>(&mut self, way: &Way) {
-        let (m, g, g_y) = (self.states.len(), &way.problem.g, &way.rows.g);
-        let lu = &mut self.kept[self.now].lu;
-        lu.clear();
-        for (c, one) in self.unknowns.iter().enumerate() {
-            let [t, n, y] = one.column;
-            let along = &g[one.contact * 2 * m..][..2 * m];
-            let normal = &g[(m + one.contact) * 2 * m..][..2 * m];
-            let across = &g_y[one.contact * m..][..m];
-            for (r, other) in self.unknowns.iter().enumerate() {
-                let (k, row) = (other.contact, &other.row);
-                let felt = [
-                    fma::<W>(t, along[k], n * normal[k]),
-                    fma::<W>(t, along[m + k], n * normal[m + k]),
-                    y * across[k],
-                ];
-                let own = if r == c { one.own } else { 0.0 };
-                let value = fma::<W>(row[0], felt[0], fma::<W>(row[1], felt[1], row[2] * felt[2]));
-                lu.push(value + own);
-            }
-        }
     }
 
     /// Change the states that break their conditions, and the directions of those that slip; true where none does, and the
@@ -514,7 +518,6 @@ impl Disc {
             let (p_t, p_n, p_y) = (way.p[contact], way.p[m + contact], way.rows.p[contact]);
             let (u_t, u_n) = (way.u[contact], way.u[m + contact] + way.problem.h[contact]);
             let u_y = way.rows.u[contact];
-            let [mu_stick, mu_slip] = [way.problem.mu_stick[contact], way.problem.mu_slip[contact]];
             let (mut moved, mut next) = (next_side != side, before);
             match before {
                 State::Open if u_n < -slack_u => next = State::Stick,
@@ -522,8 +525,8 @@ impl Disc {
                 State::Stick => {
                     let across = if stopped { 0.0 } else { p_y };
                     let size = length(p_t, across);
-                    if size > mu_stick * p_n.max(0.0) + slack_p {
-                        let share = mu_slip * p_n.max(0.0) / size;
+                    if size > way.limit(contact, false, p_n.max(0.0)) + slack_p {
+                        let share = way.limit(contact, true, p_n.max(0.0)) / size;
                         next = State::Slip([p_t / size, across / size], share.min(1.0));
                     }
                 }
@@ -538,7 +541,7 @@ impl Disc {
                 State::Slip(..) => {
                     let rho = way.rho(contact);
                     let z = [p_t - rho * u_t, p_y - rho * u_y];
-                    let (size, limit) = (length(z[0], z[1]), mu_slip * p_n.max(0.0));
+                    let (size, limit) = (length(z[0], z[1]), way.limit(contact, true, p_n.max(0.0)));
                     if size <= limit || size == 0.0 {
                         next = State::Stick;
                     } else {
@@ -565,7 +568,7 @@ impl Disc {
     fn sweeps(&mut self, way: &mut Way, most: u32) -> bool {
         let m = self.states.len();
         for contact in 0..m {
-            let limit = way.problem.mu_stick[contact] * way.p[m + contact].max(0.0);
+            let limit = way.limit(contact, false, way.p[m + contact].max(0.0));
             if !self.states[contact].closed() {
                 (way.p[contact], way.p[m + contact], way.rows.p[contact]) = (0.0, 0.0, 0.0);
             }
@@ -605,7 +608,9 @@ impl Disc {
         let m = self.states.len();
         let (problem, rows) = (way.problem, &*way.rows);
         let (mut worst, mut most) = (0.0_f64, 0.0_f64);
-        for (contact, state) in self.states.iter().enumerate() {
+        // What is known of one that meets nothing is old.
+        let there = |(_, state): &(usize, &State)| **state != State::Absent;
+        for (contact, state) in self.states.iter().enumerate().filter(there) {
             let (p_t, p_n, p_y) = (way.p[contact], way.p[m + contact], rows.p[contact]);
             let scale = [problem.scale[contact], problem.scale[m + contact]];
             let stops = (problem.b[contact] * scale[0])
@@ -614,12 +619,8 @@ impl Disc {
                 .max((rows.b[contact] * rows.scale[contact]).abs());
             most = most.max(p_n).max(stops);
             let apart = p_n.min((way.u[m + contact] + problem.h[contact]) * scale[1]);
-            let mu = if *state == State::Stick {
-                problem.mu_stick[contact]
-            } else {
-                problem.mu_slip[contact]
-            };
-            let (limit, rho) = (mu * p_n.max(0.0), way.rho(contact));
+            let slips = *state != State::Stick;
+            let (limit, rho) = (way.limit(contact, slips, p_n.max(0.0)), way.rho(contact));
             let [left, right] = rows.touches[contact];
             let off = if rows.side[contact] != Side::None {
                 let z = p_t - rho * way.u[contact];
@@ -666,12 +667,85 @@ impl Way<'_> {
         self.problem.scale[contact].min(self.rows.scale[contact])
     }
 
+    /// Friction of a contact that is pressed so.
+    #[inline(always)]
+    fn limit(&self, contact: usize, slips: bool, normal: f64) -> f64 {
+        let problem = self.problem;
+        let mu = if slips { &problem.mu_slip } else { &problem.mu_stick };
+        mu[contact] * normal + problem.added(contact, slips, 0.0)
+    }
+
+    /// The equations of a contact in this state.
+    #[inline(always)]
+    fn equations(&self, contact: usize, state: State) -> [Row; 3] {
+        let (problem, rows, m) = (self.problem, &*self.rows, self.rows.p.len());
+        let b = [
+            problem.b[contact],
+            problem.b[m + contact] + problem.h[contact],
+            rows.b[contact],
+        ];
+        // Impulses as large as the velocities that they make.
+        let (rho, stopped) = (self.rho(contact), rows.side[contact] != Side::None);
+        let still = |k: usize| {
+            let mut row = Row {
+                right: -b[k],
+                ..Row::default()
+            };
+            row.felt[k] = 1.0;
+            row
+        };
+        let none = |k: usize| {
+            let mut row = Row::default();
+            row.own[k] = 1.0 / rho;
+            row
+        };
+        let across = if stopped { still(2) } else { none(2) };
+        match state {
+            State::Stick => [still(0), still(1), still(2)],
+            State::Slip([t, y], share) => {
+                let y = if stopped { 0.0 } else { y };
+                let rubs = Row {
+                    own: [t / rho, -problem.mu_slip[contact] / rho, y / rho],
+                    right: problem.added(contact, true, 0.0) / rho,
+                    ..Row::default()
+                };
+                let own = (1.0 - share) / rho;
+                let turns = Row {
+                    felt: [-share * y, 0.0, share * t],
+                    own: [-own * y, 0.0, own * t],
+                    right: share * (y * b[0] - t * b[2]),
+                };
+                [rubs, still(1), if stopped { across } else { turns }]
+            }
+            State::Absent | State::Open => [none(0), none(1), across],
+        }
+    }
+
+    /// Write an equation of a contact in terms of all impulses.
+    #[inline(always)]
+    fn write(&self, contact: usize, equation: &Row, to: &mut [f64]) {
+        let m = self.rows.p.len();
+        let [t, n, y] = equation.felt;
+        let along = &self.problem.g[contact * 2 * m..][..2 * m];
+        let normal = &self.problem.g[(m + contact) * 2 * m..][..2 * m];
+        let across = &self.rows.g[contact * m..][..m];
+        for ((to, along), normal) in to.iter_mut().zip(along).zip(normal) {
+            *to = t * along + n * normal;
+        }
+        for (to, across) in to[2 * m..].iter_mut().zip(across) {
+            *to = y * across;
+        }
+        for (k, own) in equation.own.iter().enumerate() {
+            to[contact + k * m] += own;
+        }
+    }
+
     /// Let friction lean this way, with a change of the normal impulse.
     #[inline(always)]
     fn lean(&mut self, contact: usize, [t, y]: [f64; 2], change: f64) {
         let m = self.rows.p.len();
         let normal = self.p[m + contact] + change;
-        let limit = self.problem.mu_slip[contact] * normal;
+        let limit = self.limit(contact, true, normal);
         (self.p[contact], self.p[m + contact]) = (limit * t, normal);
         if self.rows.side[contact] == Side::None {
             self.rows.p[contact] = limit * y;
@@ -725,6 +799,25 @@ impl Way<'_> {
     }
 }
 
+/// The inverse of three rows, each with those of the unit matrix beside it; none where it has none.
+#[inline(always)]
+fn inverse_of_three(mut rows: [[f64; 6]; 3]) -> Option<[[f64; 3]; 3]> {
+    for k in 0..3 {
+        let pivot = (k..3).max_by(|a, b| rows[*a][k].abs().total_cmp(&rows[*b][k].abs()))?;
+        rows.swap(k, pivot);
+        if rows[k][k].is_nan() || rows[k][k].abs() < VANISHES {
+            return None;
+        }
+        let own = rows[k].map(|x| x / rows[k][k]);
+        rows[k] = own;
+        for r in (0..3).filter(|r| *r != k) {
+            let by = rows[r][k];
+            rows[r].iter_mut().zip(&own).for_each(|(x, own)| *x -= by * own);
+        }
+    }
+    Some(rows.map(|row| [row[3], row[4], row[5]]))
+}
+
 /// Length of a vector; unlike `hypot` it costs next to nothing.
 #[inline(always)]
 fn length(a: f64, b: f64) -> f64 {
@@ -742,6 +835,8 @@ struct Node {
     free: [f64; 3],
     touches: [bool; 2],
     mu: [f64; 2],
+    /// What it bears beside that.
+    added: [f64; 2],
     rho: f64,
 }
 
@@ -763,6 +858,7 @@ impl Node {
             ],
             touches: rows.touches[contact],
             mu: [problem.mu_stick[contact], problem.mu_slip[contact]],
+            added: [false, true].map(|slips| problem.added(contact, slips, 0.0)),
             rho: way.rho(contact),
         }
     }
@@ -797,12 +893,12 @@ impl Node {
         };
         let size = |p: [f64; 3]| length(p[0], p[2]);
         let stick = at(0.0);
-        if stick[1] >= 0.0 && size(stick) <= self.mu[0] * stick[1] {
+        if stick[1] >= 0.0 && size(stick) <= self.mu[0] * stick[1] + self.added[0] {
             return (State::Stick, stick);
         }
         let too_much = |lambda: f64| {
             let p = at(lambda);
-            size(p) > self.mu[1] * p[1]
+            size(p) > self.mu[1] * p[1] + self.added[1]
         };
         let (mut low, mut high) = (0.0, own.max(self.yy));
         while too_much(high) && high < f64::MAX / 4.0 {
@@ -915,6 +1011,45 @@ mod tests {
             let (other, _) = solved(&problem, &mut mirrored);
             assert_eq!(p, other, "{seed}");
             assert!(rows.p.iter().zip(&mirrored.p).all(|(a, b)| *a == -*b), "{seed}");
+        }
+    }
+
+    #[test]
+    fn a_node_that_meets_nothing_breaks_no_condition_beside_neighbours_without_a_gap() {
+        for seed in 0..30 {
+            let (problem, mut rows) = problem(97 * seed, 0.8);
+            rows.touches = vec![[true; 2]; CONTACTS];
+            let mut status = vec![Status::Stick; CONTACTS];
+            status[2] = Status::Absent;
+            let (mut p, mut u) = (vec![0.0; 2 * CONTACTS], vec![0.0; 2 * CONTACTS]);
+            let solution = (&mut p[..], &mut u[..]);
+            let report =
+                Disc::new(CONTACTS).solve::<Plain>(&problem, &mut rows, &mut status, solution, true);
+            assert!(report.residual < 1e-8, "{seed}: {}", report.residual);
+            assert!(rows.u.iter().enumerate().all(|(k, u)| k == 2 || u.abs() < 1e-9));
+        }
+    }
+
+    /// Problems that drift from one to another, as those of steps do.
+    #[test]
+    fn the_inverse_that_goes_along_finds_what_a_new_one_does() {
+        for seed in 0..40 {
+            let ((mut problem, mut rows), (_, other)) = (problem(97 * seed, 0.8), problem(97 * seed + 50, 0.8));
+            let start = (problem.b.clone(), rows.b.clone());
+            let (mut disc, mut status) = (Disc::new(CONTACTS), vec![Status::Stick; CONTACTS]);
+            let (mut p, mut u) = (vec![0.0; 2 * CONTACTS], vec![0.0; 2 * CONTACTS]);
+            for step in 0..200 {
+                let turn = f64::from(step) / 40.0;
+                for (k, b) in problem.b.iter_mut().enumerate() {
+                    *b = start.0[k] * turn.cos() + 0.3 * other.b[k % CONTACTS] * (1.7 * turn).sin();
+                }
+                for (k, b) in rows.b.iter_mut().enumerate() {
+                    *b = start.1[k] * (1.3 * turn).cos() + 0.5 * other.b[k] * turn.sin();
+                }
+                let report =
+                    disc.solve::<Plain>(&problem, &mut rows, &mut status, (&mut p, &mut u), step == 0);
+                assert!(report.residual < 1e-8, "{seed} {step}: {}", report.residual);
+            }
         }
     }
 
