@@ -30,7 +30,7 @@ def refusals(*names: str) -> set[str]:
     had = set(names)
     had |= {"several cracks"} if "three cracks" in had else set()
     had |= {"kinks"} if "kinks off the straight line" in had else set()
-    had |= {"a friction law"} if "a law with cohesion" in had else set()
+    had |= {"a friction law"} if had & {"a law with cohesion", "a friction law by the normal stress"} else set()
     had |= {"rotation beyond small angles"} if "finite rotation" in had else set()
     return {rule.feature for rule in RULES if not rule.users and {rule.feature, rule.other} <= had}
 

@@ -51,6 +51,7 @@ CHANGES: dict[str, Fields] = {
     "Zangar's water pressure": {"reservoir.hydrodynamic": "zangar"},
     "compressible water": {"reservoir.compressible": True},
     "shaking across the valley": {"motion.cross_valley": {"points": [["0 s", "0 g"], ["1 s", "0.05 g"]]}},
+    "neighbours": {"crack.side_gap": "3 mm"},
     "an inclined crack": {"crack.inclination": "2 deg"},
     "elastic rock": {"rock": {"modulus": "20 GPa"}},
     "water that follows the vertical motion": {

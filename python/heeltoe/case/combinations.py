@@ -331,6 +331,7 @@ FEATURES = {
             "remove motion.cross_valley",
             _cross_valley,
         ),
+        Feature("neighbours", ("crack.side_gap",), 'set crack.side_gap = "free"', _options("crack.side_gap")),
         Feature("an inclined crack", ("crack.inclination",), "set crack.inclination = 0", _of_cracks("inclination")),
         Feature("elastic rock", ("rock",), 'set rock = "rigid"', _options("rock.modulus")),
         Feature(
@@ -421,16 +422,13 @@ RULES = (
     *(
         Rule("shaking across the valley", other, ("flexible",), why)
         for other, why in (
-            ("several cracks", "its parts are one or two across the valley"),
-            ("kinks", "friction across the valley is that of a straight crack"),
-            ("a friction law", "the path of a law is that of a slip along the stream"),
             ("a bonded joint", "a bond breaks along the stream alone"),
             ("an anchor with stiffness", "its anchors resist along the stream alone"),
-            ("aftershocks", "it is followed through one motion"),
             ("penalty contact", _NO_PENALTY),
             ("all nodes watched twice", "nodes that meet would share their friction"),
         )
     ),
+    Rule("neighbours", "several cracks", ("flexible",), "a neighbour stops the part above one crack"),
     Rule(
         "shaking across the valley",
         "",

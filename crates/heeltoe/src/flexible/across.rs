@@ -15,6 +15,7 @@ use super::contact::Contacts;
 use super::coulomb::disc::{Disc, Rows, Side};
 use super::dam::{CrossShaking, Dam};
 use super::dampers::HeldNodes;
+use super::law::Sideways;
 use super::ledger::Ledger;
 use super::linear::LinearDam;
 use super::modal_stepper::Drive;
@@ -38,6 +39,8 @@ pub(super) struct Across<'a> {
     /// For each contact: velocity before the step, and how far it has slipped.
     before: Vec<f64>,
     slip: Vec<f64>,
+    /// Impulses of friction.
+    friction: Vec<f64>,
     /// Whether contacts have moved since their answers were written.
     pub moved: bool,
     pub track: Option<Track>,
@@ -61,6 +64,7 @@ impl<'a> Across<'a> {
             rows: Rows::new(contacts),
             before: vec![0.0; contacts],
             slip: vec![0.0; contacts],
+            friction: vec![0.0; contacts],
             moved: true,
             track: crossing.crest.map(Track::new),
             crossing,
@@ -115,6 +119,23 @@ impl<'a> Across<'a> {
         for (touches, slip) in rows.touches.iter_mut().zip(&self.slip) {
             let [left, right] = self.crossing.gap;
             *touches = [slip + TOUCHES > left, TOUCHES - slip > right];
+        }
+    }
+
+    /// What its contacts do. Where a neighbour pushes, it bears all that acts across the valley.
+    pub(super) fn sideways(&self) -> Sideways<'_> {
+        Sideways {
+            p: &self.friction,
+            u: &self.rows.u,
+            before: &self.before,
+        }
+    }
+
+    /// Note what friction does.
+    pub(super) fn note(&mut self) {
+        let pushed = self.rows.p.iter().zip(&self.rows.side);
+        for (friction, (p, side)) in self.friction.iter_mut().zip(pushed) {
+            *friction = if *side == Side::None { *p } else { 0.0 };
         }
     }
 

@@ -17,7 +17,7 @@ pub(super) struct FacesOperator<'s, 'a> {
 }
 
 impl FacesOperator<'_, '_> {
-    /// Solve the contact problem of a step together with that across the valley, and move the nodes there.
+    /// Solve the contact problem of a step together with that across the valley.
     pub(super) fn solve_across<W: Lanes>(
         &mut self,
         problem: &mut Problem,
@@ -32,7 +32,7 @@ impl FacesOperator<'_, '_> {
         let solution = (&mut solver.p[..], &mut solver.u[..]);
         let report = disc.solve::<W>(problem, rows, &mut solver.status, solution, moved);
         self.velocities::<W>(problem, &solver.p, &mut solver.u);
-        across.finish::<W>(self.contacts);
+        across.note();
         report
     }
 }

@@ -21,7 +21,7 @@ use super::dampers::Holding;
 use super::faces::Faces;
 use super::kinks::Turn;
 use super::law::spots::{spots, Spot};
-use super::law::Laws;
+use super::law::{Laws, Sideways};
 use super::place::Place;
 use super::scheme::TimeStep;
 use super::status::Status;
@@ -133,9 +133,10 @@ impl Crack {
     }
 
     /// Let contacts with a law, and bonds, bear in a step what they do as it begins.
-    pub(super) fn bear(&mut self, step: TimeStep) {
+    pub(super) fn bear(&mut self, step: TimeStep, sideways: Sideways) {
         if let Some(laws) = &mut self.laws {
-            laws.set_up(&mut self.problem, &mut self.solver, &self.before, step.dt);
+            let before = &self.before;
+            laws.set_up(&mut self.problem, &mut self.solver, before, sideways, step.dt);
         }
         if let Some(bonds) = &mut self.bonds {
             bonds.set_up(&mut self.problem, &self.solver, &self.contacts.gaps, step);

@@ -22,6 +22,7 @@ use super::coulomb::{Known, Report};
 use super::coupling::Crack;
 use super::dam::Dam;
 use super::faces::{mean_along, Faces};
+use super::law::Sideways;
 use super::place::Place;
 use super::scheme::TimeStep;
 use super::simd::{Group, Plain};
@@ -219,7 +220,7 @@ fn step(dam: &Dam, crack: &mut Crack, sides: &mut [Side]) {
     crack.contacts.relative(free, &mut crack.problem.b);
     crack.problem.h.copy_from_slice(&crack.contacts.gaps);
     crack.set_up();
-    crack.bear(ONE);
+    crack.bear(ONE, Sideways::default());
     let mut report = Report::default();
     loop {
         let (problem, solver) = (&mut crack.problem, &mut crack.solver);
@@ -230,7 +231,7 @@ fn step(dam: &Dam, crack: &mut Crack, sides: &mut [Side]) {
         let met = crack
             .laws
             .as_mut()
-            .is_none_or(|laws| laws.met(problem, solver, &crack.before, ONE, &mut report));
+            .is_none_or(|laws| laws.met(problem, solver, &crack.before, Sideways::default(), ONE, &mut report));
         if met {
             break;
         }

@@ -24,7 +24,7 @@ use super::contact_operator::FacesOperator;
 use super::coulomb::{Problem, Report, Solver};
 use super::crack_forces::CrackForces;
 use super::dam::{Dam, Shaking, Wanted};
-use super::law::Laws;
+use super::law::{Laws, Sideways};
 use super::ledger::Ledger;
 use super::linear::LinearDam;
 use super::modal_stepper::Drive;
@@ -210,10 +210,12 @@ impl<'a> Moreau<'a> {
             *h = (gap.max(0.0) / dt).max(back * approach);
         }
         crack.set_up();
-        crack.bear(self.linear.step);
-        if let Some(across) = &mut self.across {
+        let across = self.across.as_mut();
+        let sideways = across.map_or_else(Sideways::default, |across| {
             across.set_up::<W>(&crack.contacts);
-        }
+            across.sideways()
+        });
+        crack.bear(self.linear.step, sideways);
     }
 
     /// Solve the contact problem and move the nodes; the bodies get their impulses, the ledger its works.
@@ -236,12 +238,9 @@ impl<'a> Moreau<'a> {
                     softness,
                 };
                 let (problem, solver) = (&mut crack.problem, &mut crack.solver);
-                if let Some(across) = &mut self.across {
-                    let report = faces.solve_across::<W>(problem, solver, across);
-                    return self.end_contact::<W>(report, softness);
-                }
                 let solving = Solving {
                     faces: &mut faces,
+                    across: self.across.as_mut(),
                     problem,
                     solver,
                     bonds: crack.bonds.as_mut(),
@@ -392,6 +391,7 @@ impl<'a> Moreau<'a> {
 /// The contact problem of a step, with the bonds of some cracks and the laws of others.
 struct Solving<'s, 'f, 'a> {
     faces: &'s mut FacesOperator<'f, 'a>,
+    across: Option<&'s mut Across<'a>>,
     problem: &'s mut Problem,
     solver: &'s mut Solver,
     bonds: Option<&'s mut Bonds>,
@@ -406,17 +406,22 @@ impl Solving<'_, '_, '_> {
         let mut report = Report::default();
         loop {
             let (problem, solver) = (&mut *self.problem, &mut *self.solver);
-            report.go_on(match self.bonds.as_mut() {
-                Some(bonds) => {
+            report.go_on(match (self.across.as_mut(), self.bonds.as_mut()) {
+                (Some(across), _) => self.faces.solve_across::<W>(problem, solver, across),
+                (None, Some(bonds)) => {
                     bonds.solve::<W>(problem, solver, self.faces, self.before, self.step, self.moved)
                 }
-                None => solver.solve::<W>(problem, self.faces),
+                (None, None) => solver.solve::<W>(problem, self.faces),
             });
-            let met = self
-                .laws
-                .as_mut()
-                .is_none_or(|laws| laws.met(problem, solver, self.before, self.step, &mut report));
+            let across = self.across.as_deref();
+            let sideways = across.map_or_else(Sideways::default, Across::sideways);
+            let met = self.laws.as_mut().is_none_or(|laws| {
+                laws.met(problem, solver, self.before, sideways, self.step, &mut report)
+            });
             if met {
+                if let Some(across) = &mut self.across {
+                    across.finish::<W>(self.faces.contacts);
+                }
                 return report;
             }
         }

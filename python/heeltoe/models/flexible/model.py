@@ -126,11 +126,12 @@ def run_flexible(
 
 def _beside_one_component(response: FlexibleResponse, shaken: ShakenDam, run: DamRun, block: Block) -> FlexibleResponse:
     """Add to a response of this run what the same dam does at the same step without the shaking across the valley."""
-    case, dam, summary = shaken.case, shaken.dam, run.summary
+    case, dam, leads = shaken.case, shaken.dam, response.asked
+    summary = run.summaries[leads]
     alone = ShakenDam(case, dam, shaken.shaking.along_stream())
     without = alone.run(summary.end_time / summary.steps, frame_step_of(shaken.shaking.end, None), stresses=False)
     outcome, _ = judge_outcome(dam, block, without, response.silence_s)
-    slip = without.summary.slip if outcome.has_result else None
+    slip = without.summaries[leads].slip if outcome.has_result else None
     return beside_one_component(response, str(outcome), slip, summary.slip)
 
 

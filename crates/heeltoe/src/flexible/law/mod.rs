@@ -6,7 +6,8 @@
 //! S = a tau(N / a, d, v)
 //! ```
 //!
-//! with `tau` of [`crate::friction::Law`], the path `d` that this very contact has slipped and its speed `v`. `N` and `d`
+//! with `tau` of [`crate::friction::Law`], the path `d` that this very contact has slipped and its speed `v`, both of the
+//! vector in the plane of the crack where the ground moves across the valley, too. `N` and `d`
 //! are those of the step itself, `d` in the middle of its way: they are found by passes, see [`passes`]. The speed is
 //! that with which the step begins. So what friction takes in a step is the work under its curve, and but for the speed
 //! the law adds no error of the step's first order to that of the scheme.
@@ -25,6 +26,23 @@ use super::dam::Dam;
 use super::scheme::TimeStep;
 use super::status::Status;
 use crate::friction::{Law, Strength, Worn};
+
+/// What contacts do across the valley in a step; nothing where the ground moves along the stream alone.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Sideways<'a> {
+    /// Impulses of friction, velocities, and those before the step.
+    pub p: &'a [f64],
+    pub u: &'a [f64],
+    pub before: &'a [f64],
+}
+
+impl Sideways<'_> {
+    /// A number of a contact along its crack as a vector in the plane of the crack.
+    #[inline(always)]
+    pub(super) fn beside(along: f64, across: &[f64], contact: usize) -> [f64; 2] {
+        [along, across.get(contact).copied().unwrap_or(0.0)]
+    }
+}
 
 /// All of them, with the laws of their cracks.
 #[derive(Clone, Debug, Default)]
@@ -98,10 +116,16 @@ impl Laws {
     }
 
     /// Book a step: what the contacts have slipped, and which of them have opened.
-    pub(super) fn book(&mut self, status: &[Status], u: &[f64], before: &[f64], step: TimeStep) {
+    pub(super) fn book(
+        &mut self,
+        status: &[Status],
+        (u, before): (&[f64], &[f64]),
+        sideways: Sideways,
+        step: TimeStep,
+    ) {
         for worked in &mut self.contacts {
             let k = worked.contact;
-            let moved = worked.way(status[k], u[k], before[k], step);
+            let moved = worked.way(status[k], (u[k], before[k]), sideways, step);
             worked.look(&self.of_cracks, moved);
             self.sums[worked.crack][0] += worked.bond[1] * moved;
             worked.worn.path += moved;

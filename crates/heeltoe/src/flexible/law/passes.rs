@@ -18,7 +18,7 @@ use super::super::scheme::TimeStep;
 use super::super::simd::largest;
 use super::super::status::Status;
 use super::worked::Worked;
-use super::Laws;
+use super::{Laws, Sideways};
 
 /// A slope that changes and is off by less than this is kept.
 const NEAR: f64 = 0.02;
@@ -38,12 +38,15 @@ impl Laws {
         problem: &mut Problem,
         solver: &mut Solver,
         before: &[f64],
+        sideways: Sideways,
         dt: f64,
     ) {
         problem.added.resize(solver.status.len(), [0.0; 2]);
         (self.passes, self.careful) = (0, false);
         for worked in &mut self.contacts {
-            worked.speed = before[worked.contact].abs();
+            let k = worked.contact;
+            let [along, across] = Sideways::beside(before[k], sideways.before, k);
+            worked.speed = along.hypot(across);
             worked.look(&self.of_cracks, 0.0);
             let slope = worked.bears.coefficient[1];
             worked.steady = worked.slope == slope;
@@ -58,11 +61,12 @@ impl Laws {
         problem: &mut Problem,
         solver: &mut Solver,
         before: &[f64],
+        sideways: Sideways,
         step: TimeStep,
         report: &mut Report,
     ) -> bool {
         self.passes += 1;
-        let missed = self.missed(problem, solver, before, step);
+        let missed = self.missed(problem, solver, before, sideways, step);
         let none = report.residual > NONE;
         let mut most = MOST;
         if none {
@@ -76,28 +80,36 @@ impl Laws {
             return false;
         }
         report.residual = report.residual.max(missed);
-        self.book(&solver.status, &solver.u, before, step);
+        self.book(&solver.status, (&solver.u, before), sideways, step);
         true
     }
 
     /// Look at what contacts bear where they are now, and return by how much the lines of the problem miss it, over the
     /// largest impulse.
-    fn missed(&mut self, problem: &Problem, solver: &Solver, before: &[f64], step: TimeStep) -> f64 {
+    fn missed(
+        &mut self,
+        problem: &Problem,
+        solver: &Solver,
+        before: &[f64],
+        sideways: Sideways,
+        step: TimeStep,
+    ) -> f64 {
         let m = solver.status.len();
         let largest = largest(&solver.p);
         let mut missed = 0.0_f64;
         for worked in &mut self.contacts {
             let k = worked.contact;
             let status = solver.status[k];
-            let (p_t, p_n) = (solver.p[k], solver.p[m + k]);
+            let p_n = solver.p[m + k];
+            let [along, across] = Sideways::beside(solver.p[k], sideways.p, k);
             worked.pressed = p_n / step.dt;
-            let moved = worked.way(status, solver.u[k], before[k], step);
+            let moved = worked.way(status, (solver.u[k], before[k]), sideways, step);
             worked.look(&self.of_cracks, moved);
             let bears = |slides: usize| step.dt * worked.borne(slides);
             missed = missed.max(match status {
                 Status::Absent | Status::Open => 0.0,
                 // The line of a contact that sticks need not meet the law, if it sticks by both.
-                Status::Stick => p_t.abs() - bears(usize::from(worked.slipped)),
+                Status::Stick => along.hypot(across) - bears(usize::from(worked.slipped)),
                 _ => (problem.mu_slip[k] * p_n + problem.added[k][1] - bears(1)).abs(),
             });
         }

@@ -2,6 +2,7 @@
 
 use super::super::scheme::TimeStep;
 use super::super::status::Status;
+use super::Sideways;
 use crate::friction::{Law, Strength, Worn};
 use crate::table::columns;
 
@@ -48,9 +49,18 @@ columns!(Worked, w => {
 
 impl Worked {
     /// Way that it slips in a step; one that goes on sticking has none, whatever rounding says.
-    pub(super) fn way(&self, status: Status, u: f64, before: f64, step: TimeStep) -> f64 {
+    pub(super) fn way(
+        &self,
+        status: Status,
+        (u, before): (f64, f64),
+        sideways: Sideways,
+        step: TimeStep,
+    ) -> f64 {
         if status.slips() || (self.slipped && status.closed()) {
-            step.dt * (step.theta * u + (1.0 - step.theta) * before).abs()
+            let u = Sideways::beside(u, sideways.u, self.contact);
+            let before = Sideways::beside(before, sideways.before, self.contact);
+            let [along, across] = [0, 1].map(|k| step.theta * u[k] + (1.0 - step.theta) * before[k]);
+            step.dt * along.hypot(across)
         } else {
             0.0
         }
