@@ -180,7 +180,7 @@ def test_memory_of_water_with_sound(depth):
 
 
 def test_silence_and_spread_are_counted():
-    case = example("typical-base", "flexible.evidence=none", "motion.duration=20s")
+    case = example("typical-base", "flexible.evidence=none", "motion.duration=20s", "flexible.time_step=0.2ms")
     alone = analysing(case, 20.0, 0.01).seconds - building(parts_of(case)).seconds
     with_silence = analysing(case, 20.0, 0.01, silence=10.0).seconds - building(parts_of(case)).seconds
     # The run that counts, and all of the silence at most.

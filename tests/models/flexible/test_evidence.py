@@ -46,7 +46,8 @@ def slip(scale=1.0, **options):
 def test_each_part_is_the_difference_of_two_runs_of_ones_own():
     response = flexible(dam(elements_across=6), MOTION)
     evidence = response.evidence
-    step = response.time_step_s
+    # As it is asked for: each run makes it fit its duration.
+    step = evidence["time_step_s"]
     assert response.residual_slip_m > 0.01
     meshes = [evidence[f"{which}elements_across"] for which in ("", "other_", "third_")]
     assert meshes == [6, 3, 2]

@@ -383,7 +383,7 @@ def rest_each(
         frame_step = frame_step_of(shaking.end, output_step)
         dam, block = build_flexible_dam(case), build_block(case)
         rested = run_until_rest(
-            case, dam, block, shaking, frame_step, step_of=ShakenDam.step_of_band, stresses=False, ending=ending
+            case, dam, block, shaking, frame_step, step_of=_step_beside, stresses=False, ending=ending
         )
         return rested.sign_numbers(case, sign)
 

@@ -29,6 +29,9 @@ from heeltoe.result.rest import LAST_S
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
+#: Of one plain crack on a rigid plane it may be longer: this part of that vibration, and at most so much [s], at the base
+#: and above it, where the dam strikes. That moves slips by less than 1 % (docs/flexible.md).
+_OF_PLAIN = ((100.0, 8e-4), (50.0, 4e-4))
 #: Where waves surround the dam the step goes with the dam, and is this part of that vibration, at most the longest step
 #: times the first of them over it: a small dam swings as fast as its waves, and similar dams have similar answers.
 #: Where waves leave through damped rock, the second is enough; bonds, laws, penalties, and all where a vibration feeds
@@ -44,9 +47,6 @@ _TOO_FEW_STEPS = 16.0
 _STRESS_STEP = 2e-3
 # A silence is a multiple of its parts where so little of one is left.
 _FITS = 1e-9
-#: So many times the step a run may take beside one with evidence, of one plain crack at the base: that moves its slip
-#: by less than 1 % (docs/friction.md). A part above the base strikes, which asks for the usual step.
-_OF_BAND = 4.0
 
 
 def usual_step(case: Case, period: float) -> float:
@@ -55,8 +55,11 @@ def usual_step(case: Case, period: float) -> float:
         steps = _STEPS_AMONG_WAVES[_is_smooth(case)]
         longest = _LONGEST_STEP * _STEPS_AMONG_WAVES[0] / steps
         return float(np.clip(period / steps, _SHORTEST_OF_ALL, longest))
+    steps, longest = _STEPS_PER_PERIOD, _LONGEST_STEP
+    if _is_plain(case) and not case.further_cracks and not case.crack.kinks:
+        steps, longest = _OF_PLAIN[case.crack.elevation > 0.0]
     shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
-    return float(np.clip(period / _STEPS_PER_PERIOD, shortest, _LONGEST_STEP))
+    return float(np.clip(period / steps, shortest, longest))
 
 
 def _is_smooth(case: Case) -> bool:
@@ -64,13 +67,13 @@ def _is_smooth(case: Case) -> bool:
     rock = case.foundation
     if rock is None or not rock.radiation or rock.massless or not rock.damping:
         return False
-    return _is_plain(case) and all(crack.law is None for crack in (case.crack, *case.further_cracks))
+    return _is_plain(case)
 
 
 def _is_plain(case: Case) -> bool:
-    """Whether nothing but friction acts in the cracks of a case."""
+    """Whether nothing but friction that does not change acts in the cracks of a case."""
     plain = case.flexible.contact == "coulomb" and case.uplift.during_shaking == "constant"
-    return plain and all(crack.bond is None for crack in (case.crack, *case.further_cracks))
+    return plain and all(crack.bond is None and crack.law is None for crack in (case.crack, *case.further_cracks))
 
 
 class Pauses(NamedTuple):
@@ -109,15 +112,6 @@ class ShakenDam:
                 "time-step-long", "flexible.time_step", f"{stated:g} s", longest=f"{period / _FEWEST_STEPS:.2g} s"
             )
         return stated
-
-    def step_of_band(self) -> float:
-        """Return the step of a run with another friction beside one with evidence [s]: a longer one where a plain crack
-        at the base on a rigid plane allows it."""
-        case, step = self.case, self.first_step()
-        several = case.crack.elevation > 0.0 or bool(case.further_cracks)
-        if case.flexible.time_step is not None or several or wave_bodies(case) or not _is_plain(case):
-            return self.step_beside(step)
-        return _OF_BAND * step if self.may_step(_OF_BAND * step) else step
 
     def _period(self) -> float:
         """Return the longest period of the part above a crack that vibrates fastest [s]."""
