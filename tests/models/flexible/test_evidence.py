@@ -137,7 +137,8 @@ def test_where_runs_scatter_the_numbers_are_means(monkeypatch):
     monkeypatch.setattr(refinement, "_scatter", lambda slips, step: True)
     monkeypatch.setattr(refinement, "scales_of", lambda doublings: NINE)
     response = flexible(dam(elements_across=4), MOTION)
-    evidence, step = response.evidence, response.time_step_s
+    evidence = response.evidence
+    step = evidence["time_step_s"]
 
     def slips(scales, across, times):
         return np.array([slip(s, elements_across=across, time_step=f"{times * step} s") for s in scales])

@@ -29,8 +29,8 @@ from heeltoe.result.rest import LAST_S
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
-#: Of one plain crack on a rigid plane it may be longer: this part of that vibration, and at most so much [s], at the base
-#: and above it, where the dam strikes. That moves slips by less than 1 % (docs/flexible.md).
+#: Of one plain crack on a rigid plane it may be longer: this part of that vibration, and at most so much [s], at the
+#: base and above it, where the dam strikes. That moves slips by less than 1 % (docs/flexible.md).
 _OF_PLAIN = ((100.0, 8e-4), (50.0, 4e-4))
 #: Where waves surround the dam the step goes with the dam, and is this part of that vibration, at most the longest step
 #: times the first of them over it: a small dam swings as fast as its waves, and similar dams have similar answers.
