@@ -222,3 +222,4 @@ def empty_figures(monkeypatch):
     """Write figures as empty files, where it matters alone which there are."""
     monkeypatch.setattr("heeltoe.views.figures.write.laid_out", lambda figure: nullcontext())
     monkeypatch.setattr("heeltoe.views.figures.write.save", lambda figure, path: path.touch())
+    monkeypatch.setattr("heeltoe.views.figures.write.can_compile", lambda: False)

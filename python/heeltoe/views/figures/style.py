@@ -16,7 +16,7 @@ from typing import Any, ParamSpec, TypeVar
 import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.transforms import ScaledTranslation
+from matplotlib.transforms import Bbox, ScaledTranslation
 
 from heeltoe.errors.sanitize import plain
 from heeltoe.result.response import Response
@@ -184,9 +184,47 @@ def laid_out(figure: Figure) -> Iterator[None]:
     engine = figure.get_layout_engine()
     with mpl.rc_context(STYLE | {"figure.constrained_layout.use": False, "figure.autolayout": False}):
         if engine is not None:
-            engine.execute(figure)
+            with _roughly_first(figure):
+                engine.execute(figure)
         figure.set_layout_engine(None)
     try:
         yield
     finally:
         figure.set_layout_engine(engine)
+
+
+# What stands around the axes of a panel over time, from the left counter-clockwise [pt].
+_AROUND = (50.0, 12.0, 4.0, 12.0)
+
+
+@contextmanager
+def _roughly_first(figure: Figure) -> Iterator[None]:
+    """Let the first of the two rounds of a layout, which makes axes about as large as they will be, take an estimate of
+    what stands around them; the second one measures it. Maps and what stands beside them are measured twice: their
+    size depends on it."""
+    panels = list(figure.axes)
+    if any(axes.get_aspect() != "auto" or hasattr(axes, "_colorbar") for axes in panels):
+        yield
+        return
+    for axes in panels:
+        axes.get_tightbbox = _Estimate(axes)  # type: ignore[method-assign]
+    try:
+        yield
+    finally:
+        for axes in panels:
+            del axes.get_tightbbox
+
+
+class _Estimate:
+    """Takes the place of the method of axes that measures what stands around them; estimates it when first called."""
+
+    def __init__(self, axes: Axes) -> None:
+        self._measure, self._axes, self._asked = axes.get_tightbbox, axes, False
+
+    def __call__(self, renderer: Any = None, **options: Any) -> Any:
+        if self._asked:
+            return self._measure(renderer, **options)
+        self._asked = True
+        left, below, right, above = (self._axes.figure.dpi / 72.0 * size for size in _AROUND)
+        box = self._axes.get_window_extent()
+        return Bbox.from_extents(box.x0 - left, box.y0 - below, box.x1 + right, box.y1 + above)

@@ -6,11 +6,9 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 from importlib.resources import files
-from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from heeltoe.base.atomic_files import temporary
-from heeltoe.errors.error import InputError
 from heeltoe.views.content.tree import (
     Beside,
     Block,
@@ -28,6 +26,7 @@ from heeltoe.views.content.tree import (
     Symbol,
     Table,
 )
+from heeltoe.views.figures.compile import compiled as compile_typst
 from heeltoe.views.words.numbers import Value
 
 # The first comes with typst, the second with matplotlib; of the others whatever the machine has.
@@ -62,9 +61,6 @@ _GAP_MM = 2
 _WIDTH_MM, _HEIGHT_MM = 170.0, 225.0
 """Room for a figure on a page, its caption left out."""
 
-# Address space that typst takes for a report, threads and fonts, twice over [bytes].
-_ROOM = 300e6
-
 
 def pdf(document: Document) -> bytes:
     """Return the document as PDF; the same document gives the same bytes with the same fonts."""
@@ -79,51 +75,12 @@ def pages(document: Document, ppi: float = 100.0) -> list[bytes]:
 
 def compiled(document: Document, kind: Literal["pdf", "png"], ppi: float | None = None) -> list[bytes]:
     """Compile a document to ``"pdf"``, one file, or ``"png"``, one for each page."""
-    import typst
-    from matplotlib import get_data_path
-
-    _check_room()
     with temporary() as directory:
         for number, figure in enumerate(_figures(document.blocks)):
             (directory / f"{number}.svg").write_bytes(figure.svg)
-        (directory / "report.typ").write_text(source(document), encoding="utf-8")
-        # Its types know one page only.
-        made: Any
-        try:
-            made = typst.compile(
-                str(directory / "report.typ"),
-                root=str(directory),
-                format=kind,
-                ppi=ppi,
-                timestamp=0,
-                font_paths=[str(Path(get_data_path()) / "fonts" / "ttf")],
-            )
-        except BaseException as error:
-            # What its Rust gives up with, as where it gets no threads, is no Exception, and has no class to name.
-            if type(error).__name__ != "PanicException":
-                raise
-            raise InputError("report-package-broken", "report", "typst", reason=error) from None
-    return [made] if isinstance(made, bytes) else list(made)
-
-
-def _check_room() -> None:
-    """Refuse where the process is not allowed as much more memory as typst may ask for, since that ends it then.
-
-    Raises
-    ------
-    InputError
-        Saying how much is left.
-    """
-    try:
-        import resource
-
-        allowed, _ = resource.getrlimit(resource.RLIMIT_AS)
-        taken = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * resource.getpagesize()
-    except (ImportError, OSError, ValueError):  # other systems tell it otherwise, or not at all
-        return
-    if allowed != resource.RLIM_INFINITY and allowed - taken < _ROOM:
-        left = f"it wants {_ROOM / 1e6:.0f} MB of memory, {max(0, allowed - taken) / 1e6:.0f} MB are left"
-        raise InputError("report-package-broken", "report", "typst", reason=left)
+        path = directory / "report.typ"
+        path.write_text(source(document), encoding="utf-8")
+        return compile_typst(str(path), directory, kind, ppi)
 
 
 def source(document: Document) -> str:
