@@ -10,6 +10,7 @@ from heeltoe.base.atomic_files import written
 from heeltoe.base.blocks import plain_json
 from heeltoe.base.display import Shown
 from heeltoe.base.pandas import dataframe
+from heeltoe.base.table import table
 from heeltoe.errors.sanitize import plain
 from heeltoe.kernel.build import build_info
 from heeltoe.result.comparison import meaning, ratio
@@ -102,9 +103,7 @@ class Response(ResponseData, Shown):
 
     def to_table(self) -> pa.Table:
         """Return the histories with the mode as a table."""
-        import pyarrow as pa
-
-        return pa.table({**self.histories, "mode": list(self.mode)})
+        return table({**self.histories, "mode": list(self.mode)})
 
     def to_pandas(self) -> Any:
         """Return the histories with the mode as a ``pandas.DataFrame``."""
@@ -112,9 +111,7 @@ class Response(ResponseData, Shown):
 
     def events_table(self) -> pa.Table:
         """Return the events as a table."""
-        import pyarrow as pa
-
-        return pa.table(dict(self.event_log))
+        return table(dict(self.event_log))
 
     def write_histories(self, path: Path) -> None:
         """Write the histories to `path`: CSV if it ends so, else Parquet."""

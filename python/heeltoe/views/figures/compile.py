@@ -21,13 +21,13 @@ def can_compile() -> bool:
     return find_spec("typst") is not None and _missing_room() is None
 
 
-def compiled(source: bytes | str, root: Path, kind: Literal["pdf", "png"], ppi: float | None = None) -> list[bytes]:
-    """Compile a source of typst, or the file with it, to ``"pdf"``, one file, or ``"png"``, one for each page.
+def compiled(source: bytes, root: Path, kind: Literal["pdf", "png"], ppi: float | None = None) -> list[bytes]:
+    """Compile a source of typst to ``"pdf"``, one file, or ``"png"``, one for each page.
 
     Parameters
     ----------
     source
-        Bytes of the source, or the path of a file with it.
+        In UTF-8.
     root
         Directory of the files that it names.
     kind

@@ -78,9 +78,7 @@ def compiled(document: Document, kind: Literal["pdf", "png"], ppi: float | None 
     with temporary() as directory:
         for number, figure in enumerate(_figures(document.blocks)):
             (directory / f"{number}.svg").write_bytes(figure.svg)
-        path = directory / "report.typ"
-        path.write_text(source(document), encoding="utf-8")
-        return compile_typst(str(path), directory, kind, ppi)
+        return compile_typst(source(document).encode(), directory, kind, ppi)
 
 
 def source(document: Document) -> str:

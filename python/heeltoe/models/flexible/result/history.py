@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.base.frozen import ReadOnlyArrays
+from heeltoe.base.table import column, table
 from heeltoe.kernel.dam import CONTACT_STATUSES
 from heeltoe.models.flexible.body.elastic import stresses
 from heeltoe.models.flexible.body.reduced import FlexibleDam
@@ -168,12 +169,10 @@ def crack_table(history: CrackHistory) -> pa.Table:
     - ``gap_m`` to the other face; null beyond its end;
     - ``status``: a name of :meth:`CrackHistory.status_names`; null where the node is not watched.
     """
-    import pyarrow as pa
-
     counts = [face.shape[2] for face in history.faces]
     # Single nodes of the lower face, which need not stand below those of the upper, have no force of their own.
     force = [history.forces(), *(np.full_like(face, np.nan) for face in history.faces[1:])]
-    return pa.table(
+    return table(
         {
             "time_s": np.repeat(history.time, sum(counts)),
             "node": _every_frame(history, [np.arange(count, dtype=np.int32) for count in counts]),
@@ -203,16 +202,14 @@ def _every_frame(history: CrackHistory, values: Sequence[NDArray[Any]]) -> NDArr
 
 
 def _nullable(values: Floats) -> pa.Array:
-    import pyarrow as pa
-
-    return pa.array(values, mask=np.isnan(values))
+    return column(values, np.isnan(values))
 
 
 def _named(numbers: NDArray[Any], names: list[str]) -> pa.Array:
     """Return the names that numbers count, null for negative ones."""
     import pyarrow as pa
 
-    return pa.DictionaryArray.from_arrays(pa.array(numbers, mask=numbers < 0), names).cast(pa.string())
+    return pa.DictionaryArray.from_arrays(column(numbers, numbers < 0), column(names)).cast(pa.string())
 
 
 def watched_nodes(nodes: list[int], contactors: int) -> list[tuple[int, Integers]]:
