@@ -115,6 +115,21 @@ def test_figures_of_a_rigid_block(tmp_path, changes, panels):
     inked(paths)
 
 
+def test_figures_without_typst_are_the_same_files(tmp_path, monkeypatch):
+    response = rigid(example("typical-base", "motion.duration=4s"))
+    figures = {"energy": all_figures(None, response)["energy"]}
+    (tmp_path / "without").mkdir()
+    first = save_all(figures, tmp_path)
+    monkeypatch.setattr("heeltoe.views.figures.write.can_compile", lambda: False)
+    second = save_all(figures, tmp_path / "without")
+    assert [path.name for path in first] == [path.name for path in second] == ["energy.png", "energy.svg"]
+    inked(second)
+    pictures = [imread(path)[..., :3].mean(axis=2) for path in (first[0], second[0])]
+    assert pictures[0].shape == pictures[1].shape
+    # One puts its letters on whole pixels, the other does not.
+    assert abs(pictures[0] - pictures[1]).mean() < 0.05
+
+
 def inked(paths):
     for path in paths:
         assert path.stat().st_size > 5000

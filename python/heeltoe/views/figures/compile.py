@@ -46,11 +46,12 @@ def compiled(source: bytes, root: Path, kind: Literal["pdf", "png"], ppi: float 
     left = _missing_room()
     if left is not None:
         raise InputError("report-package-broken", "report", "typst", reason=left)
-    # Its types know one page only.
+    # Its types know one page only, and source and directory of one kind.
     made: Any
+    given: Any = source
     try:
         made = typst.compile(
-            source,
+            given,
             root=str(root),
             format=kind,
             ppi=ppi,
