@@ -188,9 +188,10 @@ pub fn run_rigid_varying<'py>(
         asperities: asperities.map(|asperities| (asperities, rough.unwrap_or_default())),
     });
     if let (Some(across), Some(cross)) = (across, slice(&cross)?) {
+        let varying = (&body, surface.as_ref());
+        Across::check_varying(varying, &shaking).map_err(wrong)?;
         let (across, shaking) = (self::across(across), CrossShaking { level: &level, cross });
         across.check(&block, &shaking).map_err(wrong)?;
-        let varying = (&body, surface.as_ref());
         let walk = |options: Options, wanted: Wanted<'_>| {
             plane::simulate_varying(&block, &across, &shaking, varying, start, options, wanted)
         };

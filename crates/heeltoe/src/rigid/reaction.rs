@@ -207,18 +207,6 @@ impl Reaction {
         }
     }
 
-    /// What is needed of a block that slides on both corners: friction, the normal forces, the acceleration of the slip,
-    /// and how they change where the ground's accelerations change at `rate`.
-    #[inline(always)]
-    pub(super) fn sliding(&self, [a, b]: [f64; 2], [rate_a, rate_b]: [f64; 2]) -> [[f64; 4]; 2] {
-        let (mut value, mut slope) = ([0.0; 4], [0.0; 4]);
-        for i in 0..4 {
-            value[i] = self.constant[i] + self.horizontal[i] * a + self.vertical[i] * b;
-            slope[i] = self.horizontal[i] * rate_a + self.vertical[i] * rate_b;
-        }
-        [value, slope]
-    }
-
     /// One of the quantities.
     pub(super) fn quantity(&self, i: usize) -> Affine {
         Affine {

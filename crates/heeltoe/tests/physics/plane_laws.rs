@@ -3,8 +3,9 @@
 //! Pushed in one direction a block whose masses are equal slides straight, whatever the angle, by the closed forms of
 //! [`crate::friction_laws`].
 
+use heeltoe::asperity::{Asperities, AsperityNumbers};
 use heeltoe::friction::{Law, LawNumbers, Shape, Worn};
-use heeltoe::inside::Law as WaterLaw;
+use heeltoe::inside::{Anchor, Law as WaterLaw};
 use heeltoe::rigid::plane::{simulate_varying, Across, CrossShaking};
 use heeltoe::rigid::varying::{self, Rotation, Surface, TurningBlock, TurningShaking};
 use heeltoe::rigid::{Block, BlockNumbers, Outcome, Run, Shaking, Vector, Wanted};
@@ -323,4 +324,52 @@ fn a_block_that_would_lift_ends_without_a_result() {
         Wanted::default(),
     );
     assert_eq!(ran.summary.outcome, Outcome::LiftsAcross);
+}
+
+#[test]
+fn what_else_varies_is_refused() {
+    let ground = Ground::steady([1.0, 1.0], 1.0);
+    let level = Shaking::new(&ground.time, &ground.along, None).unwrap();
+    let turns = vec![0.1; ground.time.len()];
+    let [straight, turned] =
+        [None, Some(&turns[..])].map(|turning| TurningShaking::new(level.clone(), turning).unwrap());
+    let block = |rotation: Rotation, anchors: Vec<Anchor<f64>>| {
+        let pressure = vec![[0.0, 0.0], [FLAT.width, 0.0]];
+        TurningBlock::new(&FLAT.varying(), rotation, WaterLaw::Constant, pressure, anchors)
+    };
+    let anchor = Anchor {
+        place: 5.0,
+        axis: [0.0, 1.0],
+        prestress: 1e3,
+        axial_stiffness: 1e6,
+        shear_stiffness: 0.0,
+        capacity: 1e5,
+    };
+    let [falls, by_stress] = [Shape::Linear, Shape::Barton].map(|shape| law(shape, 0.1));
+    let surface = |law, asperities| Surface {
+        law,
+        worn: Worn::FRESH,
+        asperities,
+    };
+    let asperities = (Asperities::new(&AsperityNumbers::default()), [0.0; 2]);
+    let plain = block(Rotation::Small, Vec::new());
+    let check = |block: &TurningBlock, surface: &Surface, shaking: &TurningShaking| {
+        Across::check_varying((block, Some(surface)), shaking)
+    };
+    let smooth = surface(&falls, None);
+    assert_eq!(check(&plain, &smooth, &straight), Ok(()));
+    let refused = [
+        check(&block(Rotation::PDelta, Vec::new()), &smooth, &straight),
+        check(&block(Rotation::Small, vec![anchor]), &smooth, &straight),
+        check(&plain, &surface(&falls, Some(asperities)), &straight),
+        check(&plain, &surface(&by_stress, None), &straight),
+        check(&plain, &smooth, &turned),
+    ];
+    let why = refused.map(|found| found.unwrap_err().to_string());
+    for (word, why) in ["rotates", "anchors", "asperities", "stress", "turn"]
+        .iter()
+        .zip(why)
+    {
+        assert!(why.contains(word), "{why}");
+    }
 }

@@ -8,7 +8,7 @@ use super::super::mode::Mode;
 use super::super::reaction::{Felt, Reactions};
 use super::super::result::{Crossing, Outcome, Run, Wear};
 use super::super::shaking::{Piece, Shaking};
-use super::super::varying::{self, Surface, TurningBlock, TurningShaking};
+use super::super::varying::{self, Rotation, Surface, TurningBlock, TurningShaking};
 use super::super::walk::{Carried, Cause, Exactly, Options, Walk, Wanted};
 use super::aloft::{rises, Lifted};
 use super::flight::Flight;
@@ -115,6 +115,43 @@ impl Across {
         }
         Ok(())
     }
+
+    /// Find what of a block that varies, on a ground that also turns, cannot be run beside what [`Self::check`] finds.
+    ///
+    /// # Errors
+    /// Where rotations are not small, anchors follow the block, the crack is rough, friction goes by the normal stress or
+    /// the ground turns.
+    pub fn check_varying(
+        (turning, surface): (&TurningBlock, Option<&Surface>),
+        shaking: &TurningShaking,
+    ) -> Result<(), Error> {
+        let refused = [
+            (
+                turning.rotation != Rotation::Small,
+                "a block that moves across the valley rotates by small angles",
+            ),
+            (
+                !turning.anchors.is_empty(),
+                "a block that moves across the valley has anchors of constant force alone",
+            ),
+            (
+                surface.is_some_and(|surface| surface.asperities.is_some()),
+                "asperities rise along the stream alone",
+            ),
+            (
+                surface.is_some_and(|surface| surface.law.by_stress()),
+                "friction of a block that moves across the valley does not go by the normal stress",
+            ),
+            (
+                !shaking.is_level(),
+                "a ground that shakes across the valley does not turn",
+            ),
+        ];
+        match refused.into_iter().find(|(holds, _)| *holds) {
+            Some((_, why)) => Err(Error::Blocks(why)),
+            None => Ok(()),
+        }
+    }
 }
 
 /// Run one block on a ground that shakes along the stream, across the valley and upward; [`Across::check`] has found
@@ -132,7 +169,7 @@ pub fn simulate(
 }
 
 /// The same for a block whose friction goes by a law, or whose uplift goes by how far the crack is open, which is not as
-/// long as it slides. Nothing else of `turning` may vary.
+/// long as it slides. [`Across::check_varying`] has found nothing else that varies.
 pub fn simulate_varying(
     block: &Block,
     across: &Across,

@@ -85,7 +85,7 @@ numbers! {
 /// A block with all that changes as it moves.
 #[derive(Clone, Debug)]
 pub struct TurningBlock {
-    pub(super) rotation: Rotation,
+    pub(in super::super) rotation: Rotation,
     pub(super) mass: f64,
     pub(super) inertia: f64,
     pub(super) centroid: [f64; 2],
@@ -100,7 +100,7 @@ pub struct TurningBlock {
     pub(super) per_vertical: Dead,
     pub(super) water: FollowingWater,
     /// By their distance from the heel along the crack.
-    pub(super) anchors: Vec<Anchor<f64>>,
+    pub(in super::super) anchors: Vec<Anchor<f64>>,
 }
 
 impl TurningBlock {

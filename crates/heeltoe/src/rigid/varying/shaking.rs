@@ -48,7 +48,7 @@ impl<'a> TurningShaking<'a> {
     }
 
     /// Whether it never turns.
-    pub(super) fn is_level(&self) -> bool {
+    pub(in super::super) fn is_level(&self) -> bool {
         self.turning.is_none()
     }
 
