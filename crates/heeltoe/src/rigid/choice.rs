@@ -133,10 +133,12 @@ fn another(reactions: &impl Modes, present: Option<Mode>, moving: &Moving, felt:
 /// [`begun`] takes it.
 #[inline(always)]
 pub(super) fn accelerations(reaction: &Reaction, felt: &Felt, starts: [f64; 3], left: f64) -> [[f64; 2]; 3] {
-    [SLIP, HEEL, TOE].map(|i| {
+    let mut result = [[0.0; 2]; 3];
+    for i in [SLIP, HEEL, TOE] {
         let of = ACCELERATION + i;
-        begun(felt.value[of], felt.slope[of], reaction.size[of], starts[i], left)
-    })
+        result[i] = begun(felt.value[of], felt.slope[of], reaction.size[of], starts[i], left);
+    }
+    result
 }
 
 /// Acceleration and its slope of a contact coordinate on a piece. `way` is 1 or -1 where it starts to move that way in this

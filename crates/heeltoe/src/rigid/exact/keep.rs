@@ -109,7 +109,7 @@ impl Exact<'_> {
         {
             return;
         }
-        for rate in rates {
+        for rate in rates.into_iter().filter(|rate| *rate != [0.0; 3]) {
             let moments = event::sign_changes(rate[0], rate[1], rate[2] / 2.0, step);
             for t in moments.into_iter().flatten() {
                 let mut at = *w;
