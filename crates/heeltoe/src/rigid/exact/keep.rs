@@ -6,9 +6,36 @@ use super::super::event;
 use super::super::ledger::work;
 use super::super::mode::{Corner, Mode, Slip};
 use super::super::shaking::Piece;
+use super::stretch::Stretch;
 use super::walk::Exact;
 
 impl Exact<'_> {
+    /// Where the block rests or slides in another mode than before, from this time on: put what was into the summary.
+    #[inline(always)]
+    pub(super) fn turn_over(&mut self, time: f64) {
+        if self.stretch.mode != Some(self.walk.mode) {
+            self.close(time);
+        }
+    }
+
+    /// Put the stretch that ends at this time into the summary, and begin another.
+    pub(super) fn close(&mut self, time: f64) {
+        let s = &mut self.walk.summary;
+        let stretch = &self.stretch;
+        if let Some(mode) = stretch.mode.filter(|mode| mode.contacts() == [true, true]) {
+            let kind = mode.kind();
+            s.time_by_mode[kind] += time - stretch.since;
+            if mode != Mode::Rest {
+                s.slip_by_mode[kind] += stretch.slip;
+                let friction = self.reactions.of(mode).quantity(SLIP);
+                s.ledger
+                    .apply(stretch.work(&self.walk.block.generalised_force[SLIP]));
+                s.ledger.rub(stretch.work(&friction));
+            }
+        }
+        self.stretch = Stretch::begin(self.walk.mode, time);
+    }
+
     /// Take over the end of a step.
     #[inline(always)]
     pub(super) fn move_on<const S: bool, const H: bool, const T: bool>(
