@@ -1,4 +1,4 @@
-"""Work that no command does, for the table of other_build.py: run by the interpreter of either version with its heeltoe.
+"""Work that no command does, for other_build.py: run by the interpreter of either version, with its heeltoe.
 
 It takes an order in JSON and writes the processor time of the work, without the start of the interpreter and the
 building of the dam, and what came out of it. It uses what both versions have.
