@@ -47,7 +47,7 @@ def report() -> str:
     version.compile()
     text = (
         "From the shell to the end of the process; in the turn of least processor time of five, of three beyond a "
-        "second, of two beyond four, once beyond twelve. Runs have their evidence and both signs of the motion. "
+        "second, of two beyond four, once beyond eight. Runs have their evidence and both signs of the motion. "
         "`--json -`, but for the reports, which are two files each with all figures. Memory is that of the largest "
         "process at its peak."
     )

@@ -28,7 +28,7 @@ with open(report, "w") as file:
     file.write(f"[{os.waitstatus_to_exitcode(status)}, {taken}, {used.ru_utime + used.ru_stime}, {used.ru_maxrss}]")
 """
 #: How often something is run: so often if no run takes longer than so many seconds.
-_TURNS = ((1.0, 5), (4.0, 3), (12.0, 2))
+_TURNS = ((1.0, 5), (4.0, 3), (8.0, 2))
 
 
 @dataclass(frozen=True)

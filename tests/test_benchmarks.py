@@ -175,16 +175,21 @@ def test_a_row_says_whether_what_was_asked_is_met_and_whether_slips_agree(run):
     import other_build
     import processes
 
-    def row(ours: float, slip: float, asked: float = 0.5) -> list[str]:
+    def row(ours: float, slip: float, peak: float = 80.0) -> list[str]:
         taken = [
-            processes.Taken(20.0, time, 80.0, json.dumps({"residual_slip_m": at, "evidence": None}))
-            for time, at in ((ours, slip), (20.0, 0.5))
+            processes.Taken(20.0, time, held, json.dumps({"residual_slip_m": at, "evidence": None}))
+            for time, at, held in ((ours, slip, peak), (20.0, 0.5, 80.0))
         ]
         works = tuple(lambda each=each: each for each in taken)
-        return other_build.Row("work", works, asked, other_build.of_run).measured()
+        return other_build.Row("work", works, 0.5, other_build.of_run).measured()
 
     assert row(8.0, 0.51)[4:] == ["0.40", "0.5, met", "80 / 80 MB", "510.0 / 500.0 mm"]
-    assert row(12.0, 0.6)[4:] == ["0.60", "0.5, **not met**", "80 / 80 MB", "600.0 / 500.0 mm, **apart**"]
+    assert row(12.0, 0.6, 90.0)[4:] == [
+        "0.60",
+        "0.5, **not met**",
+        "90 / 80 MB, **above 1**",
+        "600.0 / 500.0 mm, **apart**",
+    ]
 
 
 def test_ours_is_put_on_a_rigid_plane_beside_the_other(run, tmp_path):
