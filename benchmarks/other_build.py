@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 import study_million
-from measure import Skipped, heading, repeat, require, seconds, table
+from measure import NothingMeasured, Skipped, heading, repeat, require, seconds, table
 from processes import Taken, Version, commit_of, least, mine
 
 import heeltoe
@@ -331,10 +331,16 @@ def report(executable: Path | None = None) -> str:
         version.compile()
     with TemporaryDirectory() as folder:
         both = Both(ours, other, Path(folder))
-        lines = []
+        lines, remarks = [], []
         for row in (*within(both), *commands(both), *studies(both)):
-            lines.append(row.measured())
-            print(*lines[-1], sep=" | ", file=sys.stderr, flush=True)
+            try:
+                lines.append(row.measured())
+            except NothingMeasured as reason:
+                # One command that fails does not cost the others their quarter of an hour.
+                remarks.append(f"Not measured: {row.what} ({reason}).")
+                print(remarks[-1], file=sys.stderr, flush=True)
+            else:
+                print(*lines[-1], sep=" | ", file=sys.stderr, flush=True)
     text = (
         f"Ours / a build of {BASE}, in turn; each in its turn of least processor time, with byte code cached. The "
         "ratio is that of the processor time, of all processes together; memory is that of the largest process at its "
@@ -353,6 +359,7 @@ def report(executable: Path | None = None) -> str:
             heading(f"Beside {BASE}", ["heeltoe", "numpy"]),
             text,
             table(COLUMNS, lines),
+            *remarks,
             crosswise,
             table(("work", "one component", "both", "ratio", "asked"), two_components()),
         ]
