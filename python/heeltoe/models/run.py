@@ -171,9 +171,11 @@ def _with_band(case: Case, model: str, response: Response, shaking: Earthquake, 
 
 def _with_friction_effect(case: Case, response: Response, shaking: Earthquake, output_step: float | None) -> Response:
     """Add what the sign of the motion that governs does with a little less friction; two quick runs of an elastic dam,
-    none where no evidence is wanted."""
+    none where no evidence is wanted, or where single runs scatter and two of them say nothing."""
     elastic = response.elastic and not follows_drains(case, shaking)
-    less = None if elastic and case.flexible.evidence == "none" else with_less_friction(case)
+    evidence = getattr(response, "evidence", None)
+    scatters = evidence is not None and evidence.scatters
+    less = None if scatters or (elastic and case.flexible.evidence == "none") else with_less_friction(case)
     if less is None or not response.started or response.outcome != Outcome.OK:
         return response
     began = perf_counter()

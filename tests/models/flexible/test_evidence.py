@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from heeltoe import InputError, flexible, read_case
+from heeltoe import InputError, flexible, read_case, run
 from heeltoe.models.flexible import model
 from heeltoe.models.flexible.body import reduced
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
@@ -160,6 +160,16 @@ def test_where_runs_scatter_the_numbers_are_means(monkeypatch):
     assert worth["run"] == pytest.approx(response.histories["slip_m"][-1], abs=1e-12) != worth["value"]
     assert any("single runs scatter" in str(warning) for warning in response.warnings)
     assert "numerically ±" in response.to_json()["verdict"]
+
+
+@pytest.mark.parametrize("scatters", [True, False])
+def test_less_friction_is_tried_where_single_runs_say_something(monkeypatch, scatters):
+    monkeypatch.setattr(refinement, "_scatter", lambda slips, step: scatters)
+    monkeypatch.setattr(refinement, "scales_of", lambda doublings: NINE)
+    case = plane_case(FIELDS | {"flexible": {"elements_across": 2}})
+    response = run(case, motion=MOTION)
+    assert response.evidence["value_is"] == ("mean" if scatters else "run")
+    assert (response.friction_effect is None) == scatters
 
 
 def sample(slips, scales, *, fails=()):
