@@ -15,6 +15,7 @@ from heeltoe.views.report.write import build_report
 from heeltoe.views.words.fields import shown
 from heeltoe.views.words.numbers import Numbers, kind
 from shared.dams import example
+from shared.evidence import scattered
 
 
 def test_numbers_stay_with_their_units():
@@ -120,3 +121,10 @@ def test_the_report_says_what_its_models_leave_out(typical_both):
         for feature in unsupported_features(model):
             assert feature in text
     assert report.footer.startswith("Review · revision 3 · heeltoe")
+
+
+def test_a_report_says_that_the_answer_is_a_distribution(typical_both):
+    text = html(build_report(example("typical-base"), scattered(typical_both, [0.1] * 40 + [0.3] * 60), figures={}))
+    assert "means over 100 runs with the shaking varied, each with its standard error" in text
+    # The block beside it was not varied.
+    assert "How much the result of the rigid block depends" in text

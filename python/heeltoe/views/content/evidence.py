@@ -55,8 +55,8 @@ def _spread(subject: Subject, run: Run) -> list[Block]:
     if run.response.spread is None and not run.response.ok:
         return []
     if run.response.spread is None:
-        unasked = [other.name for other in subject.runs if other.response.ok and other.response.spread is None]
-        if run.name != unasked[0]:
+        unasked = [other.name for other in subject.runs if _says_nothing_of_shaking(other)]
+        if run.name not in unasked[:1]:
             return []
         whose = "" if len(subject.runs) == 1 else f" of the {' and of the '.join(unasked)}"
         return [
@@ -86,6 +86,11 @@ def _spread(subject: Subject, run: Run) -> list[Block]:
     if not rows:
         return [paragraph(caption.removesuffix("."), ": nothing moves in any of them.")]
     return [Table(("", "this run", "mean", "std. deviation", "least", "most"), tuple(rows), caption, "lrrrrr")]
+
+
+def _says_nothing_of_shaking(run: Run) -> bool:
+    evidence = run.response.summary.get("evidence")
+    return run.response.ok and run.response.spread is None and not (evidence and evidence["value_is"] == "mean")
 
 
 def _convergence(subject: Subject, run: Run) -> list[Block]:
