@@ -163,7 +163,7 @@ def test_a_verdict_has_mean_and_fractiles_and_says_what_is_not_converged(respons
     result = scattered(with_numbers(response, **NUMBERS), RUNS)
     text = verdict(result)
     assert "slides 50.5 mm in the mean (numerically ± 3.0 mm) upstream" in text.replace("3.00", "3.0")
-    assert "16 to 84 % of the runs 16.0 mm to 84.0 mm, as 1 % of the shaking decides" in text
+    assert "16 and 84 % of the runs keep to 16.0 mm and 84.0 mm, as 1 % of the shaking decides" in text
     assert "not converged" not in text
     doubtful = with_numbers(result, evidence=replace(result.evidence, converged=False))
     assert "in the mean (not converged, numerically ± 3" in verdict(doubtful)

@@ -380,7 +380,7 @@ def _scatter(response: ResponseData, units: str) -> str:
     low = length(abs(distribution.fractile_16), units)
     far = distribution.fractile_84
     high = "no result" if far is None else length(abs(far), units)
-    return f", 16 to 84 % of the runs {low} to {high}, as 1 % of the shaking decides"
+    return f", 16 and 84 % of the runs keep to {low} and {high}, as 1 % of the shaking decides"
 
 
 def _worth(response: ResponseData, units: str) -> str:
