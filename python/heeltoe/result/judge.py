@@ -114,7 +114,7 @@ class LimitCheck(Block):
     @property
     def met(self) -> Annotated[bool, Number("Whether the dam holds, and the result is within the limit.")]:
         """Whether the limit is kept."""
-        # Of runs without a result the value knows nothing.
+        # The value knows nothing of runs without a result.
         many = self.exceeding is not None and self.exceeding > 1.0 - JUDGED + ROUNDING
         return not (self.failed or many) and self.value is not None and self.value <= self.allowed
 

@@ -136,5 +136,5 @@ def _uncertainty(name: str, crack: CrackResponse) -> float:
     bound = abs(float(numbers[key] if worth.uncertainty is None else worth.uncertainty))
     if worth.distribution is None:
         return bound
-    # Of a mean is known what adds by squares.
+    # The error of a mean becomes that of the fractile; both add by squares.
     return math.hypot(bound, math.sqrt(_ERROR_OF_FRACTILE**2 - 1.0) * worth.shaking)

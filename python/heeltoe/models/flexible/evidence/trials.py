@@ -29,7 +29,7 @@ SOFTENING = "softening_length_m"
 CROSS_SLIP = "residual_slip_cross_m"
 #: Factors on the shaking: as it is, and up to 1 % either way.
 SCALES: tuple[float, ...] = (1.0, 0.99, 0.995, 1.005, 1.01)
-# Steps of the factors between the least and the largest one of a sample that may be a distribution.
+# Steps between the least and the largest factor of a sample that is a distribution.
 _OF_SAMPLE = 64
 #: Rock and water that reach farther do so by this factor, and answer well up to a frequency that is higher by it.
 LARGER = 1.5
