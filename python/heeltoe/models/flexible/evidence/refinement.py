@@ -303,7 +303,7 @@ class _Stand:
     @cached_property
     def _rough(self) -> Level:
         """Where samples are drawn: where the shaking is varied at first, at twice the step if the case leaves that open
-        and it still follows the dam. What that changes, pairs of runs bound."""
+        and it still follows the dam. Pairs of runs bound what that changes."""
         cheap = self._cheap
         longer = Level(cheap.mesh, cheap.halvings - 1)
         dam = self._trials.dam_of(cheap.mesh)
