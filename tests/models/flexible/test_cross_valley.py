@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heeltoe import InputError, flexible
+from heeltoe import InputError, flexible, rigid
 from heeltoe.case.combinations import check
+from heeltoe.case.shaking import resolve_all
 from heeltoe.kernel.block import run_block
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.flexible.body.across import across_dam
@@ -23,12 +24,13 @@ from shared.random_dams import draw
 STEP = 2.5e-4
 
 
-def case_of(friction: float = 1.0, **more):
-    """Return the typical dam of the reference."""
+def case_of(friction: float | None = 1.0, **more):
+    """Return the typical dam of the reference; without friction where a law has it."""
+    crack = {"elevation": "0 m"} | ({} if friction is None else {"friction": friction})
     fields = {
         "section": TYPICAL_SECTION,
         "concrete": {"density": "2650 kg/m^3", "modulus": "20 GPa", "poisson": 0.143, "damping": 0.05},
-        "crack": {"elevation": "0 m", "friction": friction} | more.pop("crack", {}),
+        "crack": crack | more.pop("crack", {}),
         "reservoir": {"depth": "100 m"},
         "uplift": {"pattern": "triangular"},
         "flexible": {"elements_across": 4, "theta": 0.5, "evidence": "none"} | more.pop("flexible", {}),
@@ -114,6 +116,16 @@ def made(seconds: float = 4.0, seed: int = 3, along: float = 0.5, across: float 
         9.80665 * peak * envelope * np.clip(rng.normal(size=time.size), -2.0, 2.0) / 2.0 for peak in (along, across)
     )
     return Shaking(time, x, cross=y)
+
+
+def points(seed: int, peak: float) -> list[list[str]]:
+    """Return a made motion of a second, still at both ends [g]."""
+    wave = np.random.default_rng(seed).normal(size=51) * np.sin(np.linspace(0.0, np.pi, 51))
+    rows = enumerate(peak * wave / np.abs(wave).max())
+    return [[f"{0.02 * k:.2f} s", f"{x:.4f} g"] for k, x in rows]
+
+
+CROSSED = {"points": points(1, 0.6), "cross_valley": {"points": points(3, 0.5)}}
 
 
 def test_a_stiff_dam_is_the_rigid_block(records):
@@ -242,12 +254,109 @@ def test_a_run_says_what_the_shaking_across_the_valley_adds():
     assert {"cross-valley-upright"} <= {notice.code for notice in response.warnings}
 
 
+WEAKENING = {"name": "slip weakening", "peak_friction": 1.1, "residual_friction": 0.8, "slip": "40 mm"}
+SPEED = {"name": "speed weakening", "peak_friction": 1.1, "residual_friction": 0.8, "speed": "0.3 m/s"}
+STEPPED = {"kinks": [["30 m", "0 m"], ["34 m", "1.5 m"]], "elevation": "10 m"}
+# Without friction where a law has it.
+FURTHER = {
+    "slip weakening": (None, {"crack": {"law": WEAKENING}}),
+    "speed weakening": (None, {"crack": {"law": SPEED}}),
+    "two cracks": (0.9, {"further_cracks": [{"elevation": "40 m", "friction": 0.7}]}),
+    "two cracks with a law": (
+        None,
+        {"crack": {"law": WEAKENING}, "further_cracks": [{"elevation": "40 m", "law": SPEED}]},
+    ),
+    "kinks": (0.7, {"crack": STEPPED}),
+    "neighbours without a gap": (0.9, {"crack": {"elevation": "40 m", "side_gap": "0 mm"}}),
+    "a law between neighbours": (None, {"crack": {"law": WEAKENING, "side_gap": "2 mm"}}),
+}
+
+
+@pytest.mark.parametrize("name", FURTHER)
+def test_what_a_crack_may_have_besides_keeps_ledger_mirror_and_bits(name):
+    friction, more = FURTHER[name]
+    case, shaking = case_of(friction, **more), made(3.0)
+    check(case.with_({"motion": CROSSED}), "flexible")
+    one = shaken(case, shaking).run(STEP, 0.01)
+    other = shaken(case, replace(shaking, cross=-shaking.cross)).run(STEP, 0.01)
+    for run in (one, other):
+        assert run.outcome == "ok"
+        assert run.summary.energy_residual < 1e-11
+        assert run.summary.contact_residual < 1e-8
+        assert run.summary.energy_gained <= 1e-6 * run.summary.energy_turnover
+    for here, there in zip(one.summaries, other.summaries, strict=True):
+        assert here.slip == there.slip
+        assert here.cross_slip == -there.cross_slip
+        assert here.slip_path == there.slip_path
+    assert max(abs(summary.slip) for summary in one.summaries) > 1e-3
+    assert (one.crest_cross == -other.crest_cross).all()
+    plain = shaken(case, shaking.along_stream()).run(STEP, 0.01)
+    still = shaken(case, replace(shaking, cross=0.0 * shaking.cross)).run(STEP, 0.01)
+    assert [item.by_name() for item in still.summaries] == [item.by_name() for item in plain.summaries]
+    late = Shaking(np.array([0.0, 0.5, 0.6, 0.7, 1.0]), np.zeros(5), cross=np.array([0.0, 0.0, 3.0, 0.0, 0.0]))
+    quiet = shaken(case, late).run(STEP, 0.01)
+    before = quiet.frames.time <= 0.5
+    assert all((frames.slip[before] == frames.slip[0]).all() for frames in quiet.all_frames)
+    assert all((frames.slip_cross[before] == 0.0).all() for frames in quiet.all_frames)
+
+
+def test_a_law_that_does_not_weaken_is_constant_friction():
+    constant = shaken(case_of(0.9), made(3.0)).run(STEP).summary
+    for law in (WEAKENING, SPEED):
+        even = law | {"peak_friction": 0.9, "residual_friction": 0.9}
+        run = shaken(case_of(None, crack={"law": even}), made(3.0)).run(STEP).summary
+        assert [run.slip, run.cross_slip] == pytest.approx([constant.slip, constant.cross_slip], rel=1e-7)
+
+
+@pytest.mark.parametrize("law", [WEAKENING, SPEED], ids=["slip weakening", "speed weakening"])
+def test_a_stiff_dam_with_a_law_is_the_rigid_block(law):
+    stiff = {"density": "2650 kg/m^3", "modulus": "20000 GPa", "poisson": 0.143, "damping": 0.05}
+    motion = CROSSED | {"pga": "0.45 g"}
+    case = case_of(None, crack={"law": law}, concrete=stiff, motion=motion)
+    block = rigid(case)
+    assert block.ok
+    earthquake = resolve_all(case)
+    shaking = Shaking(earthquake[0].time, earthquake[0].acceleration, cross=earthquake[2].acceleration)
+    run = shaken(case, shaking).run(1e-4)
+    assert run.summary.slip == pytest.approx(block.residual_slip_m, rel=0.03)
+    assert run.summary.cross_slip == pytest.approx(block.cross_valley.residual_slip_cross_m, abs=1e-3)
+    assert run.summary.slip_path == pytest.approx(block.friction_law.slip_path_m, rel=0.03)
+
+
+def test_a_kink_on_the_line_and_a_crack_that_sticks_change_nothing():
+    shaking = made(3.0)
+    plain = shaken(case_of(0.8, crack={"elevation": "10 m"}), shaking).run(STEP).summary
+    on_line = {"elevation": "10 m", "kinks": [["30 m", "0 m"]]}
+    line = shaken(case_of(0.8, crack=on_line), shaking).run(STEP).summary
+    assert [line.slip, line.cross_slip] == pytest.approx([plain.slip, plain.cross_slip], rel=0.01, abs=1e-4)
+
+
+def test_an_aftershock_goes_on_where_the_first_motion_ends():
+    case = case_of(
+        0.8,
+        flexible={"elements_across": 2},
+        analysis={"silence": "0 s"},
+        motion=CROSSED,
+        aftershocks=[{"points": points(2, 0.6), "pause": "2 s", "cross_valley": {"points": points(4, 0.5)}}],
+    )
+    response = flexible(case)
+    alone = flexible(case.with_({"aftershocks": []}))
+    assert response.ok
+    histories = response.histories
+    there = histories.time_s <= alone.histories.time_s[-1] + 1e-9
+    assert histories.slip_m[there] == pytest.approx(alone.histories.slip_m, abs=1e-9)
+    assert histories.slip_cross_m[there] == pytest.approx(alone.histories.slip_cross_m, abs=1e-9)
+    assert abs(response.cross_valley.residual_slip_cross_m - alone.cross_valley.residual_slip_cross_m) > 1e-4
+    assert len(response.sequence) == 2
+
+
 def test_what_is_not_built_is_refused():
     motion = {"points": [["0 s", "0 g"], ["1 s", "0.1 g"]]}
     shaken_across = {"motion": motion | {"cross_valley": motion}}
     for more in (
         {"flexible": {"contact": "idce", "damping": "stiffness"}},
         {"flexible": {"contactors": 5}},
+        {"further_cracks": [{"elevation": "40 m", "friction": 0.8}], "crack": {"side_gap": "3 mm"}},
         {
             "crack": {
                 "bond": {
@@ -259,7 +368,7 @@ def test_what_is_not_built_is_refused():
             }
         },
     ):
-        with pytest.raises(InputError, match="shaking across the valley"):
+        with pytest.raises(InputError, match=r"shaking across the valley|neighbours"):
             check(case_of(**more, **shaken_across), "flexible")
 
 

@@ -228,10 +228,16 @@ fn step(dam: &Dam, crack: &mut Crack, sides: &mut [Side]) {
             Some(bonds) => bonds.rest::<Plain>(problem, solver, ONE),
             None => solver.solve::<Plain>(problem, &mut Known),
         });
-        let met = crack
-            .laws
-            .as_mut()
-            .is_none_or(|laws| laws.met(problem, solver, &crack.before, Sideways::default(), ONE, &mut report));
+        let met = crack.laws.as_mut().is_none_or(|laws| {
+            laws.met(
+                problem,
+                solver,
+                &crack.before,
+                Sideways::default(),
+                ONE,
+                &mut report,
+            )
+        });
         if met {
             break;
         }

@@ -415,9 +415,10 @@ impl Solving<'_, '_, '_> {
             });
             let across = self.across.as_deref();
             let sideways = across.map_or_else(Sideways::default, Across::sideways);
-            let met = self.laws.as_mut().is_none_or(|laws| {
-                laws.met(problem, solver, self.before, sideways, self.step, &mut report)
-            });
+            let met = self
+                .laws
+                .as_mut()
+                .is_none_or(|laws| laws.met(problem, solver, self.before, sideways, self.step, &mut report));
             if met {
                 if let Some(across) = &mut self.across {
                     across.finish::<W>(self.faces.contacts);

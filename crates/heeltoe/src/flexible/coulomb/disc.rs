@@ -678,7 +678,11 @@ impl Way<'_> {
     #[inline(always)]
     fn limit(&self, contact: usize, slips: bool, normal: f64) -> f64 {
         let problem = self.problem;
-        let mu = if slips { &problem.mu_slip } else { &problem.mu_stick };
+        let mu = if slips {
+            &problem.mu_slip
+        } else {
+            &problem.mu_stick
+        };
         mu[contact] * normal + problem.added(contact, slips, 0.0)
     }
 
@@ -1033,8 +1037,7 @@ mod tests {
             (problem.scale[2], problem.scale[CONTACTS + 2], rows.scale[2]) = (0.0, 0.0, 0.0);
             let (mut p, mut u) = (vec![0.0; 2 * CONTACTS], vec![0.0; 2 * CONTACTS]);
             let solution = (&mut p[..], &mut u[..]);
-            let report =
-                Disc::new(CONTACTS).solve::<Plain>(&problem, &mut rows, &mut status, solution, true);
+            let report = Disc::new(CONTACTS).solve::<Plain>(&problem, &mut rows, &mut status, solution, true);
             assert!(
                 !report.swept && report.residual < 1e-8,
                 "{seed}: {}",
@@ -1048,7 +1051,8 @@ mod tests {
     #[test]
     fn the_inverse_that_goes_along_finds_what_a_new_one_does() {
         for seed in 0..40 {
-            let ((mut problem, mut rows), (_, other)) = (problem(97 * seed, 0.8), problem(97 * seed + 50, 0.8));
+            let ((mut problem, mut rows), (_, other)) =
+                (problem(97 * seed, 0.8), problem(97 * seed + 50, 0.8));
             let start = (problem.b.clone(), rows.b.clone());
             let (mut disc, mut status) = (Disc::new(CONTACTS), vec![Status::Stick; CONTACTS]);
             let (mut p, mut u) = (vec![0.0; 2 * CONTACTS], vec![0.0; 2 * CONTACTS]);
