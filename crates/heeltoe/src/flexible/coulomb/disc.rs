@@ -674,7 +674,7 @@ impl Way<'_> {
         self.problem.scale[contact].min(self.rows.scale[contact])
     }
 
-    /// Friction of a contact that is pressed so.
+    /// Friction of a contact that is pressed so; the line of a law may pass below zero.
     #[inline(always)]
     fn limit(&self, contact: usize, slips: bool, normal: f64) -> f64 {
         let problem = self.problem;
@@ -683,7 +683,7 @@ impl Way<'_> {
         } else {
             &problem.mu_stick
         };
-        mu[contact] * normal + problem.added(contact, slips, 0.0)
+        (mu[contact] * normal + problem.added(contact, slips, 0.0)).max(0.0)
     }
 
     /// The equations of a contact in this state.
