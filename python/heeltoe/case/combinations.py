@@ -422,6 +422,7 @@ RULES = (
     *(
         Rule("shaking across the valley", other, ("flexible",), why)
         for other, why in (
+            ("kinks", "friction across the valley is that of a straight crack"),
             ("a bonded joint", "a bond breaks along the stream alone"),
             ("an anchor with stiffness", "its anchors resist along the stream alone"),
             ("penalty contact", _NO_PENALTY),
