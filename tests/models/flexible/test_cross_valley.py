@@ -260,7 +260,7 @@ SPEED = {"name": "speed weakening", "peak_friction": 1.1, "residual_friction": 0
 FURTHER = {
     "slip weakening": (None, {"crack": {"law": WEAKENING}}),
     "speed weakening": (None, {"crack": {"law": SPEED}}),
-    "two cracks": (1.0, {"further_cracks": [{"elevation": "40 m", "friction": 0.7}]}),
+    "two cracks": (1.1, {"further_cracks": [{"elevation": "40 m", "friction": 0.9}]}),
     "two cracks with a law": (
         None,
         {"crack": {"law": WEAKENING}, "further_cracks": [{"elevation": "40 m", "law": SPEED}]},
