@@ -17,6 +17,7 @@ from tempfile import TemporaryDirectory
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
+import study_million
 from measure import Skipped, heading, require, seconds, table
 
 from heeltoe import flexible, read_case, read_study, run_study
@@ -37,7 +38,7 @@ model = "flexible"
 [vary]
 "crack.friction" = {frictions}
 [motions]
-folder = "{records}"
+events = {events}
 pairs = true
 both_signs = false
 scale = {{ measure = "pga", values = {strengths} }}
@@ -62,7 +63,9 @@ def study_file(folder: Path, frictions: tuple[float, ...]) -> Path:
     if not records.is_dir():
         raise Skipped(f"no records in $HEELTOE_RECORDS/{RECORDS}")
     path = folder / "study.toml"
-    text = STUDY.format(case=EXAMPLE, records=records, frictions=list(frictions), strengths=json.dumps(STRENGTHS))
+    text = STUDY.format(
+        case=EXAMPLE, events=study_million.events(), frictions=list(frictions), strengths=json.dumps(STRENGTHS)
+    )
     path.write_text(text, encoding="utf-8")
     return path
 

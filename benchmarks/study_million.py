@@ -35,13 +35,23 @@ samples = {runs}
 "crack.restitution" = {{ from = 0.2, to = 0.8 }}
 
 [motions]
-folder = "{records}"
+events = {events}
 pairs = true
 scale = {{ measure = "pga", values = {{ from = "0.1 g", to = "1 g" }} }}
 
 [fragility]
 limits = {{ residual_slip = ["10 mm", "150 mm"] }}
 """
+
+
+def events() -> str:
+    """Return both components of each earthquake as a study takes them: headers of one pair name its station in two
+    ways, so that their folder would not pair them."""
+    pairs: dict[str, list[str]] = {}
+    for file in sorted(RECORDS.resolve().glob("*.txt")):
+        pairs.setdefault(file.stem.rpartition("-")[0], []).append(str(file))
+    each = (f"{{ name = {json.dumps(name)}, horizontal = {json.dumps(files)} }}" for name, files in pairs.items())
+    return f"[{', '.join(each)}]"
 
 
 def prepared(folder: Path, runs: int) -> Path:
@@ -52,7 +62,7 @@ def prepared(folder: Path, runs: int) -> Path:
     before, pattern, after = case.partition('pattern = "triangular"')
     require(bool(pattern), "the typical dam has another uplift")
     (folder / "case.toml").write_text(before + drained + after.partition("\n")[2], encoding="utf-8")
-    (folder / "study.toml").write_text(STUDY.format(runs=runs, records=RECORDS.resolve()), encoding="utf-8")
+    (folder / "study.toml").write_text(STUDY.format(runs=runs, events=events()), encoding="utf-8")
     return folder / "study.toml"
 
 
