@@ -1,4 +1,4 @@
-"""Print the table of docs/flexible.md of how far slips move with the time step on rock.
+"""Print the tables of docs/flexible.md of how far slips move with the time step, on rock and on a rigid plane.
 
 python docs/steps_on_rock.py
 """
@@ -16,6 +16,8 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 DAMS = ("typical-base", "triangular", "stepped-crack", "koyna-top", "typical-height", "two-cracks")
 #: Steps over the period of the part that vibrates fastest, and the longest one at a four-hundredth [s].
 PARTS, LONGEST = (400, 200, 100, 50), 2e-4
+#: On a rigid plane, where the last one strikes, and the steps there [ms].
+ON_PLANE, STEPS_MS = ("typical-base", "triangular", "pine-flat", "typical-height"), (0.2, 0.4, 0.8)
 
 
 def slip_mm(case: Case, step: float) -> float:
@@ -25,7 +27,7 @@ def slip_mm(case: Case, step: float) -> float:
 
 
 def main() -> None:
-    """Print a row for each dam."""
+    """Print a row for each dam of both tables."""
     print("| slip, mm | 1/400 | 1/200 | 1/100 | 1/50 |")
     print("| --- | --- | --- | --- | --- |")
     for name in DAMS:
@@ -35,6 +37,11 @@ def main() -> None:
         shortest = min(period / PARTS[0], LONGEST)
         slips = (slip_mm(case, shortest * PARTS[0] / part) for part in PARTS)
         print(f"| {name} | {' | '.join(f'{slip:.1f}' for slip in slips)} |")
+    print("\n| slip, mm | " + " | ".join(f"{step:g} ms" for step in STEPS_MS) + " |")
+    print("| --- " * (1 + len(STEPS_MS)) + "|")
+    for name in ON_PLANE:
+        case = heeltoe.read_case(EXAMPLES / f"{name}.toml").on_rigid_plane()
+        print(f"| {name} | {' | '.join(f'{slip_mm(case, 1e-3 * step):.1f}' for step in STEPS_MS)} |")
 
 
 if __name__ == "__main__":

@@ -29,9 +29,9 @@ from heeltoe.result.rest import LAST_S
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
-#: Of one plain crack on a rigid plane it may be longer: this part of that vibration, and at most so much [s], at the
-#: base and above it, where the dam strikes. That moves slips by less than 1 % (docs/flexible.md).
-_OF_PLAIN = ((100.0, 8e-4), (50.0, 4e-4))
+#: The longest steps [s] of one plain crack (docs/flexible.md): at the base on a rigid plane, where the dam slides; above
+#: it, where it strikes, at this part of that vibration; and at the base on rock through which waves leave.
+_LONGEST_AT_BASE, _LONGEST_ABOVE_BASE, _STEPS_ABOVE_BASE, _LONGEST_ON_ROCK = 8e-4, 4e-4, 50.0, 1.6e-3
 #: Where waves surround the dam the step goes with the dam, and is this part of that vibration, at most the longest step
 #: times the first of them over it: a small dam swings as fast as its waves, and similar dams have similar answers.
 #: Where waves leave through damped rock, the second is enough; bonds, laws, penalties, and all where a vibration feeds
@@ -51,13 +51,18 @@ _FITS = 1e-9
 
 def usual_step(case: Case, period: float) -> float:
     """Return a step [s] that follows a part above the crack of a case, of this longest period [s]."""
+    alone = _is_plain(case) and not case.further_cracks and not case.crack.kinks
+    at_base = case.crack.elevation <= 0.0
     if wave_bodies(case):
-        steps = _STEPS_AMONG_WAVES[_is_smooth(case)]
-        longest = _LONGEST_STEP * _STEPS_AMONG_WAVES[0] / steps
+        smooth = _is_smooth(case)
+        steps = _STEPS_AMONG_WAVES[smooth]
+        longest = _LONGEST_ON_ROCK if smooth and alone and at_base else _LONGEST_STEP * _STEPS_AMONG_WAVES[0] / steps
         return float(np.clip(period / steps, _SHORTEST_OF_ALL, longest))
     steps, longest = _STEPS_PER_PERIOD, _LONGEST_STEP
-    if _is_plain(case) and not case.further_cracks and not case.crack.kinks:
-        steps, longest = _OF_PLAIN[case.crack.elevation > 0.0]
+    if alone and at_base:
+        longest = _LONGEST_AT_BASE
+    elif alone:
+        steps, longest = _STEPS_ABOVE_BASE, _LONGEST_ABOVE_BASE
     shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
     return float(np.clip(period / steps, shortest, longest))
 
