@@ -29,7 +29,7 @@ from heeltoe.result.rest import LAST_S
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
-#: The longest steps [s] of one plain crack (docs/flexible.md): at the base on a rigid plane, where the dam slides; above
+#: The longest steps [s] of one plain crack (docs/flexible.md): at the base on a rigid plane, where a dam slides; above
 #: it, where it strikes, at this part of that vibration; and at the base on rock through which waves leave.
 _LONGEST_AT_BASE, _LONGEST_ABOVE_BASE, _STEPS_ABOVE_BASE, _LONGEST_ON_ROCK = 8e-4, 4e-4, 50.0, 1.6e-3
 #: Where waves surround the dam the step goes with the dam, and is this part of that vibration, at most the longest step

@@ -1,0 +1,34 @@
+"""The step that the program chooses goes with what happens in the cracks."""
+
+from __future__ import annotations
+
+import pytest
+
+from heeltoe.models.flexible.run.dam_runner import usual_step
+from shared.dams import example
+
+LONG, SHORT = 0.2, 0.012
+PLANE, ROCK = (), ("rock.modulus=20 GPa",)
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "period", "step"),
+    [
+        # Sliding at the base, striking above it, and small dams.
+        ("typical-base", PLANE, LONG, 8e-4),
+        ("typical-base", PLANE, SHORT, SHORT / 100),
+        ("typical-height", PLANE, LONG, 4e-4),
+        ("typical-height", PLANE, SHORT, SHORT / 50),
+        # What asks for shorter steps.
+        ("two-cracks", PLANE, LONG, 2e-4),
+        ("stepped-crack", PLANE, LONG, 2e-4),
+        ("typical-base", ('uplift.during_shaking="full while open"',), LONG, 2e-4),
+        # Rock through which waves leave.
+        ("typical-base", ROCK, LONG, 1.6e-3),
+        ("typical-base", ROCK, SHORT, SHORT / 100),
+        ("typical-height", ROCK, LONG, 8e-4),
+        ("two-cracks", ROCK, LONG, 8e-4),
+    ],
+)
+def test_a_crack_that_slides_takes_longer_steps(name, changes, period, step):
+    assert usual_step(example(name, *changes), period) == pytest.approx(step)
