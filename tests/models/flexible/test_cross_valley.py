@@ -306,6 +306,27 @@ def test_a_law_that_does_not_weaken_is_constant_friction():
         assert [run.slip, run.cross_slip] == pytest.approx([constant.slip, constant.cross_slip], rel=1e-7)
 
 
+@pytest.mark.parametrize(
+    "law",
+    [
+        {"name": "barton-bandis", "jrc": 8.0, "jcs": "50 MPa", "residual_angle": "30 deg"},
+        {"name": "cohesion", "residual_friction": 0.8, "cohesion": "0.1 MPa", "slip": "20 mm"},
+    ],
+    ids=["barton-bandis", "cohesion"],
+)
+def test_laws_that_bend_or_bond_go_over_into_those_of_one_component(law):
+    case, shaking = case_of(None, crack={"law": law}), made(3.0)
+    alone, faint, whole = (
+        shaken(case, replace(shaking, cross=factor * shaking.cross)).run(STEP).summary for factor in (0.0, 1e-9, 1.0)
+    )
+    assert faint.slip == pytest.approx(alone.slip, rel=1e-8)
+    assert 0.0 < abs(faint.cross_slip) < 1e-8
+    assert abs(whole.slip) > abs(alone.slip) > 1e-3
+    for summary in (faint, whole):
+        assert summary.energy_residual < 1e-11
+        assert summary.contact_residual < 1e-8
+
+
 @pytest.mark.parametrize("law", [WEAKENING, SPEED], ids=["slip weakening", "speed weakening"])
 def test_a_stiff_dam_with_a_law_is_the_rigid_block(law):
     stiff = {"density": "2650 kg/m^3", "modulus": "20000 GPa", "poisson": 0.143, "damping": 0.05}
