@@ -15,7 +15,7 @@ use super::contact::Contacts;
 use super::coulomb::disc::{Disc, Rows, Side};
 use super::dam::{CrossShaking, Dam};
 use super::dampers::HeldNodes;
-use super::law::Sideways;
+use super::law::sideways::Sideways;
 use super::ledger::Ledger;
 use super::linear::LinearDam;
 use super::modal_stepper::Drive;

@@ -22,7 +22,7 @@ use super::coulomb::{Known, Report};
 use super::coupling::Crack;
 use super::dam::Dam;
 use super::faces::{mean_along, Faces};
-use super::law::Sideways;
+use super::law::sideways::Sideways;
 use super::place::Place;
 use super::scheme::TimeStep;
 use super::simd::{Group, Plain};

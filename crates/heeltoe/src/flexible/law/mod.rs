@@ -16,9 +16,11 @@
 //! other face, and was not there before, has been through what that end has.
 
 mod passes;
+pub(super) mod sideways;
 pub(super) mod spots;
 pub(super) mod worked;
 
+use self::sideways::Sideways;
 use self::spots::spots;
 use self::worked::Worked;
 use super::contact::Contacts;
@@ -26,23 +28,6 @@ use super::dam::Dam;
 use super::scheme::TimeStep;
 use super::status::Status;
 use crate::friction::{Law, Strength, Worn};
-
-/// What contacts do across the valley in a step; nothing where the ground moves along the stream alone.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Sideways<'a> {
-    /// Impulses of friction, velocities, and those before the step.
-    pub p: &'a [f64],
-    pub u: &'a [f64],
-    pub before: &'a [f64],
-}
-
-impl Sideways<'_> {
-    /// A number of a contact along its crack as a vector in the plane of the crack.
-    #[inline(always)]
-    pub(super) fn beside(along: f64, across: &[f64], contact: usize) -> [f64; 2] {
-        [along, across.get(contact).copied().unwrap_or(0.0)]
-    }
-}
 
 /// All of them, with the laws of their cracks.
 #[derive(Clone, Debug, Default)]

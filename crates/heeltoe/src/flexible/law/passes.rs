@@ -17,8 +17,9 @@ use super::super::coulomb::{Problem, Report, Solver};
 use super::super::scheme::TimeStep;
 use super::super::simd::largest;
 use super::super::status::Status;
+use super::sideways::Sideways;
 use super::worked::Worked;
-use super::{Laws, Sideways};
+use super::Laws;
 
 /// A slope that changes and is off by less than this is kept.
 const NEAR: f64 = 0.02;

@@ -2,7 +2,7 @@
 
 use super::super::scheme::TimeStep;
 use super::super::status::Status;
-use super::Sideways;
+use super::sideways::Sideways;
 use crate::friction::{Law, Strength, Worn};
 use crate::table::columns;
 

@@ -26,6 +26,9 @@ from heeltoe.motion.moments import cross_means, step_ends, step_means
 from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.result.rest import LAST_S
 
+#: Spacing of the frames of a run [s], where no other is wanted: enough for an animation, few enough for memory. Longer
+#: steps are a whole part of it.
+FRAME_STEP = 0.01
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
@@ -56,15 +59,18 @@ def usual_step(case: Case, period: float) -> float:
     if wave_bodies(case):
         smooth = _is_smooth(case)
         steps = _STEPS_AMONG_WAVES[smooth]
-        longest = _LONGEST_ON_ROCK if smooth and alone and at_base else _LONGEST_STEP * _STEPS_AMONG_WAVES[0] / steps
-        return float(np.clip(period / steps, _SHORTEST_OF_ALL, longest))
-    steps, longest = _STEPS_PER_PERIOD, _LONGEST_STEP
-    if alone and at_base:
-        longest = _LONGEST_AT_BASE
-    elif alone:
-        steps, longest = _STEPS_ABOVE_BASE, _LONGEST_ABOVE_BASE
-    shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
-    return float(np.clip(period / steps, shortest, longest))
+        alone = smooth and alone and at_base
+        longest = _LONGEST_ON_ROCK if alone else _LONGEST_STEP * _STEPS_AMONG_WAVES[0] / steps
+        shortest = _SHORTEST_OF_ALL
+    else:
+        steps, longest = _STEPS_PER_PERIOD, _LONGEST_STEP
+        if alone and at_base:
+            longest = _LONGEST_AT_BASE
+        elif alone:
+            steps, longest = _STEPS_ABOVE_BASE, _LONGEST_ABOVE_BASE
+        shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
+    step = float(np.clip(period / steps, shortest, longest))
+    return FRAME_STEP / math.ceil(FRAME_STEP / step - _FITS) if alone else step
 
 
 def _is_smooth(case: Case) -> bool:

@@ -10,13 +10,11 @@ import math
 from heeltoe.case.model import Case
 from heeltoe.models.cost import Cost
 from heeltoe.models.flexible.body.cost import NUMBER, building, parts_of, surroundings_of, wave_bodies
-from heeltoe.models.flexible.run.dam_runner import usual_step
+from heeltoe.models.flexible.run.dam_runner import FRAME_STEP, usual_step
 from heeltoe.models.runner import STEP
 
 #: Fewer elements along the crack than these have no coarser mesh worth a comparison.
 FEWEST_ACROSS = 4
-#: Frames kept: enough for an animation, few enough for memory.
-_FRAME_STEP = 0.01
 # Seconds of a step, of each 2 k m in it, and of that to the power of 3/2, as caches end.
 _STEP, _ANSWERED, _FETCHED = 6e-7, 4.3e-10, 8.6e-13
 # Times as much where a friction law is found by passes, 1.7 to 4 of it.
@@ -37,7 +35,7 @@ _PERIOD = 3.1
 
 def frame_step_of(end: float, output_step: float | None) -> float:
     """Return the spacing of the frames of a run [s]."""
-    return output_step or min(_FRAME_STEP, end)
+    return output_step or min(FRAME_STEP, end)
 
 
 def running(case: Case, end: float, frame_step: float, step: float | None = None, runs: float | None = None) -> Cost:

@@ -1,0 +1,18 @@
+//! What laws need of the contacts across the valley.
+
+/// What contacts do across the valley in a step; nothing where the ground moves along the stream alone.
+#[derive(Clone, Copy, Default)]
+pub(in super::super) struct Sideways<'a> {
+    /// Impulses of friction, velocities, and those before the step.
+    pub p: &'a [f64],
+    pub u: &'a [f64],
+    pub before: &'a [f64],
+}
+
+impl Sideways<'_> {
+    /// A number of a contact along its crack as a vector in the plane of the crack.
+    #[inline(always)]
+    pub(super) fn beside(along: f64, across: &[f64], contact: usize) -> [f64; 2] {
+        [along, across.get(contact).copied().unwrap_or(0.0)]
+    }
+}
