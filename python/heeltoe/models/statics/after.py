@@ -23,10 +23,7 @@ _NO_CRACK = "this joint is no crack of the run, and has not slipped"
 
 
 def joints_after(
-    case: Case,
-    runs: Callable[[], Sequence[Response]],
-    run_alone: Callable[[Case], Sequence[Response]] | None = None,
-    models: Sequence[str] = (),
+    case: Case, runs: Callable[[], Sequence[Response]], run_alone: Callable[[Case], Sequence[Response]] | None = None
 ) -> Joints:
     """Judge a dam after its earthquake at each of its sections: the slip of a crack is that of the run of
     the whole dam, by every door.
@@ -40,26 +37,23 @@ def joints_after(
     run_alone
         Runs the dam with a lift joint cracked that is none of its cracks; such a joint has no check after the
         earthquake where it is not given.
-    models
-        Names of the models that read the case; those of the runs where they are not given.
     """
 
     def judge(alone: Case, place: int | None) -> Statics:
         if place is not None:
-            at_crack = (run.at_crack(place) if len(run.cracks) > 1 else run for run in runs())
-            return statics_after(alone, *at_crack, models=models)
+            return statics_after(alone, *(run.at_crack(place) if len(run.cracks) > 1 else run for run in runs()))
         if run_alone is None:
             still = alone.model_copy(update={"motion": None, "aftershocks": ()})
             asked = alone.statics.residual_friction is not None and alone.statics.residual_slip is None
             return statics(still, 0.0, slip_source=_NO_CRACK) if asked else statics(still)
-        result = statics_after(alone, *run_alone(alone), models=models)
+        result = statics_after(alone, *run_alone(alone))
         source = result.slip_source and f"{result.slip_source}, run with this joint as the only crack"
         return replace(result, slip_source=source)
 
     return statics_of_sections(case, judge)
 
 
-def statics_after(case: Case, *runs: Response, models: Sequence[str] = ()) -> Statics:
+def statics_after(case: Case, *runs: Response) -> Statics:
     """Judge the stability of a case after its earthquake.
 
     Parameters
@@ -69,12 +63,10 @@ def statics_after(case: Case, *runs: Response, models: Sequence[str] = ()) -> St
     *runs
         One run, or several of the same earthquake, the better model first: the first that ended as it should says
         how far the block has slipped. Where none did, an overturned one counts, as nothing stands after that.
-    models
-        As of :func:`joints_after`.
     """
     trusted = next((run for run in runs if run.outcome == Outcome.OK), None)
     overturned = next((run for run in runs if run.outcome == Outcome.OVERTURNED), None)
-    beside = tuple(models) or tuple(run.model for run in runs)
+    beside = tuple(run.model for run in runs)
     if trusted is None and overturned is not None:
         return statics(case, overturned_about=overturned.overturned_about, beside=beside)
     if case.statics.residual_slip is not None:
@@ -111,8 +103,6 @@ def ligament_of(run: Response | CrackResponse) -> tuple[float, float] | None:
 def slip_source(run: Response) -> str:
     """Return what says where the residual slip of a run comes from."""
     source = f"{run.model} model, {plain(run.motion.name)}, PGA {run.motion.pga / run.gravity:.4g} g"
-    if run.elastic and getattr(run, "evidence", None) is None:
-        source += ", without evidence"
     return source if comes_to_rest(run) else f"{source}, still moving when the run ends"
 
 

@@ -9,11 +9,10 @@ from typing import Any
 from heeltoe.case.model import Case
 from heeltoe.case.read import Source
 from heeltoe.models.cost import Cost
-from heeltoe.models.run import AUTO, cost_of, models_of, record_cost, run, wish_cost
+from heeltoe.models.run import AUTO, cost_of, record_cost, run, wish_cost
 from heeltoe.models.statics.after import joints_after, without_own_slip
 from heeltoe.models.statics.joints import Joints, statics_of_sections
 from heeltoe.models.statics.model import statics
-from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from heeltoe.study.plan.axes import Axis
 from heeltoe.study.small.response_spectrum import with_response_spectrum
@@ -92,7 +91,7 @@ def statics_cost(case: Case, after: After) -> Cost | None:
     if not after.runs(case):
         return Cost(_CHECKED)
     cost = record_cost(case) + Cost(_CHECKED)
-    alone = wish_cost(_bare(case), _better(case, after.model or AUTO))
+    alone = wish_cost(case, after.model or AUTO)
     return None if alone is None else cost + alone
 
 
@@ -110,33 +109,13 @@ def _judge(case: Case, after: After, say: Say, made: Made) -> Joints:
         key = model, _run_of(dam)
         if key not in made:
             say(f"running the earthquake{what}")
-            made[key] = _runs(dam, model)
+            made[key] = tuple(reversed(run(dam, model).responses))
         return made[key]
 
     def run_alone(alone: Case) -> Sequence[Response]:
         return run_once(alone, f", crack at {alone.crack.elevation:g} m alone")
 
-    return joints_after(case, lambda: run_once(case, ""), run_alone, models_of(case, after.model or AUTO)[0])
-
-
-def _runs(case: Case, model: str) -> tuple[Response, ...]:
-    """Return the runs that say the slip, the better model first. The checks read where the worse sign of the motion
-    leaves the dam: no evidence, no other friction, and no simpler model where the better one has a result."""
-    asked = _bare(case)
-    *simpler, better = models_of(case, model)[0]
-    response = run(asked, better)
-    return (response,) if response.outcome == Outcome.OK else (response, *(run(asked, name) for name in simpler))
-
-
-def _better(case: Case, model: str) -> str:
-    """Return the model that says the slip where it has a result."""
-    return models_of(case, model)[0][-1]
-
-
-def _bare(case: Case) -> Case:
-    """Return the case without evidence and without a band of friction."""
-    case = case.without_evidence()
-    return case.model_copy(update={"crack": case.crack.model_copy(update={"band": None})}) if case.crack.band else case
+    return joints_after(case, lambda: run_once(case, ""), run_alone)
 
 
 def _run_of(case: Case) -> str:
@@ -231,7 +210,7 @@ def statics_table(
     """
     cells, cases = cases_of(source, changes, axes)
     runs = {_run_of(case): case for case in cases if after.runs(case)}
-    check_together([*runs.values()], lambda case: cost_of(_bare(case), _better(case, after.model or AUTO)))
+    check_together([*runs.values()], lambda case: cost_of(case, after.model or AUTO))
     table = []
     made: Made = {}
     for done, case in enumerate(cases):
