@@ -29,7 +29,7 @@ SCATTERS = {
     "concrete": {"modulus": "20 GPa"},
     "crack": {"friction": 0.7},
     "reservoir": {"depth": "24 m"},
-    "flexible": {"elements_across": 6},
+    "flexible": {"elements_across": 6, "time_step": "0.2 ms"},
     "limits": {"residual_slip": "1 m"},
 }
 

@@ -27,14 +27,15 @@ from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.result.rest import LAST_S
 
 #: Spacing of the frames of a run [s], where no other is wanted: enough for an animation, few enough for memory. Longer
-#: steps are a whole part of it.
+#: steps make half of it, so that histories keep round moments.
 FRAME_STEP = 0.01
+_PART = FRAME_STEP / 2.0
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
 #: The longest steps [s] of one plain crack (docs/flexible.md): at the base on a rigid plane, where a dam slides; above
 #: it, where it strikes, at this part of that vibration; and at the base on rock through which waves leave.
-_LONGEST_AT_BASE, _LONGEST_ABOVE_BASE, _STEPS_ABOVE_BASE, _LONGEST_ON_ROCK = 8e-4, 4e-4, 50.0, 1.6e-3
+_LONGEST_AT_BASE, _LONGEST_ABOVE_BASE, _STEPS_ABOVE_BASE, _LONGEST_ON_ROCK = _PART / 6, _PART / 12, 50.0, _PART / 3
 #: Where waves surround the dam the step goes with the dam, and is this part of that vibration, at most the longest step
 #: times the first of them over it: a small dam swings as fast as its waves, and similar dams have similar answers.
 #: Where waves leave through damped rock, the second is enough; bonds, laws, penalties, and all where a vibration feeds
@@ -70,7 +71,7 @@ def usual_step(case: Case, period: float) -> float:
             steps, longest = _STEPS_ABOVE_BASE, _LONGEST_ABOVE_BASE
         shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
     step = float(np.clip(period / steps, shortest, longest))
-    return FRAME_STEP / math.ceil(FRAME_STEP / step - _FITS) if alone else step
+    return _PART / math.ceil(_PART / step - _FITS) if alone else step
 
 
 def _is_smooth(case: Case) -> bool:
