@@ -112,7 +112,7 @@ def test_the_elastic_dam_leads_by_itself_and_is_cancelled_by_the_next_move(page,
     page.wait_for_selector(f"{ELASTIC} .headline")
     settled(page)
     assert page.evaluate(FIRST) == "flexible"
-    assert "940.6 mm" in page.inner_text(f"{ELASTIC} .headline")
+    assert "940.0 mm" in page.inner_text(f"{ELASTIC} .headline")
     page.evaluate("() => { window.heard = []; window.sent = WebSocket.prototype.send; }")
     page.evaluate(
         """() => { WebSocket.prototype.send = function (text) {

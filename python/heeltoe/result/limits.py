@@ -63,6 +63,8 @@ def check_limits(limits: Limits, response: ResponseData, judgement: Judgement | 
     judgement = judgement or judge_response(limits, response)
     if not (judgement.has_result[0] or judgement.failed[0]):
         return ()
+    # Of the crest one run is known: where runs scatter, nothing bounds its error.
+    one_run = float(any(_of_many(crack) for crack in response.cracks))
     checks = []
     for name in judgement.not_met:
         sizes = judgement.size(name)[0].tolist()
@@ -78,12 +80,20 @@ def check_limits(limits: Limits, response: ResponseData, judgement: Judgement | 
                     value=sizes[place] if known else None,
                     allowed=judgement.limits[name],
                     failed=bool(judgement.failed[0]),
-                    uncertainty=_uncertainty(name, response.cracks[place]) if of_crack else 0.0,
+                    uncertainty=_uncertainty(name, response.cracks[place])
+                    if of_crack
+                    else (one_run * sizes[place] if known else 0.0),
                     elevation_m=response.cracks[place].elevation if response.several and of_crack else None,
                     exceeding=share_above(runs, judgement.limits[name]) if runs else None,
                 )
             )
     return tuple(checks)
+
+
+def _of_many(crack: CrackResponse) -> bool:
+    """Whether the numbers of a crack are means of runs with the shaking varied."""
+    evidence = None if crack.numbers is None else crack.numbers.get("evidence")
+    return evidence is not None and evidence.scatters
 
 
 def _bonded(crack: CrackResponse) -> bool:

@@ -300,7 +300,8 @@ def run_until_rest(
     if pauses is None:
         return until_rest(run, lambda rested: rested.reach, earthquake, longest)
     # One run goes on from where it is, and ends where the dam is at rest.
-    check_cost(case, analysing(case, earthquake.run_end + longest, frame_step, step))
+    bare = case.without_evidence()
+    check_cost(case, analysing(bare, earthquake.run_end + longest, frame_step, step))
     response = shaken.run(step, frame_step, ending, stresses=stresses, pauses=pauses)
     seconds = STEP * math.ceil((response.summary.end_time - earthquake.end) / STEP - 0.5)
     through = earthquake.silent(min(max(seconds, 0.0), longest))

@@ -125,10 +125,11 @@ def _affordable(trials: Trials, level: Level, *, full: bool, means: bool) -> boo
     """Return whether the runs that evidence at a level needs are within what a result may cost."""
     # These are the least, whatever the dam is like: they may be too much before it is built.
     least = min(trials.cost(_fewest(trials, level, change, full=full, means=means)) for change in (-1, 1))
-    if trials.work + least > BUDGET:
+    case = trials.dam_of(0).case
+    if trials.work + least > BUDGET or not trials.expected(level, trials.work + least).within(case):
         return False
     work = trials.work + trials.cost(_Stand(trials, level, full=full).wanted(means=means))
-    return work <= BUDGET and trials.expected(level, work).within(trials.dam_of(0).case)
+    return work <= BUDGET and trials.expected(level, work).within(case)
 
 
 def _fewest(trials: Trials, level: Level, change: int, *, full: bool, means: bool) -> _Wanted:
@@ -389,7 +390,9 @@ class _Stand:
         run, other = trials.numbers(self._level, _AS_IT_IS, crack), trials.numbers(self._step, _AS_IT_IS, crack)
         varied = self._sample(self._cheap, SCALES, crack) if self._full else None
         step = float(run[RESIDUAL_SLIP.key][0] - other[RESIDUAL_SLIP.key][0])
-        mean = varied is not None and _scatter(varied.numbers[RESIDUAL_SLIP.key], step)
+        # Where 1 % of the shaking decides whether there is a result, single runs scatter, too.
+        lost = varied is not None and not (varied.good.all() and trials.have_results(self._step, _AS_IT_IS)[0])
+        mean = varied is not None and (lost or _scatter(varied.numbers[RESIDUAL_SLIP.key], step))
         pairs = dict[str, _Sample]()
         if mean:
             varied, stopped = self._drawn(crack)
@@ -403,23 +406,35 @@ class _Stand:
             for level in (self._own, self.mesh, self._third, self._larger, self._larger and self._cheap)
         )
 
+        failed = 0 if varied is None else int(np.sum(~varied.good))
         dam = trials.dam_of(self._level.mesh).dam
         width, lowered, missing = dam.sections[crack].crack_width, self._lowered(crack, dam), self._missing(crack)
+
+        def known(*levels: Level | None) -> bool:
+            return all(level is None or trials.have_results(level, _AS_IT_IS)[0] for level in levels)
 
         def worth(key: str) -> HeadlineWorth:
             least = FLOOR_M if key.endswith("_m") else FLOOR_M / width
             single = float(run[key][0])
             value, moved = single, dict[str, float | None](step=abs(single - float(other[key][0])))
+            # A run without a result bounds nothing.
+            if not known(self._step):
+                moved["step"] = abs(single)
             if mean and varied is not None:
                 value = float(varied.known(key).mean())
                 moved |= {name: varied.moved(key, pair) for name, pair in pairs.items()}
                 moved["shaking"] = varied.error(key)
             elif self._full and own is not None:
                 moved["mesh"] = _moved_by_mesh(key, own, beside, third)
-                moved["surroundings"] = None if farther is None or near is None else _difference(key, farther, near)
-                moved["shaking"] = None if varied is None else _deviation(varied.numbers[key])
+                if not known(self._own, self.mesh, self._third):
+                    moved["mesh"] = abs(single)
+                if farther is not None and near is not None:
+                    sound = known(self._larger, self._larger and self._cheap)
+                    moved["surroundings"] = _difference(key, farther, near) if sound else abs(single)
+                if varied is not None:
+                    moved["shaking"] = abs(single) if failed else _deviation(varied.numbers[key])
             mesh = moved.get("mesh")
-            drawn = varied if mean else None
+            drawn = varied if varied is not None and (mean or failed) and varied.good.any() else None
             return worth_of(
                 value,
                 single,
@@ -429,7 +444,7 @@ class _Stand:
                 moved.get("surroundings"),
                 # A joint of another strength may do anything between this and nothing.
                 least=max(least, abs(value)) if missing >= 1.0 else least,
-                spread=None if drawn is None else _deviation(drawn.known(key)),
+                spread=_deviation(drawn.known(key)) if mean and drawn is not None else None,
                 distribution=None if drawn is None else distribution_of(drawn.values(key)),
             )
 
@@ -450,7 +465,6 @@ class _Stand:
         slip = worth(RESIDUAL_SLIP.key)
         on_rock = dam.rock is not None and crack == len(dam.lines) - 1
         no_limit = may_have_no_limit(trials.dam_of(0).case, dam)
-        failed = 0 if varied is None else int(np.sum(~varied.good))
         headline_worths: dict[str, Any] = {item.key: worth(item.key) for item in HEADLINES}
         for item in HEADLINES:
             if item.kind == "rotation":

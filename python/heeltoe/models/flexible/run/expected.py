@@ -6,6 +6,7 @@ A step costs 2 k m for each part of k nodes on the crack and m modes; measured a
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 from heeltoe.case.model import Case
 from heeltoe.models.cost import Cost
@@ -125,7 +126,11 @@ def _on_other_rock(case: Case, parts: Cost, end: float, frame_step: float, step:
 def _step_of(case: Case) -> float:
     """Return about the step that the program will choose [s]."""
     speed = math.sqrt((case.concrete.modulus or math.inf) / case.concrete.density)
-    return usual_step(case, _PERIOD * case.cut.height / speed)
+    _, base, _, crest = case.outline.bounds
+    levels = sorted({crack.elevation for crack in (case.crack, *case.further_cracks)})
+    # The lowest part vibrates fastest.
+    lowest = min(top - foot for foot, top in pairwise([*levels, crest - base]))
+    return usual_step(case, _PERIOD * lowest / speed)
 
 
 def with_mesh(case: Case, mesh: int) -> Case:
