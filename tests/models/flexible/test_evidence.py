@@ -351,3 +351,37 @@ def test_a_vibration_that_grows_is_looked_at_at_the_mesh_that_is_told(monkeypatc
     first, last = told
     assert last is not first
     assert last.summary.slip == response.residual_slip_m
+
+
+def test_runs_without_a_result_enter_no_number_and_exceed_every_limit(monkeypatch):
+    monkeypatch.setattr(refinement, "scales_of", lambda doublings: NINE)
+    real = Trials.have_results
+    # The strongest shaking, as where a dam overturns.
+    monkeypatch.setattr(
+        Trials, "have_results", lambda self, level, scales: real(self, level, scales) & (np.array(scales) < 1.005)
+    )
+    response = flexible(dam(elements_across=4).with_({"limits.residual_slip": "100 m"}), MOTION)
+    evidence = response.evidence
+    assert (evidence["value_is"], evidence["failed"], evidence["converged"]) == ("mean", 3, False)
+    worth = evidence["residual_slip_m"]
+    known = [slip for slip in evidence["residual_slips_m"] if slip is not None]
+    assert len(known) == 6
+    assert worth["value"] == pytest.approx(np.mean(known), abs=1e-12)
+    assert worth["distribution"]["fractile_84"] is None
+    (limit,) = response.limits
+    assert limit.exceeding == pytest.approx(3.0 / 9.0)
+    assert not limit.met
+
+
+def test_another_step_without_a_result_bounds_nothing(monkeypatch):
+    real = Trials.have_results
+
+    def have_results(self, level, scales):
+        return real(self, level, scales) & (level.halvings == 0)
+
+    monkeypatch.setattr(Trials, "have_results", have_results)
+    # A step of the case is not refined.
+    evidence = flexible(dam(elements_across=4, evidence="step", time_step="0.2 ms"), MOTION).evidence
+    worth = evidence["residual_slip_m"]
+    assert worth["step"] == pytest.approx(abs(worth["run"]))
+    assert not evidence["converged"]
