@@ -108,14 +108,15 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
         from heeltoe.views.figures.histories import comparison_figure
 
         drawings["comparison"] = lambda: comparison_figure(result, beside, units)
-    drawings |= _drawings(result, units)
+    side_gap = None if case is None else case.crack.side_gap
+    drawings |= _drawings(result, units, side_gap)
     if case is not None and "response" in drawings and moving_anchors(case):
         drawings["anchors"] = lambda: anchor_figure(case, filled_in(result), units)
     for name, other in result.others.items():
         drawn = _drawings(other, units)
         drawings |= {f"{name}/{figure_name}": drawn[figure_name] for figure_name in OF_CRACKS if figure_name in drawn}
     if beside is not None:
-        drawings |= {f"{beside.model}/{name}": draw for name, draw in _drawings(beside, units).items()}
+        drawings |= {f"{beside.model}/{name}": draw for name, draw in _drawings(beside, units, side_gap).items()}
     return Figures(drawings)
 
 
@@ -134,14 +135,16 @@ def has_pictures(response: Response) -> bool:
     return bool(h) and len(h.time_s) > 1 and all(np.isfinite(values).all() for values in h.values())
 
 
-def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]:
-    """Return what draws each figure of one model."""
+def _drawings(
+    response: Response, units: str, side_gap: tuple[float, float] | None = None
+) -> dict[str, Callable[[], Figure]]:
+    """Return what draws each figure of one model; `side_gap` are the joints to its neighbours [m]."""
     if not has_pictures(response):
         return {}
     response = filled_in(response)
     figures: dict[str, Callable[[], Figure]] = {"response": lambda: response_figure(response, units)}
     if "slip_cross_m" in response.histories:
-        figures["plan"] = lambda: plan_figure(response, units)
+        figures["plan"] = lambda: plan_figure(response, units, side_gap)
     # Of a single mode the slip of the response says it all.
     if sum(abs(slip) > NO_SLIP for slip in response.slip_by_mode_m.values()) > 1:
         figures["slip-by-mode"] = lambda: slip_by_mode_figure(response, units)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from functools import lru_cache
 
@@ -28,6 +29,8 @@ _FILES = (
 )
 _MISSING = "\N{WHITE SQUARE}"
 _CUT = "..."
+# Between words, of which an acceleration is one: "0.4 g".
+_BLANK = re.compile(r"(?<!\d)\s+|\s+(?!g\b)")
 
 
 def readable(text: str) -> tuple[str, list[str]]:
@@ -53,7 +56,7 @@ def wrapped(text: str, width: float, most: int = 2) -> str:
     """Break a text into a number of lines at most, as wide as `width` times the size of its letters; the rest is
     cut."""
     lines = [""]
-    for word in text.split():
+    for word in _BLANK.split(text):
         joined = f"{lines[-1]} {word}".strip()
         if ems(joined) <= width:
             lines[-1] = joined
