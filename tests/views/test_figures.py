@@ -19,6 +19,7 @@ from heeltoe.views.figures.all import all_figures
 from heeltoe.views.figures.crack import contact_pressure, crack_figure, pressure_figure
 from heeltoe.views.figures.dam import mesh_figure, modes_figure
 from heeltoe.views.figures.energy import energy_figure, friction_loss
+from heeltoe.views.figures.fonts import ems, wrapped
 from heeltoe.views.figures.histories import response_figure, slip_by_kind, slip_by_mode_figure
 from heeltoe.views.figures.names import NAMES
 from heeltoe.views.figures.panels import draw_ribbon
@@ -29,6 +30,7 @@ from heeltoe.views.figures.stress.deformed import deformed_figure
 from heeltoe.views.figures.style import without_heading
 from heeltoe.views.figures.write import save_all
 from heeltoe.views.files.write import write_all
+from models.rigid.test_cross_valley import slab
 from shared.dams import ALL_EXAMPLES, BASE, BLOCK, FAST, example
 from shared.drawn import check, texts
 from shared.evidence import scattered
@@ -440,5 +442,45 @@ def test_a_slip_that_scatters_has_a_histogram(both):
     assert [bar.get_height() for bar in axes.patches if bar.get_height()] == [40.0, 60.0]
     lines = {line.get_label(): line.get_xdata()[0] for line in axes.lines}
     assert lines == pytest.approx(
-        {"mean": 220.0, "16 % slide less far": 100.0, "84 % slide less far": 300.0, "limit": 250.0}
+        {"mean": 220.0, "16 % of the runs keep to": 100.0, "84 % of the runs keep to": 300.0, "limit": 250.0}
     )
+
+
+@pytest.mark.parametrize(
+    ("allowed", "left", "right"),
+    [
+        (0.25, "", ""),
+        (0.15, "← limit 150.0 mm, to the left", ""),
+        (0.85, "", "limit 850.0 mm, to the right →"),
+    ],
+)
+def test_a_limit_far_from_all_runs_is_a_note(both, allowed, left, right):
+    """Runs from 0.4 to 0.6 m: a limit within 0.2 m of them is a line, any other leaves their bars as they are."""
+    limit = LimitCheck(name="residual_slip", value=0.6, allowed=allowed, failed=False)
+    response = replace(scattered(both, [0.4] * 40 + [0.6] * 60), limits=(limit,))
+    axes = all_figures(None, response)["scatter"].axes[0]
+    assert (axes.get_title(loc="left"), axes.get_title(loc="right")) == (left, right)
+    assert ("limit" in [line.get_label() for line in axes.lines]) == (not left + right)
+
+
+@pytest.mark.parametrize(("gaps", "drawn"), [(["3 mm", "10 mm"], [3.0, -10.0]), (["10 m", "2 mm"], [-2.0])])
+def test_neighbours_that_a_path_comes_near_are_drawn(gaps, drawn):
+    case = read_case(slab(crack={"side_gap": gaps}))
+    (axes,) = all_figures(case, rigid(case))["plan"].axes
+    levels = [line.get_ydata()[0] for line in axes.lines if line.get_linestyle() == "--"]
+    assert levels == pytest.approx(drawn)
+    assert len(axes.texts) == len(drawn)
+    assert axes.get_ylim()[0] < min(drawn)
+
+
+@pytest.mark.parametrize(("gaps", "aspect"), [("free", 1.0), ("3 mm", "auto")])
+def test_a_path_that_would_be_a_line_with_equal_scales_has_its_own(gaps, aspect):
+    case = read_case(slab(crack={"side_gap": gaps}))
+    figure = all_figures(case, rigid(case))["plan"]
+    assert figure.axes[0].get_aspect() == aspect
+    assert ("the two axes have different scales" in figure.get_suptitle()) == (aspect == "auto")
+
+
+def test_a_heading_does_not_break_an_acceleration():
+    width = ems("peak 0.533") + 0.1
+    assert wrapped("peak 0.533 g; rigid", width, 3) == "peak\n0.533 g;\nrigid"

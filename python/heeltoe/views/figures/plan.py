@@ -10,7 +10,6 @@ from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.panels import largest
 from heeltoe.views.figures.style import COLOURS, WIDTH, describe, styled
 
-
 # A path flatter than this would be a line with equal scales.
 _FLAT = 0.2
 # Neighbours farther than this part of the width of the path from it are not drawn.
@@ -47,12 +46,13 @@ def plan_figure(response: Response, units: str = "si", side_gap: tuple[float, fl
     for side, way, gap in zip(("left", "right"), (1.0, -1.0), side_gap or (), strict=False):
         if gap > max(way * across) + _NEAR * extents[1]:
             continue
-        axes.axhline(float(scale(way * gap)), color=COLOURS["limit"], linestyle="--", linewidth=1.0)
+        level, over = float(scale(way * gap)), axes.get_yaxis_transform()
+        axes.plot([0.0, 1.0], [level, level], color=COLOURS["limit"], linestyle="--", linewidth=1.0, transform=over)
         axes.annotate(
             f"{side} neighbour",
-            (0.5, scale(way * gap)),
+            (0.5, level),
             (0.0, 2.0 * way),
-            xycoords=axes.get_yaxis_transform(),
+            xycoords=over,
             textcoords="offset points",
             ha="center",
             va="bottom" if way > 0.0 else "top",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
@@ -16,8 +15,6 @@ from heeltoe.views.figures.style import COLOURS, WIDTH, describe, styled
 
 # Fewer bars than runs say where they lie.
 _BARS = 16
-# Where a note stands, and where its arrow ends, across the axes.
-_EDGES = {"left": (0.12, 0.0), "right": (0.88, 1.0)}
 
 
 @styled
@@ -49,25 +46,12 @@ def scatter_figure(response: FlexibleResponse, units: str = "si") -> Figure:
         beyond = max(slips.min() - way * allowed, way * allowed - slips.max())
         if beyond <= np.ptp(slips):
             axes.axvline(float(scale(way * allowed)), color=COLOURS["crack"], linewidth=1.4, label="limit")
+        elif way * allowed < slips.min():
+            axes.set_title(f"← limit {length(allowed, units)}, to the left", color=COLOURS["crack"], loc="left")
         else:
-            _point_to(axes, f"limit {length(allowed, units)}", "right" if way * allowed > slips.max() else "left")
+            axes.set_title(f"limit {length(allowed, units)}, to the right →", color=COLOURS["crack"], loc="right")
     axes.set_xlabel(f"{RESIDUAL_SLIP.label} [{scale.unit}], + downstream")
     axes.set_ylabel("runs")
     axes.yaxis.set_major_locator(MaxNLocator(integer=True))
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
-
-
-def _point_to(axes: Axes, words: str, side: str) -> None:
-    """Write at an edge of the axes what lies beyond it."""
-    note, tip = _EDGES[side]
-    axes.annotate(
-        f"{words},\nto the {side}",
-        (tip, 0.9),
-        (note, 0.9),
-        xycoords="axes fraction",
-        color=COLOURS["crack"],
-        ha=side,
-        va="center",
-        arrowprops={"arrowstyle": "->", "color": COLOURS["crack"]},
-    )
