@@ -172,12 +172,30 @@ def _limits_met(response: ResponseData, units: str) -> str:
 
 def _chance(response: ResponseData) -> str:
     """Say how many of the runs with the shaking varied exceed a limit, where single runs scatter."""
-    shares = [
-        f"{100.0 * check.exceeding:.0f} % exceed the limit of {check.label}"
-        for check in response.limits
-        if check.exceeding is not None
-    ]
-    return f" With the shaking varied by 1 %, {listed(shares)}." if shares else ""
+    judged: dict[str, list[str]] = {}
+    for check in response.limits:
+        if check.exceeding is not None:
+            judged.setdefault(_share_of_runs(check.exceeding), []).append(check.label)
+    labels = [label for group in judged.values() for label in group]
+    if not labels:
+        return ""
+    subject = "Limits" if len(labels) == len(response.limits) else _limits_of(labels).replace("the", "The", 1)
+    verb = "is" if subject.startswith("The limit of") else "are"
+    shares = [f"{runs} {_limits_of(group)}" for runs, group in judged.items()]
+    if len(shares) == 1 < len(labels):
+        shares = [f"{runs} each of them" for runs in judged]
+    runs = "what 84 % of the runs with the shaking varied by 1 % keep to"
+    return f" {subject} {verb} judged on {runs}: {'; '.join(shares)}."
+
+
+def _limits_of(labels: Sequence[str]) -> str:
+    return f"the limit{'s' if len(labels) > 1 else ''} of {listed(labels)}"
+
+
+def _share_of_runs(share: float) -> str:
+    if share in (0.0, 1.0):
+        return "all runs exceed" if share else "no run exceeds"
+    return f"{100.0 * share:.0f} % of the runs exceed"
 
 
 def limited(check: LimitCheck, units: str = "si") -> str:
@@ -197,7 +215,7 @@ def _judged(check: LimitCheck, units: str) -> str:
     value = measured(check.value, check.unit, units)
     if not check.certain:
         value = f"{value} ± {measured(check.uncertainty, check.unit, units)}"
-    return value if check.exceeding is None else f"{value}, which 84 % of the runs keep to,"
+    return value
 
 
 def _spread(response: ResponseData, units: str) -> str:
@@ -364,23 +382,24 @@ def _elastic_slip(response: ResponseData, units: str) -> str:
     scatter = _scatter(response, units)
     if response.lets_go():
         text = f"{dam} slides {_worth(response, units)} {_way(slip)}{_spread(response, units)}"
-        return text + _on_the_way(slip, down, up, JOINT_METER_M, units) + scatter + "."
+        return f"{text}{_on_the_way(slip, down, up, JOINT_METER_M, units)}.{scatter}"
     return (
-        f"{dam} creeps {_worth(response, units)} {_way(slip)}{_spread(response, units)}{scatter}: parts of the crack "
-        "slip in turn, while the rest holds."
+        f"{dam} creeps {_worth(response, units)} {_way(slip)}{_spread(response, units)}: parts of the crack slip in "
+        f"turn, while the rest holds.{scatter}"
     )
 
 
 def _scatter(response: ResponseData, units: str) -> str:
-    """Return how far single runs slide, where they scatter."""
+    """Say how far single runs slide, where they scatter."""
     evidence = getattr(response, "evidence", None)
     distribution = None if evidence is None else evidence.residual_slip_m.distribution
     if distribution is None or distribution.fractile_16 is None:
         return ""
-    low = length(abs(distribution.fractile_16), units)
-    far = distribution.fractile_84
-    high = "no result" if far is None else length(abs(far), units)
-    return f", 16 and 84 % of the runs keep to {low} and {high}, as 1 % of the shaking decides"
+    low, far = length(abs(distribution.fractile_16), units), distribution.fractile_84
+    keep = f"16 % of them keep to {low}, and more than 16 % end without a result"
+    if far is not None:
+        keep = f"16 and 84 % of them keep to {low} and {length(abs(far), units)}, respectively"
+    return f" Single runs scatter: with the shaking varied by 1 %, {keep}."
 
 
 def _worth(response: ResponseData, units: str) -> str:
@@ -509,7 +528,9 @@ def _other_cracks(response: ResponseData, units: str, brief: bool) -> str:
         peak = _slides(crack)
         does = ["does not slide"]
         if abs(slip) >= smallest:
-            does = [f"slides {length(abs(slip), units)} {_way(slip)}"]
+            evidence = getattr(crack, "evidence", None)
+            mean = " in the mean" if evidence is not None and evidence.scatters else ""
+            does = [f"slides {length(abs(slip), units)}{mean} {_way(slip)}"]
         elif peak >= smallest:
             does = [f"shifts by up to {length(peak, units)} and comes back"]
         if opening >= smallest and not brief:
