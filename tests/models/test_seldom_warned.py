@@ -59,13 +59,23 @@ def test_impacts_of_a_rigid_block():
     [
         ((0.003, 0.003, 0.003), False, 0, set()),
         ((0.003, 0.003, 0.005), False, 0, {"not-converged crack"}),
-        ((0.001, 0.001, 0.005), True, 0, {"runs-scatter"}),
+        ((0.001, 0.001, 0.005), True, 0, {"runs-scatter crack"}),
         ((0.0, 0.0, 0.0), False, 1, {"not-converged crack", "evidence-failures"}),
     ],
 )
-def test_what_moves_the_slip_of_an_elastic_dam(moved, mean, failed, said):
+def test_what_moves_the_slip_of_an_elastic_dam(typical_both, moved, mean, failed, said):
     evidence = evidence_of(moved, scatters=mean, failed=failed)
-    assert codes(flexible._about_the_evidence(evidence)) == said
+    assert codes(flexible._about_the_evidences([evidence], typical_both.crack.dam, 0)) == said
+
+
+@pytest.mark.parametrize("leads", [0, 1])
+def test_the_crack_whose_runs_scatter_is_named(typical_both, leads):
+    """The dam of one crack lends its level to both."""
+    dam = SimpleNamespace(sections=typical_both.crack.dam.sections * 2)
+    evidences = [evidence_of((0.001, 0.001, 0.001)), evidence_of((0.001, 0.001, 0.005), scatters=True)]
+    (notice,) = flexible._about_the_evidences(evidences, dam, leads)
+    assert notice.name == "runs-scatter one-crack"
+    assert str(notice).startswith("single runs scatter at the crack at 0 m: 2 of them")
 
 
 @pytest.mark.parametrize(("error", "warned"), [(0.029, False), (0.031, True)])

@@ -75,6 +75,12 @@ class Numbered(ABC):
         """The numbers of the crack, by their JSON names (SI); None where the run never started."""
 
     @property
+    def scatters(self) -> bool:
+        """Whether single runs of the crack scatter, so that its headline numbers are means."""
+        evidence = getattr(self.numbers, "evidence", None)
+        return evidence is not None and bool(evidence.scatters)
+
+    @property
     def of_dam(self) -> Block | None:
         """Numbers of the dam as a whole; None for a block."""
         return None

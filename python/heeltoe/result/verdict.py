@@ -528,8 +528,7 @@ def _other_cracks(response: ResponseData, units: str, brief: bool) -> str:
         peak = _slides(crack)
         does = ["does not slide"]
         if abs(slip) >= smallest:
-            evidence = getattr(crack, "evidence", None)
-            mean = " in the mean" if evidence is not None and evidence.scatters else ""
+            mean = " in the mean" if crack.scatters else ""
             does = [f"slides {length(abs(slip), units)}{mean} {_way(slip)}"]
         elif peak >= smallest:
             does = [f"shifts by up to {length(peak, units)} and comes back"]

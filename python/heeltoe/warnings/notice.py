@@ -75,7 +75,8 @@ CATALOGUE: dict[str, Row] = {
     "cross-valley-far": (
         "caution",
         "crack.side_gap",
-        "the dam slides {slip_m:.3g mm} across the valley, farther than the joints of a dam allow: give crack.side_gap",
+        "the dam slides up to {slip_m:.3g mm} across the valley, farther than the joints of a dam allow: give "
+        "crack.side_gap",
     ),
     "slid-far": (
         "caution",
@@ -222,8 +223,18 @@ CATALOGUE: dict[str, Row] = {
     "runs-scatter": (
         "caution",
         "flexible.evidence",
-        "single runs scatter: {runs} of them, the shaking varied by 1 %, slide {slip_m:.4g mm} in the mean with a "
-        "standard deviation of {scatter_m:.3g mm}; the numbers are means, histories and most figures those of one run",
+        {
+            "crack": (
+                "single runs scatter: {runs} of them, the shaking varied by 1 %, slide {slip_m:.4g mm} in the mean "
+                "with a standard deviation of {scatter_m:.3g mm}; slips, openings and rotations are means, histories "
+                "and most figures those of one run"
+            ),
+            "one-crack": (
+                "single runs scatter at the crack at {elevation_m:.4g m}: {runs} of them, the shaking varied by 1 %, "
+                "slide {slip_m:.4g mm} there in the mean with a standard deviation of {scatter_m:.3g mm}; slips, "
+                "openings and rotations of this crack are means, histories and most figures those of one run"
+            ),
+        },
     ),
     "not-converged": (
         "grave",
@@ -234,8 +245,8 @@ CATALOGUE: dict[str, Row] = {
                 "{allowed_m:.3g mm} are allowed; {most} moves it most, and {stopped}"
             ),
             "further-crack": (
-                "the slip of the crack at {elevation_m:.4g m} has not converged, or its runs scatter: {slip_m:.4g "
-                "mm} ± {uncertainty_m:.3g mm}"
+                "the slip of the crack at {elevation_m:.4g m} has not converged: {slip_m:.4g mm} ± {uncertainty_m:.3g "
+                "mm}"
             ),
         },
     ),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 from heeltoe.case.crack.kinks import climbs
 from heeltoe.case.dam import Rock
@@ -188,20 +189,23 @@ def _about_the_evidences(evidences: Sequence[EvidenceNumbers], dam: FlexibleDam,
     if not evidences:
         yield Notice("evidence-none")
         return
-    yield from _about_the_evidence(evidences[leads])
-    for place, evidence in enumerate(evidences):
+    for place in sorted(range(len(evidences)), key=lambda place: place != leads):
+        section, evidence = dam.sections[place], evidences[place]
+        elevation = section.heel[1] - section.base_elevation
+        slip = evidence.residual_slip_m
+        # Of several cracks the one that leads has its reasons, too.
         if place == leads:
-            continue
-        section = dam.sections[place]
-        for _ in _about_the_evidence(evidence):
+            yield from _about_the_evidence(evidence)
+        elif not evidence.converged and not evidence.no_limit:
             yield Notice(
                 "not-converged",
                 "further-crack",
-                elevation_m=section.heel[1] - section.base_elevation,
-                slip_m=evidence.residual_slip_m.value,
-                uncertainty_m=evidence.residual_slip_m.uncertainty,
+                elevation_m=elevation,
+                slip_m=slip.value,
+                uncertainty_m=slip.uncertainty,
             )
-            break
+        if evidence.scatters:
+            yield _scatter(evidence, elevation if len(evidences) > 1 else None)
 
 
 def _about_the_evidence(evidence: EvidenceNumbers) -> Iterator[Notice]:
@@ -220,8 +224,20 @@ def _about_the_evidence(evidence: EvidenceNumbers) -> Iterator[Notice]:
             most=MOVED_BY[evidence.moved_most_by],
             stopped=spent if evidence.budget_spent else "refining would not help, or is not its own",
         )
-    if evidence.scatters:
-        yield Notice("runs-scatter", slip_m=slip.value, scatter_m=slip.spread or 0.0, runs=runs)
+
+
+def _scatter(evidence: EvidenceNumbers, elevation: float | None) -> Notice:
+    """Return that the runs scatter; `elevation` is that of one of several cracks [m]."""
+    slip = evidence.residual_slip_m
+    level: dict[str, Any] = {} if elevation is None else {"elevation_m": elevation}
+    return Notice(
+        "runs-scatter",
+        "one-crack" if level else "crack",
+        **level,
+        slip_m=slip.value,
+        scatter_m=slip.spread or 0.0,
+        runs=len(evidence.residual_slips_m),
+    )
 
 
 def _about_the_growth(growth: SelfExcitation | None, raw: DamSummary) -> Iterator[Notice]:

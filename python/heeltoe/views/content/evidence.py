@@ -6,6 +6,7 @@ from heeltoe.models.rigid.varying import varies
 from heeltoe.result.contract import HEADLINES, RESIDUAL_SLIP
 from heeltoe.result.numbers import BeforeShaking, ElasticDam, Energy, EvidenceNumbers, HeadlineWorth, SelfExcitation
 from heeltoe.result.outcome import Outcome
+from heeltoe.units.sentences import listed, written
 from heeltoe.units.write import NOTHING
 from heeltoe.views.content.subject import Run, Subject, labels_of
 from heeltoe.views.content.tree import Block, Code, Inline, Section, Table, paragraph
@@ -21,9 +22,9 @@ _MOVERS = {
     "step": "the step moves it, mesh and shaking were not tried,",
 }
 _MEAN = (
-    " Single runs scatter: the numbers to trust are means over {runs:d} runs with the shaking varied, each with its "
-    "standard error, and limits are judged by the size that 84 % of the runs keep to. Histories and figures are those "
-    "of one run."
+    " Single runs scatter{where}: the numbers to trust{there} are means over {runs:d} runs with the shaking "
+    "varied, each with its standard error, and limits are judged by the size that 84 % of the runs keep to. Histories "
+    "and figures are those of one run."
 )
 
 _WALK = {
@@ -88,6 +89,19 @@ def _spread(subject: Subject, run: Run) -> list[Block]:
     return [Table(("", "this run", "mean", "std. deviation", "least", "most"), tuple(rows), caption, "lrrrrr")]
 
 
+def _means(subject: Subject, run: Run) -> str:
+    """Say at which cracks single runs scatter, and what is made of that; nothing where they scatter at none."""
+    cracks = [crack for crack in run.response.cracks if crack.scatters]
+    if not cracks:
+        return ""
+    levels = [written("the crack at {at_m:g m}", subject.units, at_m=crack.elevation) for crack in cracks]
+    return _MEAN.format(
+        where=f" at {listed(levels)}" if run.response.several else "",
+        there=" there" if run.response.several else "",
+        runs=len(run.response.summary["evidence"]["scales"]),
+    )
+
+
 def _says_nothing_of_shaking(run: Run) -> bool:
     evidence = run.response.summary.get("evidence")
     return run.response.ok and run.response.spread is None and not (evidence and evidence["value_is"] == "mean")
@@ -103,8 +117,7 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
     else:
         stands = _NO_LIMIT if result["no_limit"] else _STANDS[result["converged"]]
         movers = _MOVERS["step" if result["asked"] == "step" else "full"]
-        mean = _MEAN.format(runs=len(result["scales"])) if result["value_is"] == "mean" else ""
-        said = paragraph(stands.format(movers) + mean)
+        said = paragraph(stands.format(movers) + _means(subject, run))
     # Worth of the number that is judged first.
     labels = (
         *labels_of(ElasticDam),

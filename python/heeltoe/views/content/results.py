@@ -16,7 +16,7 @@ from heeltoe.result.numbers import (
 )
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import effect_sentence
-from heeltoe.units.sentences import written
+from heeltoe.units.sentences import listed, written
 from heeltoe.units.write import NOTHING
 from heeltoe.views.content.drawings import in_rows
 from heeltoe.views.content.subject import Subject, labels_of
@@ -156,6 +156,9 @@ def _cracks(subject: Subject) -> list[Block]:
     ]
     rows = [row for row in rows if any(cell != NOTHING for cell in row[1:])]
     caption = "Each crack by itself, from the crest down; unless stated, values are those of the crack that slips most."
+    means = [name for name, crack in zip(head[1:], cracks, strict=True) if crack.scatters]
+    if means:
+        caption += f" Slips, openings and rotations of the {listed(means)} are means over runs that scatter."
     return [Table(head, tuple(rows), caption, "l" + "r" * len(cracks))]
 
 

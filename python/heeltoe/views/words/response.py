@@ -26,7 +26,8 @@ def crack_rows(response: Response, units: str) -> list[list[str]]:
     cells: list[list[Cell]] = []
     for place, crack in enumerate(response.cracks):
         at = written("{at_m:g m}", units, at_m=crack.elevation)
-        mark = " (leads)" if place == response.asked else ""
+        marks = [*(["leads"] if place == response.asked else []), *(["means"] if crack.scatters else [])]
+        mark = f" ({', '.join(marks)})" if marks else ""
         cells.append([f"{at}{mark}", *(Amount(item.way * item.of(crack), item.kind) for item in LENGTHS)])
     rows = in_one_unit(cells, units)
     return [[*row, str(crack.impacts)] for crack, row in zip(response.cracks, rows, strict=True)]
