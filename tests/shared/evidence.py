@@ -37,6 +37,13 @@ def scattered(response, runs):
     return with_numbers(response, evidence=evidence, residual_slip_m=mean)
 
 
+def scattered_below(response, runs):
+    """Return an elastic response of two cracks alike, of which the second, that does not lead, scatters so."""
+    known = with_numbers(response, evidence=evidence_of((0.001, 0.002, 0.003)))
+    both = replace(known, cracks=known.cracks * 2, asked=1, beside=None)
+    return replace(scattered(both, runs), asked=0)
+
+
 def evidence_of(moved, *, scatters=False, failed=0):
     """Return the evidence of a slip of 0.1 m that step, mesh and shaking move so far [m]."""
     slip = worth_of(0.1, 0.1, *moved)

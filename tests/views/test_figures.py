@@ -33,7 +33,7 @@ from heeltoe.views.files.write import write_all
 from models.rigid.test_cross_valley import slab
 from shared.dams import ALL_EXAMPLES, BASE, BLOCK, FAST, example
 from shared.drawn import check, texts
-from shared.evidence import scattered
+from shared.evidence import scattered, scattered_below
 from shared.responses import with_numbers
 
 ROCKING = ["reservoir.depth=60m", "motion.pga=1.2g", "motion.duration=8s"]
@@ -438,6 +438,8 @@ def test_a_slip_that_scatters_has_a_histogram(both):
     limit = LimitCheck(name="residual_slip", value=0.3, allowed=0.25, failed=False, exceeding=0.6)
     response = replace(response, limits=(limit,))
     assert "scatter" not in all_figures(None, both)
+    further = [name for name in all_figures(None, scattered_below(both, [0.1, 0.3])) if "scatter" in name]
+    assert further == ["crack-2/scatter"]
     axes = all_figures(None, response)["scatter"].axes[0]
     assert [bar.get_height() for bar in axes.patches if bar.get_height()] == [40.0, 60.0]
     lines = {line.get_label(): line.get_xdata()[0] for line in axes.lines}

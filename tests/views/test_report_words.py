@@ -6,6 +6,7 @@ import pytest
 
 from heeltoe.case.combinations import unsupported_features
 from heeltoe.case.project import Project
+from heeltoe.result.verdict import verdict
 from heeltoe.units.write import digits
 from heeltoe.views.content.one_unit import with_one_unit
 from heeltoe.views.content.tree import Document, Table, glued
@@ -14,8 +15,9 @@ from heeltoe.views.report.typst_pdf import source
 from heeltoe.views.report.write import build_report
 from heeltoe.views.words.fields import shown
 from heeltoe.views.words.numbers import Numbers, kind
+from heeltoe.views.words.response import crack_rows
 from shared.dams import example
-from shared.evidence import scattered
+from shared.evidence import scattered, scattered_below
 
 
 def test_numbers_stay_with_their_units():
@@ -128,3 +130,12 @@ def test_a_report_says_that_the_answer_is_a_distribution(typical_both):
     assert "means over 100 runs with the shaking varied, each with its standard error" in text
     # The block beside it was not varied.
     assert "How much the result of the rigid block depends" in text
+
+
+def test_a_report_names_the_crack_whose_numbers_are_means(typical_both):
+    case, response = example("two-cracks"), scattered_below(typical_both, [0.1] * 40 + [0.3] * 60)
+    text = html(build_report(case, response, figures={}))
+    assert "Single runs scatter at the crack at 0 m: the numbers to trust there are means" in text
+    assert "Slips, openings and rotations of the crack at 0 m are means over runs that scatter." in text
+    assert [row[0] for row in crack_rows(response, "si")] == ["0 m (leads)", "0 m (means)"]
+    assert verdict(response).count("in the mean") == 1

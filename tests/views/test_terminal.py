@@ -19,6 +19,7 @@ from heeltoe.views.terminal.show import show
 from heeltoe.views.terminal.statics import print_sections
 from shared.command import command
 from shared.dams import BASE, FAST, KOYNA_TOP, example
+from shared.responses import with_numbers
 from shared.statics import dam
 
 SI = re.compile(r"\d ?(mm|m|m/s|m/s²|kN/m|MN/m|kPa|MPa|GPa|J|J/m|kJ/m|MJ/m|kg/m\^3)(?![\w/²^])|per metre")
@@ -96,6 +97,17 @@ def test_a_row_of_the_static_checks_has_one_unit(results):
     assert row(us, "Stress at the toe, compression +") == pytest.approx(
         [stress * 1e6 / psi for stress in stresses], rel=2e-3
     )
+
+
+@pytest.mark.parametrize(("residual", "units"), [(0.3, "si"), (1.5, "si"), (0.3, "us")])
+def test_a_column_is_no_wider_than_what_can_be_measured(results, residual, units):
+    """A tenth of a micrometre beside what is shown in mm, in m and in inches."""
+    moved = with_numbers(results["flexible"], residual_slip_m=residual, peak_slip_upstream_m=-1e-7)
+    file = io.StringIO()
+    show(moved, Console(file=file, width=80, highlight=False), units)
+    (row,) = [line for line in file.getvalue().splitlines() if line.startswith("flexible dam")]
+    number, unit, down, _, up = row.removeprefix("flexible dam").split()[:5]
+    assert (float(number) > 0.0, unit in {"mm", "m", "in"}, float(down) > 0.0, up) == (True, True, True, "-")
 
 
 def test_people_s_own_words_stay(results):

@@ -108,7 +108,7 @@ _HALVES = ("bearing", "anchors")
 # Shares of a row are one together, but for rounding.
 _ROW = 1.01
 # Of each of further cracks.
-_OF_FURTHER = ("law", "response", "joint", "crack")
+_OF_FURTHER = ("law", "response", "scatter", "joint", "crack")
 # What belongs to the words around it does not wait for another page.
 _HELD = ("summary",)
 # Of two models only so many figures, those of the one beside after its name: those of one alone are in its own report.

@@ -16,7 +16,18 @@ from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
 from heeltoe.warnings.input import Severity
 
 #: Figures that each of several cracks has.
-OF_CRACKS = ("response", "slip-by-mode", "friction", "forces", "bearing", "path", "joint", "crack", "pressure")
+OF_CRACKS = (
+    "response",
+    "slip-by-mode",
+    "friction",
+    "forces",
+    "bearing",
+    "path",
+    "scatter",
+    "joint",
+    "crack",
+    "pressure",
+)
 # Of a table of several cracks.
 CRACK_COLUMNS = ("crack at", *(item.heading for item in LENGTHS), "strikes")
 
