@@ -193,7 +193,7 @@ def _about_the_evidences(evidences: Sequence[EvidenceNumbers], dam: FlexibleDam,
         section, evidence = dam.sections[place], evidences[place]
         elevation = section.heel[1] - section.base_elevation
         slip = evidence.residual_slip_m
-        # Of several cracks the one that leads has its reasons, too.
+        # The crack that leads has its reasons, too.
         if place == leads:
             yield from _about_the_evidence(evidence)
         elif not evidence.converged and not evidence.no_limit:

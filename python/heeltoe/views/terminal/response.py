@@ -129,7 +129,7 @@ def _table(response: Response, units: str) -> Table:
     if bonded:
         table.add_column("cracked", justify="right")
     for row in in_one_unit(cells, units):
-        # What is too small to measure is nothing in a narrow column.
+        # Too small to measure is nothing in a narrow column.
         table.add_row(*("-" if text.startswith("under ") else text for text in row))
     return table
 
