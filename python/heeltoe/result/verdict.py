@@ -144,12 +144,7 @@ def _limits_met(response: ResponseData, units: str) -> str:
     if all(check.failed for check in response.limits):
         failed = response.outcome.sentence if response.outcome.failed else "the part above slides off its crack"
         return f"No limit is met: {failed}."
-    broken = [
-        f"{limited(check, units)} of {_judged(check, units)} is more than the "
-        f"{measured(check.allowed, check.unit, units)} allowed"
-        for check in response.limits
-        if not check.met
-    ]
+    broken = [_broken(check, units) for check in response.limits if not check.met]
     if broken:
         doubt = "" if any(check.certain for check in response.limits if not check.met) else ", though not for certain"
         subject = "A limit is" if len(broken) == 1 else f"{len(broken)} limits are"
@@ -168,6 +163,14 @@ def _limits_met(response: ResponseData, units: str) -> str:
     if response.model == "decoupled":
         return "As a rigid block it meets all limits; as a dam whose top vibrates, too, it may not."
     return f"All limits are met.{_chance(response)}"
+
+
+def _broken(check: LimitCheck, units: str) -> str:
+    """Say by which size a limit is not met; runs without a result have none."""
+    allowed = measured(check.allowed, check.unit, units)
+    if check.value is not None and check.value <= check.allowed:
+        return f"{limited(check, units)} is above the {allowed} allowed, or has no result, in too many runs"
+    return f"{limited(check, units)} of {_judged(check, units)} is more than the {allowed} allowed"
 
 
 def _chance(response: ResponseData) -> str:

@@ -49,7 +49,7 @@ def test_siconos_agrees(name, monkeypatch):
     time, ground = pulse(size, rest=1.5)
     expected = stack.exact(time, ground)
     try:
-        seen = peer_siconos.two_blocks(stack.problem(time, ground), 1e-4)
+        seen = peer_siconos.rigid_blocks(stack.problem(time, ground), 1e-4)
     except Skipped as why:
         pytest.skip(str(why))
     moments = np.arange(len(seen)) * 1e-4
