@@ -21,7 +21,12 @@ from shared.random_features import random_case
 
 #: No run may compute longer [s]; the cases allow 20 s (``analysis.time_limit``).
 HANGS = 30.0
-USERS = {"rigid": ("rigid",), "decoupled": ("decoupled",), "flexible": ("flexible",), "both": ("flexible", "beside")}
+USERS = {
+    "rigid": ("rigid",),
+    "decoupled": ("decoupled",),
+    "flexible": ("flexible",),
+    "both": ("flexible", "beside", "rigid"),
+}
 USERS["statics"] = ("flexible",)
 
 

@@ -22,6 +22,7 @@ PLANE, ROCK = (), ("rock.modulus=20 GPa",)
         # What asks for shorter steps.
         ("two-cracks", PLANE, LONG, 2e-4),
         ("stepped-crack", PLANE, LONG, 2e-4),
+        ("typical-base", ('crack.side_gap="3 mm"',), LONG, 2e-4),
         ("typical-base", ('uplift.during_shaking="full while open"',), LONG, 2e-4),
         # Rock through which waves leave.
         ("typical-base", ROCK, LONG, 0.005 / 3),

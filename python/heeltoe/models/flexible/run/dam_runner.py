@@ -55,7 +55,8 @@ _FITS = 1e-9
 
 def usual_step(case: Case, period: float) -> float:
     """Return a step [s] that follows a part above the crack of a case, of this longest period [s]."""
-    alone = _is_plain(case) and not case.further_cracks and not case.crack.kinks
+    # A neighbour is passed by the way of a step.
+    alone = _is_plain(case) and not (case.further_cracks or case.crack.kinks or case.crack.side_gap)
     at_base = case.crack.elevation <= 0.0
     if wave_bodies(case):
         smooth = _is_smooth(case)
