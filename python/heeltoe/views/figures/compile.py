@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
+from shutil import copyfile
+from tempfile import TemporaryDirectory
 from typing import Any, Literal
 
 from heeltoe.errors.error import InputError
@@ -66,15 +68,18 @@ def compiled(source: bytes, root: Path, kind: Literal["pdf", "png"], ppi: float 
     return [made] if isinstance(made, bytes) else list(made)
 
 
-def pictures(drawings: Sequence[Path], root: Path, ppi: float) -> list[bytes]:
-    """Return the pictures of SVG files below a directory as PNG, in their order."""
-    pages = [f"#page(image({_quoted(drawing.relative_to(root).as_posix())}))\n" for drawing in drawings]
-    sources = ("".join([_PAGE, *pages[start : start + _TOGETHER]]) for start in range(0, len(pages), _TOGETHER))
-    return [picture for source in sources for picture in compiled(source.encode(), root, "png", ppi)]
-
-
-def _quoted(text: str) -> str:
-    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+def pictures(drawings: Sequence[Path], ppi: float) -> list[bytes]:
+    """Return the pictures of SVG files as PNG, in their order."""
+    made: list[bytes] = []
+    for start in range(0, len(drawings), _TOGETHER):
+        some = drawings[start : start + _TOGETHER]
+        # Files of a user may have names that typst does not take.
+        with TemporaryDirectory() as folder:
+            for number, drawing in enumerate(some):
+                copyfile(drawing, Path(folder) / f"{number}.svg")
+            pages = [f'#page(image("{number}.svg"))\n' for number in range(len(some))]
+            made += compiled("".join([_PAGE, *pages]).encode(), Path(folder), "png", ppi)
+    return made
 
 
 def _missing_room() -> str | None:

@@ -30,7 +30,7 @@ def save_all(figures: Mapping[str, Figure], directory: Path) -> list[Path]:
         drawings.append(drawing)
         written += [picture, drawing]
     if drawings and not twice:
-        for drawing, content in zip(drawings, pictures(drawings, directory, DPI), strict=True):
+        for drawing, content in zip(drawings, pictures(drawings, DPI), strict=True):
             drawing.with_suffix(".png").write_bytes(content)
     return written
 
