@@ -121,7 +121,7 @@ def _worths(name: str, crack: CrackResponse) -> list[HeadlineWorth]:
 
 
 def _scatter(name: str, crack: CrackResponse) -> list[float | None]:
-    """Return the size of what a limit limits in each run with the shaking varied, None of one without a result; nothing
+    """Return the size that a limit bounds in each run with the shaking varied, None of a run without a result; nothing
     where single runs do not scatter."""
     numbers = [worth.distribution.numbers for worth in _worths(name, crack) if worth.distribution is not None]
     return [

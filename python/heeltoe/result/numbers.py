@@ -586,7 +586,7 @@ class RotationWorth(Block):
         float | None,
         Number(
             "By how much the shaking, varied by up to 1 %, moves the number to trust: the standard deviation of a run, "
-            "the standard error of a mean; null where there are no such runs."
+            "the standard error of a mean; null without such runs."
         ),
     ]
     surroundings: Annotated[

@@ -166,7 +166,7 @@ def _limits_met(response: ResponseData, units: str) -> str:
 
 
 def _broken(check: LimitCheck, units: str) -> str:
-    """Say by which size a limit is not met; runs without a result have none."""
+    """Say by which size a limit is not met, or that too many runs exceed it."""
     allowed = measured(check.allowed, check.unit, units)
     if check.value is not None and check.value <= check.allowed:
         return f"{limited(check, units)} is above the {allowed} allowed, or has no result, in too many runs"

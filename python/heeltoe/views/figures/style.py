@@ -200,8 +200,8 @@ _AROUND = (50.0, 12.0, 4.0, 12.0)
 @contextmanager
 def _roughly_first(figure: Figure) -> Iterator[None]:
     """Let the first of the two rounds of a layout, which makes axes about as large as they will be, take an estimate of
-    what stands around them; the second one measures it. Maps and what stands beside them are measured twice: their
-    size depends on it."""
+    the labels around them; the second round measures these. Maps and their bars are measured twice: their size depends
+    on it."""
     panels = list(figure.axes)
     if any(axes.get_aspect() != "auto" or hasattr(axes, "_colorbar") for axes in panels):
         yield

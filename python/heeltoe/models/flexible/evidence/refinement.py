@@ -313,7 +313,7 @@ class _Stand:
 
     @property
     def _pairs(self) -> dict[str, Level]:
-        """Levels that a mean is compared with, by what moves it: half the step, the finer of the two meshes, and rock
+        """Levels that a mean is compared with, by their difference: half the step, the finer of the two meshes, and rock
         and water that reach farther."""
         rough = self._rough
         pairs = {"step": replace(rough, halvings=rough.halvings + 1)}
