@@ -313,8 +313,8 @@ class _Stand:
 
     @property
     def _pairs(self) -> dict[str, Level]:
-        """Levels that a mean is compared with, by their difference: half the step, the finer of the two meshes, and rock
-        and water that reach farther."""
+        """Levels that a mean is compared with, by their difference: half the step, the finer of the two meshes, and
+        rock and water that reach farther."""
         rough = self._rough
         pairs = {"step": replace(rough, halvings=rough.halvings + 1)}
         if self.mesh is not None:
