@@ -26,16 +26,11 @@ from heeltoe.motion.moments import cross_means, step_ends, step_means
 from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.result.rest import LAST_S
 
-#: Spacing of the frames of a run [s], where no other is wanted: enough for an animation, few enough for memory. Longer
-#: steps make half of it, so that histories keep round moments.
+#: Spacing of the frames of a run [s], where no other is wanted: enough for an animation, few enough for memory.
 FRAME_STEP = 0.01
-_PART = FRAME_STEP / 2.0
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
-#: The longest steps [s] of one plain crack (docs/flexible.md): at the base on a rigid plane, where a dam slides; above
-#: it, where it strikes, at this part of that vibration; and at the base on rock through which waves leave.
-_LONGEST_AT_BASE, _LONGEST_ABOVE_BASE, _STEPS_ABOVE_BASE, _LONGEST_ON_ROCK = _PART / 6, _PART / 12, 50.0, _PART / 3
 #: Where waves surround the dam the step goes with the dam, and is this part of that vibration, at most the longest step
 #: times the first of them over it: a small dam swings as fast as its waves, and similar dams have similar answers.
 #: Where waves leave through damped rock, the second is enough; bonds, laws, penalties, and all where a vibration feeds
@@ -55,24 +50,12 @@ _FITS = 1e-9
 
 def usual_step(case: Case, period: float) -> float:
     """Return a step [s] that follows a part above the crack of a case, of this longest period [s]."""
-    # A neighbour is passed by the way of a step.
-    alone = _is_plain(case) and not (case.further_cracks or case.crack.kinks or case.crack.side_gap)
-    at_base = case.crack.elevation <= 0.0
     if wave_bodies(case):
-        smooth = _is_smooth(case)
-        steps = _STEPS_AMONG_WAVES[smooth]
-        alone = smooth and alone and at_base
-        longest = _LONGEST_ON_ROCK if alone else _LONGEST_STEP * _STEPS_AMONG_WAVES[0] / steps
-        shortest = _SHORTEST_OF_ALL
-    else:
-        steps, longest = _STEPS_PER_PERIOD, _LONGEST_STEP
-        if alone and at_base:
-            longest = _LONGEST_AT_BASE
-        elif alone:
-            steps, longest = _STEPS_ABOVE_BASE, _LONGEST_ABOVE_BASE
-        shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
-    step = float(np.clip(period / steps, shortest, longest))
-    return _PART / math.ceil(_PART / step - _FITS) if alone else step
+        steps = _STEPS_AMONG_WAVES[_is_smooth(case)]
+        longest = _LONGEST_STEP * _STEPS_AMONG_WAVES[0] / steps
+        return float(np.clip(period / steps, _SHORTEST_OF_ALL, longest))
+    shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
+    return float(np.clip(period / _STEPS_PER_PERIOD, shortest, _LONGEST_STEP))
 
 
 def _is_smooth(case: Case) -> bool:
