@@ -15,7 +15,7 @@ from processes import Version, least, mine
 
 from heeltoe.kernel.build import PROFILE
 
-#: What is done, and the words of the command; paths are from the root of the checkout.
+#: Work and the words of its command; paths are from the root of the checkout.
 COMMANDS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("help", ("--help",)),
     ("version", ("--version",)),

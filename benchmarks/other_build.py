@@ -80,7 +80,7 @@ COLUMNS = ("work", "turns", "elapsed", "processor", "ratio", "asked", "memory", 
 
 @dataclass(frozen=True)
 class Measured:
-    """What was taken for a piece of work: times [s], memory [MB]; its slip and the uncertainty stated of it [m]."""
+    """Costs of a piece of work: times [s], memory [MB]; its slip and the uncertainty stated of it [m]."""
 
     elapsed: float
     processor: float

@@ -22,7 +22,7 @@ from heeltoe import build_flexible_dam, read_case, rigid_many
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake
 
-#: Of the histories of a run [s].
+#: Spacing of the histories of a run [s].
 FRAME_STEP = 0.01
 
 
@@ -69,5 +69,5 @@ def timed(work: Callable[[], list[float]]) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    told = json.loads(sys.argv[1])
-    print(json.dumps({"eight": eight, "blocks": blocks}[told["do"]](told)))
+    order = json.loads(sys.argv[1])
+    print(json.dumps({"eight": eight, "blocks": blocks}[order["do"]](order)))

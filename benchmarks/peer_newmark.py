@@ -22,7 +22,7 @@ from push_and_sine import AMPLITUDE, DURATION, FREQUENCY, FRICTION, GRAVITY, MOM
 
 SOURCE = Path(__file__).with_name("newmark.c")
 OPTIONS = ("-O3", "-march=native", "-shared", "-fPIC")
-#: Of the block that slides both ways [s].
+#: Steps of the block that slides both ways [s].
 STEPS = (1e-2, 1e-3, 1e-4, 1e-5)
 _ARRAY = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
 #: Drive at samples a step apart [m/s2], the step [s], resistances to slip downstream and upstream [m/s2]; the slip at

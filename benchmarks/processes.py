@@ -33,7 +33,7 @@ _TURNS = ((1.0, 5), (4.0, 3), (8.0, 2))
 
 @dataclass(frozen=True)
 class Taken:
-    """What a process took.
+    """Costs of a process.
 
     Attributes
     ----------

@@ -161,7 +161,7 @@ def test_every_key_that_is_explained_is_there(results):
     seldom = {"misfit.rms", "misfit.largest", "varied", "spread.time_step_s", "safe_gap[].frequency_hz"}
     seldom |= {"safe_gap[].from_g", "safe_gap[].to_g", "warnings[].quantities.*", "summary[].cracks"}
     names = {item.name for item in everything() if _is_key(item) and not item.name.endswith("[]")}
-    # What only a dam has whose single runs scatter.
+    # Only a dam whose single runs scatter has these.
     seldom |= {name for name in names if ".distribution" in name or name.endswith("].exceeding")}
     sobol = {name for name in names if name.startswith("sensitivity.*.")}
     assert sorted(names - met - seldom - bonded - sobol) == []

@@ -63,7 +63,7 @@ def check_limits(limits: Limits, response: ResponseData, judgement: Judgement | 
     judgement = judgement or judge_response(limits, response)
     if not (judgement.has_result[0] or judgement.failed[0]):
         return ()
-    # Of the crest one run is known: where runs scatter, nothing bounds its error.
+    # One run says where the crest goes: where runs scatter, nothing bounds its error.
     one_run = float(any(_of_many(crack) for crack in response.cracks))
     checks = []
     for name in judgement.not_met:

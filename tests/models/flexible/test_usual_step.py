@@ -19,7 +19,7 @@ PLANE, ROCK = (), ("rock.modulus=20 GPa",)
         ("typical-base", PLANE, SHORT, SHORT / 100),
         ("typical-height", PLANE, LONG, 2e-4),
         ("typical-height", PLANE, SHORT, SHORT / 100),
-        # What asks for shorter steps.
+        # Shorter steps.
         ("two-cracks", PLANE, LONG, 2e-4),
         ("stepped-crack", PLANE, LONG, 2e-4),
         ("typical-base", ('crack.side_gap="3 mm"',), LONG, 2e-4),

@@ -122,7 +122,7 @@ impl<'a> Across<'a> {
         }
     }
 
-    /// What its contacts do. Where a neighbour pushes, it bears all that acts across the valley.
+    /// Motion of its contacts. Where a neighbour pushes, it bears all that acts across the valley.
     pub(super) fn sideways(&self) -> Sideways<'_> {
         Sideways {
             p: &self.friction,

@@ -142,7 +142,7 @@ pub(super) fn accelerations(reaction: &Reaction, felt: &Felt, starts: [f64; 3], 
 }
 
 /// Acceleration and its slope of a contact coordinate on a piece. `way` is 1 or -1 where it starts to move that way in this
-/// very moment, else 0. What starts has its rounding removed, and that against its way up to the hair by which [`select`]
+/// very moment, else 0. A start has its rounding removed, and that against its way up to the hair by which [`select`]
 /// may have let it: it must not end the moment it begins.
 #[inline(always)]
 pub(super) fn begun(mut value: f64, mut slope: f64, size: f64, way: f64, left: f64) -> [f64; 2] {

@@ -33,7 +33,7 @@ def compiled(source: bytes, root: Path, kind: Literal["pdf", "png"], ppi: float 
     root
         Directory of the files that it names.
     kind
-        What it becomes.
+        Format of the result.
     ppi
         Pixels of a PNG for each inch.
 
@@ -61,7 +61,7 @@ def compiled(source: bytes, root: Path, kind: Literal["pdf", "png"], ppi: float 
             font_paths=[str(Path(get_data_path()) / "fonts" / "ttf")],
         )
     except BaseException as error:
-        # What its Rust gives up with, as where it gets no threads, is no Exception, and has no class to name.
+        # An error of its Rust, as where it gets no threads, is no Exception, and has no class to name.
         if type(error).__name__ != "PanicException":
             raise
         raise InputError("report-package-broken", "report", "typst", reason=error) from None

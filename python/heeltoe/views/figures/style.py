@@ -193,7 +193,7 @@ def laid_out(figure: Figure) -> Iterator[None]:
         figure.set_layout_engine(engine)
 
 
-# What stands around the axes of a panel over time, from the left counter-clockwise [pt].
+# Labels around the axes of a panel over time, from the left counter-clockwise [pt].
 _AROUND = (50.0, 12.0, 4.0, 12.0)
 
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from heeltoe.views.figures.compile import can_compile, pictures
 from heeltoe.views.figures.style import STYLE, laid_out
 
-#: Of a picture, in pixels for each inch.
+#: Resolution of a picture, in pixels for each inch.
 DPI = 150.0
 
 

@@ -22,7 +22,7 @@
 //! p_T = mu p_n e(phi),      u_n + h = 0,      u_q = 0      and, where it sticks,      u_T = 0
 //! ```
 //!
-//! are solved by corrections of p and phi, as long as each leaves little of what was amiss. What the corrections before
+//! are solved by corrections of p and phi, as long as each leaves little of what was amiss. Whatever the corrections before
 //! have shown of the matrix is used (Broyden; Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, chapter
 //! 7). Where sets of states come round in a circle, sweeps help: each node by itself, the others held, has a solution by
 //! one number `lambda >= 0` with `u_T = -lambda p_T`. A law adds a constant to `mu p_n`.
@@ -615,7 +615,7 @@ impl Disc {
         let m = self.states.len();
         let (problem, rows) = (way.problem, &*way.rows);
         let (mut worst, mut most) = (0.0_f64, 0.0_f64);
-        // What is known of one that meets nothing is old.
+        // Rows of a contact that meets nothing are old.
         let there = |(_, state): &(usize, &State)| **state != State::Absent;
         for (contact, state) in self.states.iter().enumerate().filter(there) {
             let (p_t, p_n, p_y) = (way.p[contact], way.p[m + contact], rows.p[contact]);
@@ -847,7 +847,7 @@ struct Node {
     free: [f64; 3],
     touches: [bool; 2],
     mu: [f64; 2],
-    /// What it bears beside that.
+    /// Impulse that it bears beside that.
     added: [f64; 2],
     rho: f64,
 }

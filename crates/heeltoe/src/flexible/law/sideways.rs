@@ -1,6 +1,6 @@
-//! What laws need of the contacts across the valley.
+//! Motion of the contacts across the valley, as laws need it.
 
-/// What contacts do across the valley in a step; nothing where the ground moves along the stream alone.
+/// Motion of contacts across the valley in a step; nothing where the ground moves along the stream alone.
 #[derive(Clone, Copy, Default)]
 pub(in super::super) struct Sideways<'a> {
     /// Impulses of friction, velocities, and those before the step.

@@ -10,7 +10,7 @@ use super::super::shaking::{clear_of, Piece, Range, Shaking};
 use super::super::walk::{Carried, Cause, Ended};
 use super::walk::{Exact, Halt};
 
-/// What is more than this part of the terms that make it up is not zero: no rounding makes it so.
+/// A number above this part of the terms that make it up is not zero: no rounding makes it so.
 pub(super) const CLEAR: f64 = 1e-9;
 
 /// How a block that stays pressed onto both corners goes on from here, how long, and what ends that.

@@ -1,4 +1,4 @@
-//! What rest or a slide on both corners adds up to from its start to its end.
+//! Sums over rest or a slide on both corners from its start to its end.
 //!
 //! On such a stretch all forces are affine in the ground's accelerations, `f = f_0 + f_h a_h + f_v a_v`, so each does the
 //! work `f_0 s + f_h P_h + f_v P_v` with the slip `s` and `P = integral a s' dt`, which is summed exactly piece by piece.
