@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from shutil import copyfile
-from tempfile import TemporaryDirectory
 from typing import Any, Literal
 
+from heeltoe.base.atomic_files import temporary
 from heeltoe.errors.error import InputError
 
 # Address space that typst takes for a report, threads and fonts, twice over [bytes].
@@ -74,11 +74,11 @@ def pictures(drawings: Sequence[Path], ppi: float) -> list[bytes]:
     for start in range(0, len(drawings), _TOGETHER):
         some = drawings[start : start + _TOGETHER]
         # Files of a user may have names that typst does not take.
-        with TemporaryDirectory() as folder:
+        with temporary() as folder:
             for number, drawing in enumerate(some):
-                copyfile(drawing, Path(folder) / f"{number}.svg")
+                copyfile(drawing, folder / f"{number}.svg")
             pages = [f'#page(image("{number}.svg"))\n' for number in range(len(some))]
-            made += compiled("".join([_PAGE, *pages]).encode(), Path(folder), "png", ppi)
+            made += compiled("".join([_PAGE, *pages]).encode(), folder, "png", ppi)
     return made
 
 
