@@ -42,9 +42,9 @@ _SCATTERS, _SCATTERS_BY_STEP = 0.2, 0.1
 # What is less than this part of the uncertainty that is allowed need not be refined.
 _MATTERS = 0.25
 _AS_IT_IS: tuple[float, ...] = (1.0,)
-# Each so many runs of a sample are repeated with another step, another mesh and larger surroundings, and a sample is
-# doubled so often at most.
-_PAIRED, _DOUBLINGS = 4, 3
+# Each so many runs of a sample are repeated with half the step, a finer mesh or larger surroundings, and a sample is
+# doubled so often at least and at most.
+_PAIRED, _AT_LEAST, _DOUBLINGS = 4, 1, 4
 # Fewer runs with a result have no mean.
 _FEWEST = 2
 
@@ -142,8 +142,9 @@ def _fewest(trials: Trials, level: Level, change: int, *, full: bool, means: boo
         scales = _AS_IT_IS
         if means:
             sample = scales_of(0)
-            scales, longer = _paired(sample), longer - 1
-            wanted += [(Level(level.mesh - 1, longer), sample), (Level(level.mesh, longer), scales)]
+            scales = _paired(sample)
+            wanted += [(Level(level.mesh, longer), sample), (Level(level.mesh - 1, longer), sample)]
+            wanted.append((Level(level.mesh, longer + 1), scales))
         if wave_bodies(trials.dam_of(0).case):
             wanted.append((Level(level.mesh - 1, longer, larger=True), scales))
     return wanted
@@ -224,21 +225,26 @@ class _Sample:
         return self.error(RESIDUAL_SLIP.key) <= ERROR_OF_MEAN / LIMIT * allowed(mean)
 
     def moved(self, key: str, other: _Sample) -> float:
-        """Return by how much the mean moves to runs with some of the same factors at another level: the mean difference
-        of pairs, and at least its standard error, below which no difference is known. Without pairs nothing bounds the
-        mean."""
+        """Return by how much the mean differs from that of runs with some of the same factors at another level, and at
+        least the standard error of that, below which no difference is known: by pairs where both levels scatter alike,
+        by the two means where each scatters by itself. Without enough runs nothing bounds the mean."""
         place = {scale: row for row, scale in enumerate(self.scales)}
         rows = np.array([place[scale] for scale in other.scales])
         both = self.good[rows] & other.good
-        changes = (other.numbers[key] - self.numbers[key][rows])[both]
-        if changes.size < 2:
+        if np.sum(both) < _FEWEST:
             return abs(float(self.known(key).mean()))
-        return max(abs(float(changes.mean())), float(changes.std(ddof=1) / math.sqrt(changes.size)))
+        changes = (other.numbers[key] - self.numbers[key][rows])[both]
+        means = float(other.known(key).mean() - self.known(key).mean())
+        found = (
+            (float(changes.std(ddof=1) / math.sqrt(changes.size)), abs(float(changes.mean()))),
+            (math.hypot(self.error(key), other.error(key)), abs(means)),
+        )
+        return max(min(found))
 
 
 def _paired(scales: tuple[float, ...]) -> tuple[float, ...]:
-    """Return the factors of a sample at which it is compared with another level; few are all needed."""
-    return scales[::_PAIRED] if len(scales) > len(SCALES) else scales
+    """Return the factors of a sample at which it is compared with a level whose runs cost more."""
+    return max(SCALES, scales[::_PAIRED], key=len)
 
 
 def _deviation(numbers: Floats) -> float:
@@ -301,26 +307,15 @@ class _Stand:
         """Where the shaking is varied at first: the coarser of the two meshes."""
         return self._own if self.mesh is None else min(self.mesh, self._own)
 
-    @cached_property
-    def _rough(self) -> Level:
-        """Where samples are drawn: where the shaking is varied at first, at twice the step if the case leaves that open
-        and it still follows the dam. Pairs of runs bound what that changes."""
-        cheap = self._cheap
-        longer = Level(cheap.mesh, cheap.halvings - 1)
-        dam = self._trials.dam_of(cheap.mesh)
-        free = self._options.time_step is None and dam.may_step(self._trials.step_of(longer))
-        return longer if free else cheap
-
-    @property
-    def _pairs(self) -> dict[str, Level]:
-        """Levels that a mean is compared with, by their difference: half the step, the finer of the two meshes, and
-        rock and water that reach farther."""
-        rough = self._rough
-        pairs = {"step": replace(rough, halvings=rough.halvings + 1)}
+    def _pairs(self, scales: tuple[float, ...]) -> dict[str, tuple[Level, tuple[float, ...]]]:
+        """Return the levels, and the factors, that a sample is compared with, by their difference: half the step and
+        the other mesh; and for rock and water that reach farther the cheapest mesh as it is, beside which they are."""
+        some = _paired(scales)
+        pairs = {"step": (replace(self._own, halvings=self._halvings + 1), some)}
         if self.mesh is not None:
-            pairs["mesh"] = replace(rough, mesh=max(self.mesh.mesh, self._level.mesh))
+            pairs["mesh"] = (self.mesh, scales if self.mesh < self._own else some)
         if self._larger is not None:
-            pairs["surroundings"] = replace(rough, larger=True)
+            pairs["surroundings"] = (self._larger, some)
         return pairs
 
     def wanted(self, *, means: bool) -> _Wanted:
@@ -332,8 +327,8 @@ class _Stand:
         return wanted + self._of_sample(scales_of(0)) if means else wanted
 
     def _of_sample(self, scales: tuple[float, ...]) -> _Wanted:
-        """Return the runs of a sample and of its pairs."""
-        return [(self._rough, scales), *((level, _paired(scales)) for level in self._pairs.values())]
+        """Return the runs of a sample and of what it is compared with."""
+        return [(self._own, scales), *self._pairs(scales).values()]
 
     def _sample(self, level: Level, scales: tuple[float, ...], crack: int) -> _Sample:
         numbers = self._trials.numbers(level, scales, crack)
@@ -347,10 +342,10 @@ class _Stand:
             more = scales_of(doublings)
             work = trials.work + trials.cost(self._of_sample(more))
             if work > BUDGET or not trials.expected(self._level, work).within(trials.dam_of(0).case):
-                return self._sample(self._rough, scales, crack), True
+                return self._sample(self._own, scales, crack), True
             scales = more
-            sample = self._sample(self._rough, scales, crack)
-            if np.sum(sample.good) < _FEWEST or sample.is_enough:
+            sample = self._sample(self._own, scales, crack)
+            if doublings >= _AT_LEAST and (np.sum(sample.good) < _FEWEST or sample.is_enough):
                 return sample, False
         return sample, False
 
@@ -399,8 +394,7 @@ class _Stand:
             spent = spent or stopped
             mean = bool(np.sum(varied.good) >= _FEWEST)
         if mean and varied is not None:
-            some = _paired(varied.scales)
-            pairs = {name: self._sample(level, some, crack) for name, level in self._pairs.items()}
+            pairs = {name: self._sample(*pair, crack) for name, pair in self._pairs(varied.scales).items()}
         own, beside, third, farther, near = (
             None if level is None or mean else trials.numbers(level, _AS_IT_IS, crack)
             for level in (self._own, self.mesh, self._third, self._larger, self._larger and self._cheap)
@@ -422,7 +416,10 @@ class _Stand:
                 moved["step"] = abs(single)
             if mean and varied is not None:
                 value = float(varied.known(key).mean())
-                moved |= {name: varied.moved(key, pair) for name, pair in pairs.items()}
+                moved |= {name: varied.moved(key, pair) for name, pair in pairs.items() if name != "surroundings"}
+                if "surroundings" in pairs:
+                    smaller = pairs["mesh"] if self._cheap == self.mesh else varied
+                    moved["surroundings"] = smaller.moved(key, pairs["surroundings"])
                 moved["shaking"] = varied.error(key)
             elif self._full and own is not None:
                 moved["mesh"] = _moved_by_mesh(key, own, beside, third)
