@@ -12,6 +12,7 @@ from typing import Annotated, Never
 import typer
 
 from heeltoe.base.atomic_files import check_directory, write_text, write_whole
+from heeltoe.base.heap import share_heaps
 from heeltoe.cli import app as app_command
 from heeltoe.cli import dam as dam_commands
 from heeltoe.cli import explain as explain_command
@@ -43,6 +44,8 @@ def main() -> None:
     os.environ["MPLBACKEND"] = "agg"
     # No plugin of pydantic has a say in how a case is read; looking for one opens a file of every package there is.
     os.environ["PYDANTIC_DISABLE_PLUGINS"] = "1"
+    # Tables of Arrow lie in the same heap as all else; its own keeps what was freed.
+    os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
     try:
         with streams():
             app()
@@ -100,6 +103,7 @@ def _options(
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
     ] = False,
 ) -> None:
+    share_heaps()
     # The app looks after Ctrl-C itself.
     if context.invoked_subcommand != "app":
         end_if_deaf()

@@ -274,10 +274,13 @@ def _write(
     result: Response | SmallStudy, case: Case, request: RunOptions, place: Path, say: Callable[[str], None]
 ) -> list[Path]:
     """Write files and report; what asks for a report alone has its figures in it."""
+    from heeltoe.base.heap import give_back
     from heeltoe.study.small.run_table import SmallStudy
     from heeltoe.views.files.write import figures_of, write_all
 
     say("writing")
+    # Figures need the room that the models have left.
+    give_back()
     units = units_of(case, request.units)
     figures = figures_of(result, case, units)
 
