@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator
 from importlib.util import find_spec
 from pathlib import Path
 from shutil import copyfile
@@ -14,8 +14,8 @@ from heeltoe.errors.error import InputError
 # Address space that typst takes for a report, threads and fonts, twice over [bytes].
 _ROOM = 300e6
 _PAGE = "#set page(margin: 0pt, width: auto, height: auto)\n"
-# So many pictures are made at once; memory grows with them.
-_TOGETHER = 2
+# For so many compilations typst keeps what it has read and drawn, which takes more memory than all else in a report.
+_KEPT_FOR = 10
 
 
 def can_compile() -> bool:
@@ -42,44 +42,48 @@ def compiled(source: bytes, root: Path, kind: Literal["pdf", "png"], ppi: float 
     InputError
         Where the process is not allowed as much more memory as typst may ask for, or typst gives up.
     """
+    made = _compile(_compiler(root), source, kind, ppi)
+    return [made] if isinstance(made, bytes) else list(made)
+
+
+def pictures(drawings: Iterable[Path], ppi: float) -> Iterator[bytes]:
+    """Yield the pictures of SVG files as PNG, in their order."""
+    # Files of a user may have names that typst does not take.
+    with temporary() as folder:
+        compiler = _compiler(folder)
+        for number, drawing in enumerate(drawings):
+            copyfile(drawing, folder / f"{number}.svg")
+            yield _compile(compiler, f'{_PAGE}#image("{number}.svg")\n'.encode(), "png", ppi)
+            for _ in range(_KEPT_FOR):
+                _compile(compiler, _PAGE.encode(), "png", ppi)
+
+
+def _compiler(root: Path) -> Any:
+    """Return a compiler of sources that name files in a directory, which looks for fonts once.
+
+    Raises
+    ------
+    InputError
+        Where the process is not allowed as much more memory as typst may ask for.
+    """
     import typst
     from matplotlib import get_data_path
 
     left = _missing_room()
     if left is not None:
         raise InputError("report-package-broken", "report", "typst", reason=left)
-    # Its types know one page only, and source and directory of one kind.
-    made: Any
-    given: Any = source
+    return typst.Compiler(root=str(root), font_paths=[str(Path(get_data_path()) / "fonts" / "ttf")])
+
+
+def _compile(compiler: Any, source: bytes, kind: Literal["pdf", "png"], ppi: float | None) -> Any:
+    """Compile a source: one file, or a list of several pages."""
     try:
-        made = typst.compile(
-            given,
-            root=str(root),
-            format=kind,
-            ppi=ppi,
-            timestamp=0,
-            font_paths=[str(Path(get_data_path()) / "fonts" / "ttf")],
-        )
+        return compiler.compile(source, format=kind, ppi=ppi, timestamp=0)
     except BaseException as error:
         # An error of its Rust, as where it gets no threads, is no Exception, and has no class to name.
         if type(error).__name__ != "PanicException":
             raise
         raise InputError("report-package-broken", "report", "typst", reason=error) from None
-    return [made] if isinstance(made, bytes) else list(made)
-
-
-def pictures(drawings: Sequence[Path], ppi: float) -> list[bytes]:
-    """Return the pictures of SVG files as PNG, in their order."""
-    made: list[bytes] = []
-    for start in range(0, len(drawings), _TOGETHER):
-        some = drawings[start : start + _TOGETHER]
-        # Files of a user may have names that typst does not take.
-        with temporary() as folder:
-            for number, drawing in enumerate(some):
-                copyfile(drawing, folder / f"{number}.svg")
-            pages = [f'#page(image("{number}.svg"))\n' for number in range(len(some))]
-            made += compiled("".join([_PAGE, *pages]).encode(), folder, "png", ppi)
-    return made
 
 
 def _missing_room() -> str | None:
