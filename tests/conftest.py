@@ -213,8 +213,8 @@ def koyna(koyna_both) -> heeltoe.Response:
 @pytest.fixture
 def no_figures(monkeypatch):
     """Leave out figures, which take most of the time, where words and numbers alone are looked at."""
-    monkeypatch.setattr("heeltoe.views.content.drawings.drawings", lambda figures, cracks=None: {})
-    monkeypatch.setattr("heeltoe.views.figures.write.save_all", lambda figures, directory: [])
+    monkeypatch.setattr("heeltoe.views.content.drawings.drawings", lambda figures, cracks=None, ahead=None: {})
+    monkeypatch.setattr("heeltoe.views.figures.write.save_all", lambda figures, directory, finish=None: [])
 
 
 @pytest.fixture

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import gc
 import io
 import json
 import re
+import weakref
 from dataclasses import replace
 
 import pytest
@@ -20,9 +22,11 @@ from heeltoe.result.write import json_text
 from heeltoe.views.content.drawings import caption
 from heeltoe.views.content.input import fields, input_hash
 from heeltoe.views.content.tree import Beside, Document, FigureBlock, Section, paragraph
+from heeltoe.views.figures.all import all_figures
+from heeltoe.views.figures.write import save_all
 from heeltoe.views.report.html import html
 from heeltoe.views.report.typst_pdf import pages, pdf, source
-from heeltoe.views.report.write import build_report, check_packages, write_report
+from heeltoe.views.report.write import build_report, check_packages, draw_ahead, write_report
 from heeltoe.views.words.numbers import Value
 from heeltoe.warnings.notice import Notice
 from shared.dams import BASE, BLOCK, FAST, SLENDER
@@ -313,6 +317,29 @@ def test_units_of_the_united_states_all_through(which, request):
         if not text.startswith("under"):
             shown_number, half = read_back(text)
             assert abs(shown_number) == pytest.approx(abs(number), abs=half * 1.0001, rel=1e-3), (key, text)
+
+
+def test_figures_drawn_ahead_make_the_same_report_and_are_let_go(block, tmp_path):
+    case, response = block
+    figures = all_figures(case, response)
+    later, first = tmp_path / "later", tmp_path / "first"
+    later.mkdir()
+    first.mkdir()
+    save_all(figures, later)
+    expected = build_report(case, response, figures=figures)
+    ahead, drawn = draw_ahead(case, response, "si"), []
+
+    def finish(name, figure):
+        gc.collect()
+        assert not any(other() for other in drawn)
+        drawn.append(weakref.ref(figure))
+        ahead.finish(name, figure)
+
+    save_all(ahead.figures, first, finish)
+    assert len(drawn) == len(figures)
+    assert build_report(case, response, figures=ahead.figures, ahead=ahead) == expected
+    for path in later.iterdir():
+        assert (first / path.name).read_bytes() == path.read_bytes()
 
 
 def test_packages_that_do_not_work_are_named(monkeypatch):

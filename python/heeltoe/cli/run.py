@@ -282,7 +282,12 @@ def _write(
     # Figures need the room that the models have left.
     give_back()
     units = units_of(case, request.units)
-    figures = figures_of(result, case, units)
+    ahead = None
+    if request.report and not isinstance(result, SmallStudy):
+        from heeltoe.views.report.write import draw_ahead
+
+        ahead = draw_ahead(case, result, units)
+    figures = figures_of(result, case, units) if ahead is None else ahead.figures
 
     def report(fresh: Path) -> None:
         if request.xlsx:
@@ -295,7 +300,15 @@ def _write(
         from heeltoe.views.report.write import build_report, write_kinds
 
         say("writing the report")
-        write_kinds(build_report(case, result, units=units, command=command_line(), figures=figures), fresh)
+        built = build_report(case, result, units=units, command=command_line(), figures=figures, ahead=ahead)
+        write_kinds(built, fresh)
 
-    shown = figures if request.out else {}
-    return write_all(result, place, figures=shown, suffix=request.suffix, vtk=request.vtk, report=report)
+    return write_all(
+        result,
+        place,
+        figures=figures if request.out else {},
+        finish=None if ahead is None else ahead.finish,
+        suffix=request.suffix,
+        vtk=request.vtk,
+        report=report,
+    )

@@ -113,7 +113,7 @@ def make(say: Callable[..., None], folder: Path, options: Wanted) -> Json:
     from heeltoe.study.small.analysis import analyse
     from heeltoe.views.animation.write import animate
     from heeltoe.views.files.write import figures_of, write_all
-    from heeltoe.views.report.write import build_report, check_packages, write_kinds
+    from heeltoe.views.report.write import build_report, check_packages, draw_ahead, write_kinds
 
     if options.report:
         check_packages(field="report")
@@ -122,15 +122,18 @@ def make(say: Callable[..., None], folder: Path, options: Wanted) -> Json:
     say("running" if cost is None else f"running, about {max(1.0, cost.seconds):.0f} s")
     result = analyse(case, options.model, spread="cheap" if options.report else None, say=say)
     say("drawing")
-    figures = figures_of(result, case, options.units)
+    ahead = draw_ahead(case, result, options.units) if options.report else None
+    figures = figures_of(result, case, options.units) if ahead is None else ahead.figures
 
     def report(fresh: Path) -> None:
         if options.report:
             say("writing the report")
-            built = build_report(case, result, units=options.units, command=command(options), figures=figures)
+            words = command(options)
+            built = build_report(case, result, units=options.units, command=words, figures=figures, ahead=ahead)
             write_kinds(built, fresh)
 
-    write_all(result, folder / OUT, figures=figures, suffix=options.suffix, report=report)
+    finish = None if ahead is None else ahead.finish
+    write_all(result, folder / OUT, figures=figures, finish=finish, suffix=options.suffix, report=report)
     if options.animation and result.histories:
         say("drawing the animation")
         animate(case.with_({"units": options.units}), result, folder / OUT / "animation.html")

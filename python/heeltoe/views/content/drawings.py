@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from heeltoe.views.content.subject import NAMES
@@ -13,6 +13,7 @@ from heeltoe.views.words.response import OF_CRACKS
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from heeltoe.views.figures.all import Figures
 
 CAPTIONS = {
     "summary": "The dam, its crack and its water; the ground motion, and the slip of the part above the crack.",
@@ -138,25 +139,52 @@ _OF_BOTH = (
 )
 
 
-def drawings(figures: Mapping[str, Figure], cracks: Mapping[str, str] | None = None) -> dict[str, FigureBlock]:
+class DrawnAhead:
+    """Figures of a result as a report shows them, each drawn as soon as its file is written, and then let go.
+
+    Parameters
+    ----------
+    figures, cracks
+        As of :func:`drawings`.
+    """
+
+    def __init__(self, figures: Figures, cracks: Mapping[str, str] | None = None) -> None:
+        self.figures, self._looks = figures, _looks(figures, cracks)
+        self.blocks: dict[str, FigureBlock] = {}
+
+    def finish(self, name: str, figure: Figure) -> None:
+        """Draw a figure that is written, if the report shows it."""
+        if name in self._looks:
+            self.blocks[name] = drawing(name, figure, *self._looks[name])
+        self.figures.let_go(name)
+
+
+def drawings(
+    figures: Mapping[str, Figure],
+    cracks: Mapping[str, str] | None = None,
+    ahead: Mapping[str, FigureBlock] | None = None,
+) -> dict[str, FigureBlock]:
     """Return the figures of a result that a report shows, by name: ``decoupled/crack-level`` of the one beside.
 
     They lose their headings, and some are made lower: what is to be written as a file is to be written before. `cracks`
-    are names of several cracks by the prefix of their figures, empty for the one that leads.
+    are names of several cracks by the prefix of their figures, empty for the one that leads; `ahead` are figures that
+    were drawn before.
     """
-    names = cracks or {}
-    halves = dict.fromkeys(_HALVES, 0.5) if set(_HALVES) <= set(figures) else {}
-    if "comparison" not in figures:
-        return {
-            name: drawing(name, figures[name], caption(name, names), halves.get(name))
-            for name in figures
-            if _is_shown(name)
-        }
+    made = ahead or {}
+    looks = _looks(figures, cracks)
+    return {name: made[name] if name in made else drawing(name, figures[name], *look) for name, look in looks.items()}
+
+
+def _looks(names: Collection[str], cracks: Mapping[str, str] | None) -> dict[str, tuple[str, float | None]]:
+    """Return the captions of the figures that a report shows, by name, and which share of the page they take, None for
+    their own."""
+    called = cracks or {}
+    halves = dict.fromkeys(_HALVES, 0.5) if set(_HALVES) <= set(names) else {}
+    if "comparison" not in names:
+        return {name: (caption(name, called), halves.get(name)) for name in names if _is_shown(name)}
     shared = ("summary", "section", "law", "motion", "comparison")
     captions = {name: caption(name if "/" in name or name in shared else f"flexible/{name}") for name in _OF_BOTH}
-    return {
-        name: drawing(name, figures[name], captions[name], halves.get(name)) for name in figures if name in _OF_BOTH
-    }
+    return {name: (captions[name], halves.get(name)) for name in names if name in _OF_BOTH}
 
 
 def in_rows(figures: Sequence[FigureBlock]) -> tuple[Block, ...]:

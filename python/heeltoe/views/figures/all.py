@@ -61,6 +61,10 @@ class Figures(Mapping[str, Figure]):
             self._drawn[name] = self._drawings[name]()
         return self._drawn[name]
 
+    def let_go(self, name: str) -> None:
+        """Keep a figure no longer."""
+        self._drawn.pop(name, None)
+
     def __contains__(self, name: object) -> bool:
         return name in self._drawings
 

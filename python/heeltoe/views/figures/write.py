@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import gc
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import matplotlib as mpl
@@ -15,9 +16,11 @@ from heeltoe.views.figures.style import STYLE, laid_out
 DPI = 150.0
 
 
-def save_all(figures: Mapping[str, Figure], directory: Path) -> list[Path]:
+def save_all(
+    figures: Mapping[str, Figure], directory: Path, finish: Callable[[str, Figure], object] | None = None
+) -> list[Path]:
     """Write figures by their names as PNG and SVG and return the paths. Each is drawn once, as SVG, of which typst
-    makes the picture; without typst it is drawn again."""
+    makes the picture; without typst it is drawn again. `finish` gets each that is written, and may change it."""
     twice = not can_compile()
     written, drawings = [], []
     for name, figure in figures.items():
@@ -27,6 +30,11 @@ def save_all(figures: Mapping[str, Figure], directory: Path) -> list[Path]:
             save(figure, drawing)
             if twice:
                 save(figure, picture)
+        if finish is not None:
+            finish(name, figure)
+            # Where it is kept no longer, it goes at once: its parts refer to each other.
+            del figure
+            gc.collect(1)
         drawings.append(drawing)
         written += [picture, drawing]
     if drawings and not twice:

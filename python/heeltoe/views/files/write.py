@@ -71,6 +71,7 @@ def write_all(
     suffix: str = ".parquet",
     vtk: bool = False,
     figures: Mapping[str, Figure] | None = None,
+    finish: Callable[[str, Figure], object] | None = None,
     report: Callable[[Path], object] | None = None,
 ) -> list[Path]:
     """Write a result with its histories and figures.
@@ -99,6 +100,8 @@ def write_all(
     figures
         Figures of the result, drawn before; none of them where this is empty, as where a report holds them. They are
         drawn here where it is not given.
+    finish
+        Gets each figure that is written, with its name before.
     report
         Writes a report into a directory. An earlier report goes where this is given, and stays where it is not.
 
@@ -120,7 +123,7 @@ def write_all(
     def write(fresh: Path) -> None:
         _write(result, fresh, suffix, vtk)
         if drawn:
-            save_all(drawn, fresh)
+            save_all(drawn, fresh, finish)
         if report:
             report(fresh)
 

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from heeltoe.models.statics.model import Statics
     from heeltoe.result.response import Response
     from heeltoe.study.answers.study_results import StudyResults
+    from heeltoe.views.content.drawings import DrawnAhead
     from heeltoe.views.content.tree import Document
 
 #: What each kind of report needs that heeltoe itself does not.
@@ -53,11 +54,13 @@ def build_report(
     units: str = "si",
     command: str = "",
     figures: Mapping[str, Figure] | None = None,
+    ahead: DrawnAhead | None = None,
 ) -> Document:
     """Return what a report says, apart from how it looks.
 
     Parameters as of :func:`write_report`; `figures` are those of the result, drawn before, which are changed here to
     what a report needs. They are drawn where they are not given; a report of none at all has none of its own either.
+    Those that are drawn `ahead` are taken from there.
     """
     from heeltoe.models.statics.after import joints_after
     from heeltoe.models.statics.joints import Joint, Joints
@@ -84,9 +87,19 @@ def build_report(
     if runs:
         first["motion"] = lambda: history_figure(result.motion, result.vertical, result.gravity, units)
     shown = drawings(
-        Figures(first | {name: partial(drawn.__getitem__, name) for name in drawn}), _crack_names(result, units)
+        Figures(first | {name: partial(drawn.__getitem__, name) for name in drawn}),
+        _crack_names(result, units),
+        None if ahead is None else ahead.blocks,
     )
     return document(Subject(case, result, numbers, shown, judged, command))
+
+
+def draw_ahead(case: Case, result: Response, units: str) -> DrawnAhead:
+    """Return the figures of a result, and what draws them for its report as they are written."""
+    from heeltoe.views.content.drawings import DrawnAhead
+    from heeltoe.views.figures.all import all_figures
+
+    return DrawnAhead(all_figures(case, result, units), _crack_names(result, units))
 
 
 def _crack_names(result: Response, units: str) -> dict[str, str]:
@@ -189,7 +202,8 @@ def write_document(document: Document, directory: Path | str, kinds: Sequence[st
 
 def write_kinds(document: Document, fresh: Path, kinds: Sequence[str] = ("pdf", "html")) -> None:
     """Write the files of a report into a directory without one."""
-    for kind in kinds:
+    # The PDF last, as typst keeps what it has read.
+    for kind in sorted(kinds):
         (fresh / f"report.{kind}").write_bytes(_rendered(document, kind))
 
 
