@@ -210,9 +210,8 @@ class Both:
     ) -> Row:
         """Return the row of a command; `{case}` among its words is the file of each version."""
         ours, other = (tuple(word.replace("{case}", file) for word in words) for file in files)
-        return Row(
-            what, (partial(self.ours.run, ours, exits), partial(self.other.run, other, exits)), asked, read, same
-        )
+        works = (partial(self.ours.run, ours, exits), partial(self.other.run, other, exits))
+        return Row(what, works, asked, read, same, asked_peak)
 
     def work(
         self,
