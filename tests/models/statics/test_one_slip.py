@@ -72,3 +72,12 @@ def test_a_table_of_choices_of_the_checks_runs_the_earthquake_once():
     assert words.count("running the earthquake") == 1
     slip = read_case(BLOCK).with_({"statics.residual_friction": 0.2})
     assert {dam.joints[0].statics.slip_m for dam in table.dams} == {judge(slip).joints[0].statics.slip_m}
+
+
+def test_the_checks_run_the_friction_that_the_crack_states_and_no_other():
+    case, made = read_case(BLOCK), {}
+    alone, response = judge(case, After(model="auto"), made=made), run(case)
+    ((best,),) = made.values()
+    assert response.friction_effect is not None
+    assert best.friction_effect is None
+    assert alone.joints[0].statics.slip_m == best.residual_slip_m == response.residual_slip_m

@@ -56,10 +56,10 @@ def borne(pieces: list[tuple[Floats, Floats]], friction: float, settled: Settled
     float or None
         Infinite where there is no limit; None where they cannot bear the normal force at its place.
     """
-    from scipy.optimize import linprog
-
     if settled.position is None or not pieces:
         return None
+    from scipy.optimize import linprog
+
     size = max(float(end[0]) for _, end in pieces)
     rays = []
     for piece in pieces:
