@@ -31,6 +31,22 @@ def median(values: Floats) -> float:
     return float(ordered[half] if values.size % 2 else (ordered[half - 1] + ordered[half]) / 2.0)
 
 
+def distinct(values: Floats) -> Floats:
+    """Return the different ones of some numbers, the smallest first; NumPy's own function loads masked arrays."""
+    ordered = np.sort(values)
+    first = np.ones(ordered.size, dtype=bool)
+    first[1:] = ordered[1:] != ordered[:-1]
+    return ordered[first]
+
+
+def among(values: Floats, others: Floats) -> Bools:
+    """Return which of some numbers are among others, of which there is one at least."""
+    ordered = np.sort(others)
+    place = np.minimum(np.searchsorted(ordered, values), ordered.size - 1)
+    found: Bools = ordered[place] == values
+    return found
+
+
 def number(value: object) -> float:
     """Return a sum over an array as the number that it is, or as the column."""
     result: float = value if np.ndim(value) else float(value)  # type: ignore[arg-type, assignment]

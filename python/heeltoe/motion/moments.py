@@ -7,14 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.base.arrays import Floats
+from heeltoe.base.arrays import Floats, among, distinct
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.motion.ground_motion import GroundMotion
 
 
 def on_same_moments(series: Sequence[GroundMotion], end: float) -> list[Floats]:
     """Return common moments from zero to `end`, and the values of each motion at them, (n,) each."""
-    moments = np.unique(np.concatenate([s.time for s in series] + [np.array([end])]))
+    moments = distinct(np.concatenate([s.time for s in series] + [np.array([end])]))
     moments = moments[moments <= end]
     sides = [_both_sides(s, moments) for s in series]
     jumps = np.any([left != right for left, right in sides], axis=0)
@@ -68,7 +68,7 @@ def step_ends(shaking: Shaking, count: int) -> Floats:
         if series is not None:
             left = series[np.clip(np.searchsorted(time, moments, side="left"), 0, time.size - 1)]
             right = series[np.clip(np.searchsorted(time, moments, side="right") - 1, 0, time.size - 1)]
-            at_sample = np.isin(moments, time)
+            at_sample = among(moments, time)
             ends[:, column] = np.where(at_sample, (left + right) / 2.0, np.interp(moments, time, series))
     return ends
 

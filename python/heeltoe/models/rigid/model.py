@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from heeltoe.base.arrays import Floats
+from heeltoe.base.arrays import Floats, among, distinct
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import Block, build_block
@@ -62,7 +62,7 @@ def run_rigid(
     row = run.summary.by_name()
     rotation, off = float(largest_rotation(row)), bool(leaves([row], [block.width]))
     outcome = decide(run.outcome, rotation=rotation, finite=case.analysis.rotation == "finite", off=off)
-    started, shown = outcome is not Outcome.UNSTABLE, np.isin(moments, seen)
+    started, shown = outcome is not Outcome.UNSTABLE, among(moments, seen)
     crack = crack_response(case, block, shaking, moments, run, shown=shown, started=started, drainage=drainage)
     cracks, top = with_crest([crack], [block], [run], shaking, moments, shown) if crest else ([crack], None)
     return Response(
@@ -85,8 +85,7 @@ def run_rigid(
 
 def with_looks(moments: Floats, end: float) -> Floats:
     """Return moments of histories up to an end [s] with those at which the crest is looked at."""
-    together: Floats = np.union1d(moments, crest_looks(end))
-    return together
+    return distinct(np.concatenate([moments, crest_looks(end)]))
 
 
 #: Moments that a history may have: each takes some 200 bytes, here and in the file.
@@ -109,7 +108,7 @@ def moments_of(earthquake: Earthquake, step: float | None) -> Floats:
         between = [np.arange(time[k], ends[k], _SHORTEST_STEP)[1:] for k in coarse.tolist()]
         spacing = float(np.clip(earthquake.motion.dt, _SHORTEST_STEP, _LONGEST_STEP))
         after = np.arange(earthquake.end, earthquake.run_end, spacing)
-        return np.unique(np.concatenate([time, *between, after]))
+        return distinct(np.concatenate([time, *between, after]))
     if not 0.0 < step <= time[-1]:
         raise InputError("out-of-range", "output_step", f"{step:g} s", bound=f"above 0 s and up to {time[-1]:g} s")
     if time[-1] / step > MOST_MOMENTS:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from heeltoe.base.arrays import Floats
+from heeltoe.base.arrays import Floats, among
 from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import StackRun, run_stack
@@ -68,7 +68,7 @@ def run_two_blocks(
     moments = with_looks(seen, earthquake.shaking.time[-1]) if crest else seen
     blocks, run = walk_two_blocks(case, earthquake.shaking, moments)
     moments = moments[: run.cracks[0].mode.size]
-    shown = np.isin(moments, seen)
+    shown = among(moments, seen)
     # Neither may turn far from the ground.
     turned = max(float(largest_rotation(run.cracks[0].summary.by_name())), float(np.abs(run.tilts).max()))
     off = bool(leaves([crack.summary.by_name() for crack in run.cracks[::-1]], [block.width for block in blocks]))
