@@ -17,7 +17,7 @@ from pathlib import Path
 
 import typer
 
-from heeltoe.cli.main import app
+from heeltoe.cli.main import program
 from heeltoe.errors.error import CATALOGUE as ERRORS
 from heeltoe.views.explain import find
 from heeltoe.warnings.notice import CATALOGUE as WARNINGS
@@ -54,7 +54,7 @@ assert len(PATTERNS) == 19
 
 def options() -> Iterator[tuple[str, str, str]]:
     """Walk the visible options and arguments of all commands: command, name and help."""
-    for name, command in typer.main.get_command(app).commands.items():
+    for name, command in typer.main.get_command(program()).commands.items():
         yield name, "", command.help or ""
         for parameter in command.params:
             if parameter.name != "help" and not getattr(parameter, "hidden", False):

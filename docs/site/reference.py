@@ -12,7 +12,7 @@ import typer
 
 import heeltoe
 from heeltoe.case.combinations import FEATURES, RULES, USERS
-from heeltoe.cli.main import app
+from heeltoe.cli.main import program
 from heeltoe.views.explain.find import everything
 from heeltoe.views.explain.meaning import Meaning
 
@@ -137,7 +137,7 @@ def _commands() -> Iterator[str]:
         "3 the run ended without a result to trust, 1 a bug.",
         "",
     )
-    commands: dict[str, Any] = typer.main.get_command(app).commands  # type: ignore[attr-defined]
+    commands: dict[str, Any] = typer.main.get_command(program()).commands  # type: ignore[attr-defined]
     for name, command in commands.items():
         arguments = [param for param in command.params if param.param_type_name == "argument"]
         options = [param for param in command.params if _is_listed(param)]

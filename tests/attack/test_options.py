@@ -12,12 +12,12 @@ import pytest
 import typer
 
 from heeltoe.app import serve
-from heeltoe.cli.main import app
+from heeltoe.cli.main import program
 from shared.attacked import Attack
 from shared.dams import BASE, BLOCK, COARSE, SLENDER
 from shared.hostile import NUMBERS, TEXTS, WITH_UNITS
 
-COMMANDS: dict[str, Any] = typer.main.get_command(app).commands  # type: ignore[attr-defined]
+COMMANDS: dict[str, Any] = typer.main.get_command(program()).commands  # type: ignore[attr-defined]
 #: What a command is called with beside the option that is tried: what is quick.
 USUAL: dict[str, list[str | Path]] = {
     "run": [BLOCK],

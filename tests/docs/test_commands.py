@@ -10,13 +10,13 @@ import pytest
 import typer
 
 from heeltoe import read_case
-from heeltoe.cli.main import app
+from heeltoe.cli.main import program
 from shared.command import command
 from shared.dams import KOYNA, ROOT
 from shared.pages import PAGES, command_lines, spans
 
 LINES = command_lines()
-COMMANDS = typer.main.get_command(app).commands
+COMMANDS = typer.main.get_command(program()).commands
 COARSE = ("--set", "flexible.elements_across=3", "--set", "flexible.evidence=none")
 # What is added so that a command does not take long: an option given twice has its last value.
 QUICK = {

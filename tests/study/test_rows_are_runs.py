@@ -154,7 +154,7 @@ def test_a_study_that_leaves_the_vertical_motion_out_says_so(tmp_path):
 def test_some_rows_without_a_result_leave_the_study_with_its_answer(tmp_path):
     from typer.testing import CliRunner
 
-    from heeltoe.cli.main import app
+    from heeltoe.cli.main import program
 
     # The weaker crack does not stand before the earthquake.
     case = example("typical-base", "motion.duration=2.6 s")
@@ -162,7 +162,7 @@ def test_some_rows_without_a_result_leave_the_study_with_its_answer(tmp_path):
     for frictions, code in (("[0.2, 1.0]", 0), ("[0.2, 0.3]", 3)):
         study = f'case = "case.toml"\nmodel = "rigid"\n[vary]\n"crack.friction" = {frictions}\n'
         file, out = study_file(tmp_path, study, case=text), tmp_path / f"out-{code}"
-        result = CliRunner().invoke(app, ["study", str(file), "--out", str(out), "--no-figures"])
+        result = CliRunner().invoke(program(), ["study", str(file), "--out", str(out), "--no-figures"])
         assert result.exit_code == code, result.output
         assert "unstable" in result.output
         assert "unstable" in {row["outcome"] for row in rows(open_study(out))}

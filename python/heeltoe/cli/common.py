@@ -68,16 +68,6 @@ def _refused() -> Iterator[None]:
         raise InputError("usage", where, error.format_message().rstrip("."), command=path) from None
 
 
-app = typer.Typer(
-    cls=Commands,
-    name="heeltoe",
-    help="Compute the response of cracked concrete gravity dams to earthquakes.",
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    add_completion=False,
-    rich_markup_mode=None,
-)
-
 BUG = 1
 BAD_INPUT = 2
 INTERRUPTED = 130

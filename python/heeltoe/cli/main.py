@@ -6,29 +6,36 @@ import atexit
 import gc
 import os
 import sys
-from pathlib import Path
+from functools import cache
+from importlib import import_module
 from typing import Annotated, Never
 
 import typer
 
-from heeltoe.base.atomic_files import check_directory, write_text, write_whole
 from heeltoe.base.heap import share_heaps
-from heeltoe.cli import app as app_command
-from heeltoe.cli import dam as dam_commands
-from heeltoe.cli import explain as explain_command
-from heeltoe.cli import export as export_command
-from heeltoe.cli import law as law_command
-from heeltoe.cli import motion as motion_command
-from heeltoe.cli import run as run_command
-from heeltoe.cli import solve as solve_command
-from heeltoe.cli import statics as statics_command
-from heeltoe.cli import study as study_command
-from heeltoe.cli.common import BAD_INPUT, BUG, INTERRUPTED, LONGEST_PATH, NO_RESULT, app
+from heeltoe.cli.common import BAD_INPUT, BUG, INTERRUPTED, NO_RESULT, Commands
 from heeltoe.cli.streams import end_if_deaf, streams
-from heeltoe.errors.error import InputError, UnfinishedError, shown
+from heeltoe.errors.error import InputError, UnfinishedError
 from heeltoe.errors.sanitize import plain
 
 _OBJECTS_BEFORE_COLLECTING = 200_000
+#: Modules of the commands, in the order of the help.
+_MODULES = {
+    "run": "run",
+    "solve": "solve",
+    "periods": "dam",
+    "overturning": "dam",
+    "law": "law",
+    "statics": "statics",
+    "animate": "dam",
+    "export": "export",
+    "motion": "motion",
+    "study": "study",
+    "app": "app",
+    "explain": "explain",
+    "new": "start",
+    "examples": "start",
+}
 # What a panic of the kernel is raised as; named, so that nothing is loaded for it.
 _PANICS = ("InternalError", "PanicException")
 
@@ -48,7 +55,7 @@ def main() -> None:
     os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
     try:
         with streams():
-            app()
+            program(*sys.argv[1:2])()
     except InputError as error:
         for problem in (error, *error.others):
             print(f"heeltoe: {problem}", file=sys.stderr)
@@ -96,7 +103,6 @@ def _version(shown: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
 def _options(
     context: typer.Context,
     version: Annotated[
@@ -109,76 +115,24 @@ def _options(
         end_if_deaf()
 
 
-def new(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the case; NAME.toml is written.")],
-    all_: Annotated[bool, typer.Option("--all", help="Show every field, as comments where it is not set.")] = False,
-    from_: Annotated[
-        Path | None, typer.Option("--from", metavar="OLD.toml", help="Rewrite this case with today's fields.")
-    ] = None,
-) -> None:
-    """Write a case file to start from."""
-    from heeltoe.case.template import new_case_text
-
-    if all_ and from_ is not None:
-        raise InputError("fields-conflict", "--all", other="--from")
-    path = Path(name if name.endswith(".toml") else f"{name}.toml")
-    if os.path.lexists(path):
-        raise InputError("file-exists", str(path))
-    text = new_case_text(path.stem, every_field=all_) if from_ is None else _rewritten(from_, path)
-    write_text(path, text)
-    written = plain(path, LONGEST_PATH)
-    print(f"wrote {written}; run it with: heeltoe run {written}")
-
-
-def _rewritten(old: Path, path: Path) -> str:
-    """Return the text of a case in today's fields; `path` is where it will stand."""
-    from heeltoe.case.fields_file import read_fields
-    from heeltoe.case.read import read_case
-    from heeltoe.case.toml_writer import case_text
-
-    read_case(old)
-    if path.parent.resolve() != old.parent.resolve():
-        # Motions, meshes and drawings are relative to the case.
-        raise InputError("contradiction", "NAME", shown(str(path)), other="--from, a case of another folder")
-    return case_text(read_fields(old))
-
-
-def examples(
-    directory: Annotated[
-        Path, typer.Argument(metavar="DIR", show_default=False, help="New directory to write into (default: examples).")
-    ] = Path("examples"),
-    list_: Annotated[bool, typer.Option("--list", help="List them with a line each, and write nothing.")] = False,
-) -> None:
-    """Write example cases and studies to start from."""
-    from heeltoe.case.examples import copy_examples, list_examples
-
-    if list_:
-        for name, line in list_examples():
-            print(f"{name}\n    {line}")
-        return
-    if os.path.lexists(directory):
-        raise InputError("file-exists", str(directory))
-    check_directory(directory, "DIR")
-    written = write_whole(copy_examples, directory, (), field="DIR")
-    print(f"wrote {len(written)} cases and studies into {plain(directory, LONGEST_PATH)}")
-
-
-# In the order of the help.
-app.command(cls=run_command.Run, short_help=first_sentence(run_command.run.__doc__ or ""))(run_command.run)
-for command in (
-    solve_command.solve,
-    dam_commands.periods,
-    dam_commands.overturning,
-    law_command.law,
-    statics_command.statics,
-    dam_commands.animate,
-    export_command.export,
-    motion_command.motion,
-    study_command.study,
-    app_command.app,
-    explain_command.explain,
-    new,
-    examples,
-):
-    # The whole first sentence: what is cut off says nothing.
-    app.command(short_help=first_sentence(command.__doc__ or ""))(command)
+@cache
+def program(name: str = "") -> typer.Typer:
+    """Return the command line with all commands; for the name of one with that alone, as building 14 of them is a tenth
+    of a short run."""
+    app = typer.Typer(
+        cls=Commands,
+        name="heeltoe",
+        help="Compute the response of cracked concrete gravity dams to earthquakes.",
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        add_completion=False,
+        rich_markup_mode=None,
+    )
+    app.callback()(_options)
+    for command in [name] if name in _MODULES else _MODULES:
+        module = import_module(f"heeltoe.cli.{_MODULES[command]}")
+        function = getattr(module, command)
+        # The whole first sentence: what is cut off says nothing.
+        sentence = first_sentence(function.__doc__ or "")
+        app.command(cls=module.Run if command == "run" else None, short_help=sentence)(function)
+    return app
