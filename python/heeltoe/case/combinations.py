@@ -518,12 +518,9 @@ def rules_of(path: str) -> tuple[Rule, ...]:
 @lru_cache(maxsize=1)
 def _features_of(path: str) -> tuple[str, ...]:
     """Return the names of the features of a field, or of the block that it is in; each rule about a field asks."""
-    own = re.sub(r"^(cracks|joints)\.", "crack.", path)
-    return tuple(
-        name
-        for name, feature in FEATURES.items()
-        if any(own == field or own.startswith(f"{field}.") for field in feature.fields)
-    )
+    own = re.sub(r"^(cracks|joints)\.", "crack.", path).split(".")
+    blocks = {".".join(own[:count]) for count in range(1, len(own) + 1)}
+    return tuple(name for name, feature in FEATURES.items() if not blocks.isdisjoint(feature.fields))
 
 
 @cache

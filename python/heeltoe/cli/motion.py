@@ -107,7 +107,7 @@ def _show(
 ) -> None:
     from heeltoe.motion.check import check_pair
     from heeltoe.views.terminal.motion import print_motion, print_motions
-    from heeltoe.views.terminal.render import print_warnings
+    from heeltoe.views.terminal.screen import print_warnings
 
     side_by_side = 1 < len(motions) <= _SIDE_BY_SIDE
     if side_by_side:

@@ -18,7 +18,7 @@ from heeltoe.base.blocks import Block, Number
 from heeltoe.result.contract import CRACKED, JOINT_METER_M, RESIDUAL_SLIP
 from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judged, LimitCheck
 from heeltoe.study.plan.crack_columns import column_of
-from heeltoe.study.plan.motions import alone
+from heeltoe.study.plan.motion_names import alone
 from heeltoe.study.run.aggregate import Walk
 from heeltoe.units.parse import STANDARD_GRAVITY
 

@@ -81,11 +81,6 @@ class Shake:
         return np.sqrt(ratio) if measure == "arias" else ratio
 
 
-def alone(name: str) -> str:
-    """Return the name of a motion along the stream that is run without that across the valley, too."""
-    return f"{name} alone"
-
-
 def shakes_of(motions: Motions, case: Case, directory: Path) -> tuple[tuple[Shake, ...], tuple[str, ...]]:
     """Read the motions of a study.
 

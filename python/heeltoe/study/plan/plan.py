@@ -38,7 +38,8 @@ from heeltoe.study.plan.axes import Axis, axis_of, beside, check_drawn, law_of
 from heeltoe.study.plan.crack_columns import check_cracks
 from heeltoe.study.plan.file import Scale, Study
 from heeltoe.study.plan.hazard import HazardCurve, read_hazard
-from heeltoe.study.plan.motions import Shake, alone, beside_file, both_signs, shakes_of
+from heeltoe.study.plan.motion_names import alone
+from heeltoe.study.plan.motions import Shake, beside_file, both_signs, shakes_of
 from heeltoe.study.plan.problems import Problems
 from heeltoe.study.plan.samples import MOST_SOBOL, Columns, Samples
 from heeltoe.study.plan.table import read_table

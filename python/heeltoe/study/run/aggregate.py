@@ -17,12 +17,13 @@ from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.crest import CREST_PEAKS
 from heeltoe.result.judge import CREST_LIMITS, LIMITS, Judgement, judge
 from heeltoe.study.plan.crack_columns import column_of
-from heeltoe.study.run.store import Store
 from heeltoe.units.parse import parse
 
+# Not at run time: results can be explained without what writes them.
 if TYPE_CHECKING:
     import pyarrow as pa
 
+    from heeltoe.study.run.store import Store
 
 #: Runs that are looked at together; bytes of columns that are kept once they have been read.
 _TOGETHER, _KEPT = 65_536, 1 << 27

@@ -6,9 +6,8 @@ import io
 from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from heeltoe.views.content.subject import NAMES
 from heeltoe.views.content.tree import Beside, Block, FigureBlock, glued
-from heeltoe.views.words.response import OF_CRACKS
+from heeltoe.views.words.response import NAMES, OF_CRACKS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

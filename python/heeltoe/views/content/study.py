@@ -32,7 +32,6 @@ from heeltoe.views.content.study_answers import (
     results,
 )
 from heeltoe.views.content.study_subject import StudySubject
-from heeltoe.views.content.subject import NAMES
 from heeltoe.views.content.suite import suite, suite_answer
 from heeltoe.views.content.tree import (
     Block,
@@ -48,6 +47,7 @@ from heeltoe.views.content.tree import (
 )
 from heeltoe.views.words.fields import shown
 from heeltoe.views.words.numbers import Numbers
+from heeltoe.views.words.response import NAMES
 from heeltoe.views.words.studies import values_phrase
 
 if TYPE_CHECKING:

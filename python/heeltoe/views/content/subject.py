@@ -14,12 +14,12 @@ from heeltoe.result.response import Response
 from heeltoe.units.write import NOTHING
 from heeltoe.views.content.tree import FigureBlock, Inline, Table
 from heeltoe.views.words.numbers import QUANTITIES, Numbers, Value
+from heeltoe.views.words.response import NAMES
 
 if TYPE_CHECKING:
     from heeltoe.models.statics.joints import Joints
     from heeltoe.models.statics.model import Statics
 
-NAMES = {"rigid": "rigid block", "flexible": "flexible dam", "decoupled": "decoupled block"}
 #: Label, key in the JSON, and the quantity where the key does not say it.
 Labels = Sequence[tuple[str, str, str | None]]
 

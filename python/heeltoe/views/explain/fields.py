@@ -133,9 +133,9 @@ def _leaf(path: str, field: FieldInfo, meaning: str, kind: str) -> Meaning:
         path,
         kind,
         meaning,
-        _holds(field),
+        _holds(field, quantities),
         needed or default,
-        "; ".join(filter(None, (_limits(field), _plausible(path) if kind == "field of a case" else ""))),
+        "; ".join(filter(None, (_limits(field, quantities), _plausible(path) if kind == "field of a case" else ""))),
         _place(path, kind),
         _not_with(path, kind),
         page_of(path, kind),
@@ -172,12 +172,12 @@ def _choices(annotation: Any) -> tuple[str, ...]:
     return next((choices for argument in get_args(annotation) if (choices := _choices(argument))), ())
 
 
-def _holds(field: FieldInfo) -> str:
+def _holds(field: FieldInfo, names: list[str]) -> str:
     listed = is_list(field)
     choices = _choices(field.annotation)
     if choices:
         return f"{'one or several' if listed else 'one'} of {', '.join(choices)}"
-    quantities = [DIMENSIONS[quantity] for quantity in quantities_of(field)]
+    quantities = [DIMENSIONS[name] for name in names]
     schemas = [what.json_schema or {} for what in field.metadata if isinstance(what, WithJsonSchema)]
     for schema in schemas:
         if quantities and "array" in schema.get("type", ""):
@@ -203,8 +203,7 @@ def _plain(annotation: Any) -> Iterator[Any]:
         yield from _plain(argument)
 
 
-def _limits(field: FieldInfo) -> str:
-    quantities = quantities_of(field)
+def _limits(field: FieldInfo, quantities: list[str]) -> str:
     if len(quantities) > 1 or get_origin(field.annotation) is tuple:
         return ""  # of rows each cell has its own
     unit = DIMENSIONS[quantities[0]].unit if quantities else ""

@@ -12,7 +12,8 @@ from heeltoe.case.model import Case
 from heeltoe.case.warnings import drawing_notice
 from heeltoe.units.sentences import written
 from heeltoe.views.content.tree import Table
-from heeltoe.views.terminal.render import label_grid, print_more, print_table, print_title, safe
+from heeltoe.views.terminal.render import print_table
+from heeltoe.views.terminal.screen import label_grid, print_more, print_title, safe
 
 # Not at run time: neither waits for the other's parts.
 if TYPE_CHECKING:

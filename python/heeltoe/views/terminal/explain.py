@@ -13,7 +13,7 @@ from heeltoe.case.thesis import THESIS_FIELDS
 from heeltoe.kernel.build import build_info
 from heeltoe.views.explain.find import explain, related
 from heeltoe.views.explain.meaning import KINDS, Meaning
-from heeltoe.views.terminal.render import label_grid, label_lines
+from heeltoe.views.terminal.screen import label_grid, label_lines
 
 # Longer names push what they mean to the right.
 _NAME = 40

@@ -8,7 +8,7 @@ import numpy as np
 from rich.console import Console
 
 from heeltoe.units.sentences import written
-from heeltoe.views.terminal.render import label_grid, print_title
+from heeltoe.views.terminal.screen import label_grid, print_title
 
 if TYPE_CHECKING:
     from heeltoe.mechanics.law_curve import LawCurve

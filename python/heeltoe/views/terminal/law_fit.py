@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 
 from heeltoe.views.content.law_fit import fall_sentence, numbers_of, summary_lines
-from heeltoe.views.terminal.render import label_grid, print_items, print_title, safe
+from heeltoe.views.terminal.screen import label_grid, print_items, print_title, safe
 
 if TYPE_CHECKING:
     from heeltoe.mechanics.law_fit import LawFits

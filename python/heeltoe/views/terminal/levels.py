@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 
 from heeltoe.views.content.levels import HEAD, check_line, level_row, levels_verdict, too_few
-from heeltoe.views.terminal.render import print_items, print_title, quiet_table, safe
+from heeltoe.views.terminal.screen import print_items, print_title, quiet_table, safe
 
 if TYPE_CHECKING:
     from heeltoe.study.run.levels import LevelResults

@@ -8,7 +8,7 @@ from rich.console import Console
 
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.units.parse import STANDARD_GRAVITY
-from heeltoe.views.terminal.render import label_lines, print_warnings, quiet_table, safe
+from heeltoe.views.terminal.screen import label_lines, print_warnings, quiet_table, safe
 from heeltoe.views.words.motion import about_motion, about_motions, suspicions
 
 #: The short form says where and how strong a motion is.

@@ -16,11 +16,10 @@ from heeltoe.result.response import Response
 from heeltoe.result.verdict import effect_sentence, trial_text, verdict
 from heeltoe.units.sentences import written
 from heeltoe.units.write import NOTHING, length
-from heeltoe.views.content.subject import NAMES, Subject
-from heeltoe.views.terminal.render import Screen, print_title, quiet_table, render, safe
+from heeltoe.views.terminal.screen import Screen, print_title, quiet_table, safe
 from heeltoe.views.words.motion import sampling
 from heeltoe.views.words.numbers import Amount, Cell, Numbers, in_one_unit
-from heeltoe.views.words.response import listed
+from heeltoe.views.words.response import NAMES, listed
 
 _MORE = "the ground motion, static loads, modes of motion, energy and convergence"
 # So many cracks have a row of their own.
@@ -35,6 +34,8 @@ def print_response(response: Response, console: Console, units: str = "si", deta
     if details is not None:
         # Here, as the sections of a report take longer to load than a rigid run takes.
         from heeltoe.views.content.document import run_sections
+        from heeltoe.views.content.subject import Subject
+        from heeltoe.views.terminal.render import render
 
         numbers = Numbers(response.to_json(), units)
         render(run_sections(Subject(details, response, numbers, figures={})), console)

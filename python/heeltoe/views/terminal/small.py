@@ -23,7 +23,8 @@ from heeltoe.study.small.run_table import BESIDE, SmallStudy
 from heeltoe.study.small.solve import Solved
 from heeltoe.units.systems import INCH
 from heeltoe.views.content.solve import solve_answer, solve_table
-from heeltoe.views.terminal.render import fits, in_parts, print_more, print_title, quiet_table, render, safe
+from heeltoe.views.terminal.render import render
+from heeltoe.views.terminal.screen import fits, in_parts, print_more, print_title, quiet_table, safe
 
 
 def _length(metres: float, units: str) -> str:

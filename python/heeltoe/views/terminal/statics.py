@@ -11,7 +11,8 @@ from heeltoe.units.sentences import numbers, quantity
 from heeltoe.views.content.checks import answer_of, missed_of, section_table
 from heeltoe.views.content.statics import MOST_MISSED, sheet_sections, statics_sections
 from heeltoe.views.content.tree import Notes, Paragraph, Strong
-from heeltoe.views.terminal.render import Screen, print_title, print_warnings, quiet_table, render, safe
+from heeltoe.views.terminal.render import render
+from heeltoe.views.terminal.screen import Screen, print_title, print_warnings, quiet_table, safe
 from heeltoe.views.words.statics import section_warnings
 
 

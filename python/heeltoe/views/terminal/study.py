@@ -9,7 +9,8 @@ from heeltoe.study.answers.study_results import StudyResults
 from heeltoe.study.run.run import Outlook, Progress
 from heeltoe.units.sentences import counted
 from heeltoe.views.content.study import study_answer, study_sections
-from heeltoe.views.terminal.render import Screen, print_title, print_warnings, render
+from heeltoe.views.terminal.render import render
+from heeltoe.views.terminal.screen import Screen, print_title, print_warnings
 
 
 def duration(seconds: float) -> str:
