@@ -11,7 +11,8 @@ import pytest
 import heeltoe
 from heeltoe.case.toml_writer import case_text
 from heeltoe.errors.error import InputError
-from heeltoe.study.small.solve import Point, _goes_one_way, solve
+from heeltoe.study.small.solve import _goes_one_way, solve
+from heeltoe.study.small.solved import Point
 from heeltoe.views.content.solve import solve_answer
 from shared.command import command
 from shared.dams import example

@@ -144,8 +144,8 @@ class Entry(NamedTuple):
 @cache
 def entries(kind: type) -> tuple[Entry, ...]:
     """Return what the JSON has of a block, in its order: fields, then properties, with a :class:`Number`."""
-    hints = get_type_hints(kind, include_extras=True)
-    entries = {item.name: hints[item.name] for item in fields(made(kind))}
+    # In the order of the fields of a dataclass, which the kind need not be yet.
+    entries = get_type_hints(kind, include_extras=True)
     for name, thing in (item for owner in reversed(kind.__mro__) for item in vars(owner).items()):
         if isinstance(thing, property) and str(thing.fget.__annotations__.get("return")).startswith("Annotated"):
             entries[name] = get_type_hints(thing.fget, include_extras=True)["return"]

@@ -15,7 +15,6 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import process
 from heeltoe.motion.records import HeaderFactor
 from heeltoe.motion.records.catalog import PREFIX, find
-from heeltoe.motion.scenario import synthetic
 from heeltoe.motion.sequence import Components, joined
 from heeltoe.motion.start import begun_together
 from heeltoe.warnings.notice import Notice
@@ -234,6 +233,8 @@ def _source(
             # What is said of a list is for its files.
             if getattr(shaking, option) is not None and options_field is None:
                 raise InputError("option-foreign", f"{block}.{option}", owner="a synthetic motion", remedy="")
+        from heeltoe.motion.scenario import synthetic
+
         return synthetic(shaking.file, gravity=gravity, field=file_field)
     # Here: a dozen formats, each with its words, take longer than a run whose motion is made to order.
     from heeltoe.motion.records.read import called, read_record

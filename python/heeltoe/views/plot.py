@@ -17,7 +17,7 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.response import Response
 from heeltoe.study.small.overturning import OverturningMap
 from heeltoe.study.small.run_table import SmallStudy
-from heeltoe.study.small.solve import Solved
+from heeltoe.study.small.solved import Solved
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.all import Figures, all_figures

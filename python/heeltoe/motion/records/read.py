@@ -40,7 +40,6 @@ from heeltoe.motion.records.formats import (
 )
 from heeltoe.motion.records.raw import RawRecord
 from heeltoe.motion.records.to_motion import Options, to_motion
-from heeltoe.motion.scenario import synthetic
 from heeltoe.units.parse import STANDARD_GRAVITY
 
 __all__ = ["READERS", "RawRecord", "is_record", "read_channels", "read_record", "read_text", "read_text_channels"]
@@ -122,6 +121,8 @@ def read_record(
     """
     text = os.fspath(path)
     if text.startswith(PREFIX):
+        from heeltoe.motion.scenario import synthetic
+
         return synthetic(text, gravity=gravity, field=f"{field}.file")
     place = _place(path, field)
     data, name = _load(place)

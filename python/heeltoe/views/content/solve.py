@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from heeltoe.result.judge import LIMITS
-from heeltoe.study.small.solve import Crossing, Solved
+from heeltoe.study.small.solved import Crossing, Solved
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import NOTHING, digits, length, number

@@ -210,7 +210,8 @@ def _limits(field: FieldInfo, quantities: list[str]) -> str:
     limits = []
     for constraint in constraints(field):
         for name, words in _COMPARED.items():
-            if hasattr(constraint, name):
+            # Its class is asked: a type would look for the name in all that it is made of.
+            if hasattr(type(constraint), name):
                 value = float(getattr(constraint, name))
                 number = shown(f"{value:.10g} {unit}") if unit else f"{value:.10g}"
                 limits.append(words.format(number))

@@ -39,7 +39,7 @@ from heeltoe.study.answers.portfolio import Ranks
 from heeltoe.study.answers.sensitivity import Sobol
 from heeltoe.study.answers.suite import SuiteAnswer
 from heeltoe.study.small.overturning import OverturningMap
-from heeltoe.study.small.solve import Solved
+from heeltoe.study.small.solved import Solved
 from heeltoe.views.explain.meaning import Meaning
 from heeltoe.views.explain.pages import page_of
 from heeltoe.views.explain.result_keys import OF_A_RUN, OF_STATICS, OF_STUDIES

@@ -16,7 +16,7 @@ from heeltoe.result.contract import RESIDUAL_SLIP
 from heeltoe.result.judge import LIMITS
 from heeltoe.study.small.overturning import ENDS, OverturningMap
 from heeltoe.study.small.run_table import SmallStudy
-from heeltoe.study.small.solve import Solved
+from heeltoe.study.small.solved import Solved
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import length
 from heeltoe.views.figures.crack_level import crack_level_figure

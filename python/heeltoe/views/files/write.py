@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from heeltoe.study.answers.study_results import StudyResults
     from heeltoe.study.small.overturning import OverturningMap
     from heeltoe.study.small.run_table import SmallStudy
-    from heeltoe.study.small.solve import Solved
+    from heeltoe.study.small.solved import Solved
 
 #: The directory of the VTK files, one of each kind for each frame, of which only what lists them is told.
 VTK = "vtk"

@@ -20,7 +20,7 @@ from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import advice
 from heeltoe.study.plan.crack_columns import column_of
 from heeltoe.study.small.run_table import BESIDE, SmallStudy
-from heeltoe.study.small.solve import Solved
+from heeltoe.study.small.solved import Solved
 from heeltoe.units.systems import INCH
 from heeltoe.views.content.solve import solve_answer, solve_table
 from heeltoe.views.terminal.render import render
