@@ -12,7 +12,6 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -28,10 +27,6 @@ from heeltoe.result.response import Response
 from heeltoe.study.plan.axes import Axis
 from heeltoe.study.small.solved import Crossing, Point, Solved
 from heeltoe.units.parse import DIMENSIONS, parse, parse_acceleration
-
-if TYPE_CHECKING:
-    pass
-
 
 Progress = Callable[[str], None]
 #: Limits of a case that are lengths.
