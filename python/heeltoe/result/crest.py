@@ -13,6 +13,7 @@ from functools import lru_cache
 from typing import Annotated
 
 import numpy as np
+from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats
 from heeltoe.base.blocks import Block, Number
@@ -126,15 +127,23 @@ def crest_series(step: float, place: Floats, ground: Floats) -> CrestSeries:
 def in_band(acceleration: Floats, step: float) -> Floats:
     """Return the part of an acceleration (n,), with steps of `step` seconds, that is within the band; beyond its ends
     it is constant."""
-    half = band_weights(step)
-    reach = half.size - 1
+    reach = band_weights(step).size - 1
     if not reach or not acceleration.size:
         return acceleration
     # By Fourier's transform; SciPy has a function for it, which takes longer to load than a block to run.
-    padded, weights = np.pad(acceleration, reach, mode="edge"), np.concatenate([half[:0:-1], half])
-    size = padded.size + weights.size - 1
-    passed: Floats = np.fft.irfft(np.fft.rfft(padded, size) * np.fft.rfft(weights, size), size)
+    padded = np.pad(acceleration, reach, mode="edge")
+    size = padded.size + 2 * reach
+    passed: Floats = np.fft.irfft(np.fft.rfft(padded, size) * _transformed_weights(step, size), size)
     return passed[2 * reach : padded.size]
+
+
+@lru_cache(maxsize=2)
+def _transformed_weights(step: float, size: int) -> NDArray[np.complex128]:
+    """Return the transform of the weights both ways: the crest and the ground of a run have the same moments."""
+    half = band_weights(step)
+    transformed = np.fft.rfft(np.concatenate([half[:0:-1], half]), size)
+    transformed.flags.writeable = False
+    return transformed
 
 
 @lru_cache(maxsize=32)

