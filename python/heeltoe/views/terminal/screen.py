@@ -1,4 +1,4 @@
-"""What all screens of a terminal have in common (rich)."""
+"""The parts that all screens of a terminal have in common (rich)."""
 
 from __future__ import annotations
 
