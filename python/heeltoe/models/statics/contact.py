@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
 from heeltoe.base.arrays import Floats
-from heeltoe.base.root import find_root
 from heeltoe.mechanics.loads import Resultant
 from heeltoe.models.statics.water import StillWater
 
@@ -153,6 +151,8 @@ class _State:
 
     def first_safe(self, side: str) -> tuple[float | None, int]:
         """Return the smallest stable opening from one end, and the iterations of the search."""
+        from scipy.optimize import brentq
+
         iterations = 0
         for low, high in self._stretches(side):
             # Just before its end a stretch still has the strength and the drains of its beginning.
@@ -162,9 +162,9 @@ class _State:
             if self.margin(low, side) >= 0.0:
                 return (low if self._other_end_holds(low, side) else None), iterations
             if self.margin(before, side) >= 0.0:
-                root, steps = find_root(partial(self.margin, side=side), low, before, xtol=1e-14, rtol=1e-14)
-                iterations += steps
-                return (root if self._other_end_holds(root, side) else None), iterations
+                root, report = brentq(self.margin, low, before, args=(side,), xtol=1e-14, rtol=1e-14, full_output=True)
+                iterations += report.iterations
+                return (float(root) if self._other_end_holds(float(root), side) else None), iterations
         return None, iterations
 
     def _other_end_holds(self, length: float, side: str) -> bool:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from heeltoe.base.root import find_root
 from heeltoe.case.model import Case
 from heeltoe.models.statics.cases import at_depth, bond_of, usual
 from heeltoe.models.statics.load_case import LoadCase
@@ -75,7 +74,9 @@ def critical_water_levels(case: Case) -> dict[str, float | None]:
 
 def _first_zero(margin: Callable[[float], float], depths: list[float]) -> float | None:
     """Return the first depth at which a margin falls below zero; the lowest where it starts there."""
+    from scipy.optimize import brentq
+
     for low, high in zip([depths[0], *depths[:-1]], depths, strict=True):
         if margin(high) < 0.0:
-            return high if low == high else find_root(margin, low, high, xtol=1e-9, rtol=1e-12)[0]
+            return high if low == high else float(brentq(margin, low, high, xtol=1e-9, rtol=1e-12))
     return None
