@@ -296,8 +296,8 @@ def test_the_work_of_runs_is_counted_once():
 
 
 def test_a_mesh_whose_runs_are_too_many_is_not_built(monkeypatch):
-    """By hand: of twice the elements five runs at 4 and nine at 2; on the first mesh nine at a half, and five of what is
-    larger."""
+    """By hand: of twice the elements five runs at 4 and nine at 2; on the first mesh nine at a half, and five of larger
+    surroundings."""
     case = read_case(FIELDS | {"flexible": {"elements_across": 2}, "motion": {"file": "elcentro-1940-180-nga"}})
     shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(MOTION, None, 1.0).shaking)
     trials, work = Trials(shaken, 1e-3, 0.1), 5.0 * 4.0 + 9.0 * 2.0 + (9.0 + 5.0) * 0.5
