@@ -96,6 +96,7 @@ impl<'a> Across<'a> {
     /// Write the rows of the step's contact problem.
     pub(super) fn set_up<W: Lanes>(&mut self, contacts: &Contacts) {
         self.linear.find_free::<W>(false, false);
+        self.disc.begin();
         let (linear, rows, m) = (&self.linear, &mut self.rows, contacts.len());
         let held = &self.held[linear.damping()];
         let all = self.moved;

@@ -15,17 +15,19 @@
 //! p_e = mu p_n,      s u_q + (1 - s) / rho p_q = 0,      s = mu p_n / |z|
 //! ```
 //!
-//! The states, directions and shares of the last step are tried first. From step to step they change little: the inverse
-//! of the matrix goes along, three of its rows for each node that changes, and with it
+//! The states and shares of the last step are tried first, with the impulses and directions to which the last two lead. From
+//! step to step they change little: the inverse of the matrix goes along, three of its rows for each node that changes, and
+//! with it
 //!
 //! ```text
 //! p_T = mu p_n e(phi),      u_n + h = 0,      u_q = 0      and, where it sticks,      u_T = 0
 //! ```
 //!
-//! are solved by corrections of p and phi, as long as each leaves little of what was amiss. Whatever the corrections before
-//! have shown of the matrix is used (Broyden; Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, chapter
-//! 7). Where sets of states come round in a circle, sweeps help: each node by itself, the others held, has a solution by
-//! one number `lambda >= 0` with `u_T = -lambda p_T`. A law adds a constant to `mu p_n`.
+//! are solved by corrections of p and phi, as long as each leaves little of what was amiss; where one does not, the inverse
+//! gets the directions and shares that they have come to. Whatever the corrections before have shown of the matrix is used
+//! (Broyden; Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, chapter 7). Where sets of states come round
+//! in a circle, sweeps help: each node by itself, the others held, has a solution by one number `lambda >= 0` with
+//! `u_T = -lambda p_T`. A law adds a constant to `mu p_n`.
 //!
 //! A neighbour that a node touches is a plastic stop: where it pushes, `u_y = 0`, it takes all that acts across the valley,
 //! and friction acts along the crack alone. The forces that a node bears there are a convex set, half of a disc and half of a
@@ -49,6 +51,12 @@ const RIGHT: f64 = 1e-10;
 /// Corrections at most, and what each may leave of what was amiss.
 const CORRECTIONS: usize = 12;
 const CLOSER: f64 = 0.5;
+/// How often in a step the inverse may follow the corrections.
+const RENEWALS: u32 = 3;
+/// What part of the usual differences it then may leave.
+const RENEWED: f64 = 0.2;
+/// Cosine of the most that a direction may have turned in the last step if it is to go on turning.
+const NEAR: f64 = 0.9;
 /// By how much the direction of a slip (as a sine) and its share may be others than those in the inverse.
 const TURNED: f64 = 0.05;
 const SHARED: f64 = 0.05;
@@ -129,6 +137,9 @@ struct Row {
 /// The solver, with the states of the last step.
 pub(in super::super) struct Disc {
     states: Vec<State>,
+    /// States and impulses of the step before it, and whether a step begins.
+    before: Vec<(State, [f64; 3])>,
+    begins: bool,
     /// The inverse of the equations, column by column, each filled up to whole groups; impulses and equations stand in
     /// the order along, normal, across, each of all contacts.
     inverse: Vec<Group>,
@@ -147,6 +158,8 @@ impl Disc {
     pub(in super::super) fn new(contacts: usize) -> Self {
         Disc {
             states: vec![State::Stick; contacts],
+            before: vec![(State::Absent, [0.0; 3]); contacts],
+            begins: false,
             inverse: Vec::new(),
             of: Vec::new(),
             x: vec![0.0; 3 * contacts],
@@ -156,6 +169,11 @@ impl Disc {
             pivots: Vec::new(),
             steps: Vec::new(),
         }
+    }
+
+    /// Begin a step: what its first solution starts from is where the last two steps lead.
+    pub(in super::super) fn begin(&mut self) {
+        self.begins = true;
     }
 
     /// Solve from the states of the last step; `status` says which contacts are absent, and takes the states found. `moved`
@@ -190,6 +208,9 @@ impl Disc {
             }
         }
         let mut way = Way { problem, rows, p, u };
+        if std::mem::take(&mut self.begins) {
+            self.go_ahead(&mut way);
+        }
         let mut report = Report::default();
         let mut found = search::<W>(self, &mut way, TRIALS, &mut report);
         let (mut swept, mut look) = (0, LOOK);
@@ -229,6 +250,33 @@ impl Disc {
         report
     }
 
+    /// Let impulses and directions of contacts whose state has lasted go on as in the last step.
+    fn go_ahead(&mut self, way: &mut Way) {
+        let m = self.states.len();
+        for (contact, (state, before)) in self.states.iter_mut().zip(&mut self.before).enumerate() {
+            let now = [way.p[contact], way.p[m + contact], way.rows.p[contact]];
+            let (was, from) = std::mem::replace(before, (*state, now));
+            let lasts = match (&mut *state, was) {
+                // Where a neighbour pushes, friction acts along the crack.
+                (State::Slip(..), _) if way.rows.side[contact] != Side::None => *state == was,
+                (State::Slip(to, _), State::Slip(of, _)) => {
+                    let turned = [2.0 * to[0] - of[0], 2.0 * to[1] - of[1]];
+                    let size = length(turned[0], turned[1]);
+                    let near = to[0] * of[0] + to[1] * of[1] > NEAR;
+                    if near {
+                        *to = [turned[0] / size, turned[1] / size];
+                    }
+                    near
+                }
+                (state, was) => *state == was,
+            };
+            if lasts {
+                let [along, normal, across] = [0, 1, 2].map(|k| 2.0 * now[k] - from[k]);
+                (way.p[contact], way.p[m + contact], way.rows.p[contact]) = (along, normal, across);
+            }
+        }
+    }
+
     /// Go from set to set; false where none is right of so many.
     #[inline(always)]
     fn go_on<W: Lanes>(&mut self, way: &mut Way, most: u32, report: &mut Report) -> bool {
@@ -253,28 +301,15 @@ impl Disc {
         if self.of.is_empty() {
             return false;
         }
-        let far = |contact: usize| {
-            let (of, of_side, mu) = self.of[contact];
-            let slips = || (way.problem.mu_slip[contact] - mu).abs() > RUBBED;
-            way.rows.side[contact] != of_side
-                || match (self.states[contact], of) {
-                    (State::Slip(to, share), State::Slip(other, of_share)) => {
-                        to[0] * other[0] + to[1] * other[1] < 0.0
-                            || (to[0] * other[1] - to[1] * other[0]).abs() > TURNED
-                            || (share - of_share).abs() > SHARED
-                            || slips()
-                    }
-                    (state, of) => state != of,
-                }
-        };
-        let changed = (0..self.states.len()).filter(|contact| far(*contact)).count();
+        let far = |contact: &usize| self.off(way, *contact, 1.0);
+        let changed = (0..self.states.len()).filter(far).count();
         if changed > self.states.len() / 3 + 1 {
             return false;
         }
         if changed == 0 {
             return true;
         }
-        let changed: Vec<usize> = (0..self.states.len()).filter(|contact| far(*contact)).collect();
+        let changed: Vec<usize> = (0..self.states.len()).filter(far).collect();
         for contact in changed {
             if !self.replace::<W>(way, contact) {
                 self.of.clear();
@@ -283,6 +318,23 @@ impl Disc {
             self.of[contact] = self.set_of(way, contact);
         }
         true
+    }
+
+    /// Whether the inverse has other equations of a contact, or directions and shares that are off by more than this part
+    /// of what they may be.
+    #[inline(always)]
+    fn off(&self, way: &Way, contact: usize, part: f64) -> bool {
+        let (of, of_side, mu) = self.of[contact];
+        way.rows.side[contact] != of_side
+            || match (self.states[contact], of) {
+                (State::Slip(to, share), State::Slip(other, of_share)) => {
+                    to[0] * other[0] + to[1] * other[1] < 0.0
+                        || (to[0] * other[1] - to[1] * other[0]).abs() > part * TURNED
+                        || (share - of_share).abs() > part * SHARED
+                        || (way.problem.mu_slip[contact] - mu).abs() > RUBBED
+                }
+                (state, of) => state != of,
+            }
     }
 
     fn set_of(&self, way: &Way, contact: usize) -> (State, Side, f64) {
@@ -334,17 +386,20 @@ impl Disc {
                 felt[r].store(&mut groups[r]);
             }
             let felt = W::sums(&groups);
-            for c in 0..3 {
-                let by = -(inner[c][0] * felt[0] + inner[c][1] * felt[1] + inner[c][2] * felt[2]);
-                add_times::<W>(by, &old[c * stride..][..stride], column);
+            let mut by = [W::all(0.0); 3];
+            for (by, inner) in by.iter_mut().zip(&inner) {
+                *by = W::all(-(inner[0] * felt[0] + inner[1] * felt[1] + inner[2] * felt[2]));
             }
+            add_three::<W>(by, old, column);
         }
         for (k, j) in own.into_iter().enumerate() {
             let column = &mut self.inverse[j * stride..][..stride];
             column.fill([0.0; LANES]);
-            for c in 0..3 {
-                add_times::<W>(inner[c][k], &old[c * stride..][..stride], column);
-            }
+            add_three::<W>(
+                [W::all(inner[0][k]), W::all(inner[1][k]), W::all(inner[2][k])],
+                old,
+                column,
+            );
         }
         true
     }
@@ -365,7 +420,7 @@ impl Disc {
             }
         }
         let enough = RIGHT * largest(&way.problem.b).max(largest(&way.rows.b));
-        let mut before = f64::INFINITY;
+        let (mut before, mut renewals) = (f64::INFINITY, 0);
         self.steps.clear();
         for _ in 0..CORRECTIONS {
             way.velocities::<W>();
@@ -374,7 +429,12 @@ impl Disc {
                 return true;
             }
             if now > CLOSER * before || now.is_nan() {
-                break;
+                if renewals == RENEWALS || now.is_nan() || !self.renew::<W>(way) {
+                    break;
+                }
+                renewals += 1;
+                self.steps.clear();
+                self.amiss(way);
             }
             before = now;
             self.find::<W>();
@@ -385,6 +445,33 @@ impl Disc {
         }
         self.of.clear();
         false
+    }
+
+    /// Let the inverse have the directions and shares of all that slips where the corrections are; false where it cannot.
+    #[inline(always)]
+    fn renew<W: Lanes>(&mut self, way: &Way) -> bool {
+        let m = self.states.len();
+        for contact in 0..m {
+            let State::Slip(to, _) = self.states[contact] else {
+                continue;
+            };
+            if way.rows.side[contact] == Side::None {
+                let rho = way.rho(contact);
+                let size = length(
+                    way.p[contact] - rho * way.u[contact],
+                    way.rows.p[contact] - rho * way.rows.u[contact],
+                );
+                let limit = way.limit(contact, true, way.p[m + contact]);
+                self.states[contact] = State::Slip(to, (limit / size.max(f64::MIN_POSITIVE)).min(1.0));
+            }
+            if self.off(way, contact, RENEWED) {
+                if !self.replace::<W>(way, contact) {
+                    return false;
+                }
+                self.of[contact] = self.set_of(way, contact);
+            }
+        }
+        true
     }
 
     /// Turn the right-hand sides into the solution by the inverse.
@@ -400,10 +487,6 @@ impl Disc {
         let stride = self.sum.len();
         let mut steps = self.steps.chunks_exact(stride);
         if let Some(mut last) = steps.next() {
-            let share = |step: &[Group], sum: &[Group]| {
-                let (step, sum) = (step.as_flattened(), sum.as_flattened());
-                dot(step, sum) / dot(step, step)
-            };
             for step in steps {
                 add_times::<W>(share(last, &self.sum), step, &mut self.sum);
                 last = step;
@@ -830,6 +913,24 @@ fn inverse_of_three(mut rows: [[f64; 6]; 3]) -> Option<[[f64; 3]; 3]> {
     Some(rows.map(|row| [row[3], row[4], row[5]]))
 }
 
+/// How much of a correction another one has.
+#[inline(always)]
+fn share(step: &[Group], sum: &[Group]) -> f64 {
+    let (step, sum) = (step.as_flattened(), sum.as_flattened());
+    dot(step, sum) / dot(step, step)
+}
+
+/// Add three columns, one after the other, times these numbers to another one.
+#[inline(always)]
+fn add_three<W: Lanes>([a, b, c]: [W; 3], columns: &[Group], to: &mut [Group]) {
+    let (one, rest) = columns.split_at(to.len());
+    let (two, three) = rest.split_at(to.len());
+    for (((to, one), two), three) in to.iter_mut().zip(one).zip(two).zip(three) {
+        let sum = a.fma(W::load(one), W::load(to));
+        c.fma(W::load(three), b.fma(W::load(two), sum)).store(to);
+    }
+}
+
 /// Length of a vector; unlike `hypot` it costs next to nothing.
 #[inline(always)]
 fn length(a: f64, b: f64) -> f64 {
@@ -1060,6 +1161,10 @@ mod tests {
                 for (k, b) in rows.b.iter_mut().enumerate() {
                     *b = start.1[k] * (1.3 * turn).cos() + 0.5 * other.b[k] * turn.sin();
                 }
+                if seed % 2 == 0 {
+                    rows.touches = vec![[turn.sin() > 0.3, turn.sin() < -0.5]; CONTACTS];
+                }
+                disc.begin();
                 let report =
                     disc.solve::<Plain>(&problem, &mut rows, &mut status, (&mut p, &mut u), step == 0);
                 assert!(report.residual < 1e-8, "{seed} {step}: {}", report.residual);
