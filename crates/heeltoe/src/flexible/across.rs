@@ -28,6 +28,9 @@ use super::track::Track;
 /// Closer to a neighbour than this (m) a node touches it; it may pass it by the way of one step.
 const TOUCHES: f64 = 1e-9;
 
+/// Contacts whose correlation, squared, differs from 1 by less are of the same two nodes.
+const ALIKE: f64 = 1e-9;
+
 /// The dam across the valley on its way.
 pub(super) struct Across<'a> {
     crossing: CrossShaking<'a>,
@@ -120,6 +123,11 @@ impl<'a> Across<'a> {
         for (touches, slip) in rows.touches.iter_mut().zip(&self.slip) {
             let [left, right] = self.crossing.gap;
             *touches = [slip + TOUCHES > left, TOUCHES - slip > right];
+        }
+        for contact in 1..m {
+            if stopped_by_another(contacts, rows, contact) {
+                rows.touches[contact] = [false; 2];
+            }
         }
     }
 
@@ -216,4 +224,14 @@ impl<'a> Across<'a> {
         self.linear.book(ledger);
         ledger.stored = stored + self.linear.energy();
     }
+}
+
+/// Whether a contact that touches a neighbour is of the same two nodes as one before it that does, too: where the ends of
+/// both faces meet, each has one, and what stops one of them stops the other.
+fn stopped_by_another(contacts: &Contacts, rows: &Rows, contact: usize) -> bool {
+    let touches = |k: usize| contacts.pairs[k].is_some() && rows.touches[k] != [false; 2];
+    let g = |i: usize, j: usize| rows.g[i * contacts.len() + j];
+    let alike =
+        |other: usize| g(contact, other).powi(2) > (1.0 - ALIKE) * g(contact, contact) * g(other, other);
+    touches(contact) && (0..contact).any(|other| touches(other) && alike(other))
 }
