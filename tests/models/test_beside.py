@@ -107,6 +107,8 @@ def test_brief_meaning_gives_no_reason(both):
         ({"rocking_downstream_rad": 1.1e-3}, "differ in the rotation downstream (1.1 mrad of the flexible dam, 0"),
         ({"peak_slip_upstream_m": -0.01}, "differ in the peak slip upstream (10.0 mm of the flexible dam, 0.00 mm"),
         ({"peak_slip_downstream_m": 0.05}, "They end alike, but differ in the peak slip downstream"),
+        # The length that differs most, not the first one.
+        ({"peak_slip_upstream_m": -0.01, "opening_upstream_m": 0.03}, "They end alike, but differ in the opening at"),
         ({"opening_upstream_m": 0.6e-3}, "differ in the opening at the upstream face (0.60 mm of the flexible dam, 0"),
         # No inspection tells these.
         ({"opening_upstream_m": 0.4e-3, "rocking_upstream_rad": 0.2e-3}, "They agree in slips, rotations and openings"),

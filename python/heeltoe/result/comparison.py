@@ -3,6 +3,8 @@ difference."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from heeltoe.result.contract import HEADLINES, RESIDUAL_SLIP
 from heeltoe.result.quantity import Quantity
 from heeltoe.result.record import ResponseData
@@ -43,7 +45,7 @@ def differing(dam: ResponseData, block: ResponseData) -> tuple[Quantity, ...]:
     """Return the headline numbers in which two models do not agree.
 
     They agree in a number where the larger is at most 1.25 times the smaller, with the same sign, or where they are
-    less than 0.5 mm or 1 mrad apart. Those that matter most come first.
+    less than 0.5 mm or 1 mrad apart.
     """
     return tuple(headline for headline in HEADLINES if not _agree(headline, dam, block))
 
@@ -59,26 +61,26 @@ def meaning(dam: ResponseData, block: ResponseData, units: str = "si", *, brief:
     apart = differing(dam, block)
     if not apart:
         return _agreement(block)
-    slips = [headline for headline in apart if headline.kind == "slip"]
-    if not slips:
-        return (
-            f"They slide alike, but differ in the {_numbers_of(apart[0], dam, block, units)}. Trust the flexible model."
-        )
+    others = [headline for headline in apart if headline is not RESIDUAL_SLIP]
+    if RESIDUAL_SLIP not in apart:
+        alike = "end" if any(headline.kind == "slip" for headline in apart) else "slide"
+        return f"They {alike} alike, but {_most(others, dam, block, units)}. Trust the flexible model."
     far, near = (abs(RESIDUAL_SLIP.of(response)) for response in (dam, block))
-    if slips[0] is not RESIDUAL_SLIP:
-        return (
-            f"They end alike, but differ in the {_numbers_of(slips[0], dam, block, units)}. Trust the flexible model."
-        )
     if max(far, near) < _LITTLE:
         text = f"Both say that the dam slides by less than {_LITTLE_IN_WORDS[units]} in the end"
-        others = [headline for headline in apart if headline is not RESIDUAL_SLIP]
         if not others:
             return f"{text}."
-        return f"{text}, but they differ in the {_numbers_of(others[0], dam, block, units)}. Trust the flexible model."
+        return f"{text}, but they {_most(others, dam, block, units)}. Trust the flexible model."
     text, reason, source = _slips_differ(dam, block)
     if brief:
         return f"{text}. Trust the flexible model."
     return f"{text}: {reason}. Trust the flexible model{f' ({_TABLE.text(units)})' if source else ''}."
+
+
+def _most(apart: Sequence[Quantity], dam: ResponseData, block: ResponseData, units: str) -> str:
+    """Name the length that differs by the most metres; a rotation where no length differs."""
+    most = max(apart, key=lambda of: (of.kind != "rotation", abs(of.of(dam) - of.of(block))))
+    return f"differ in the {_numbers_of(most, dam, block, units)}"
 
 
 def _agree(of: Quantity, dam: ResponseData, block: ResponseData) -> bool:
