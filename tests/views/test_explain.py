@@ -24,6 +24,7 @@ from heeltoe.case.read import case_schema
 from heeltoe.case.thesis import THESIS_FIELDS
 from heeltoe.errors.error import InputError
 from heeltoe.models.statics.joints import statics_of_sections
+from heeltoe.result.outcome import Outcome
 from heeltoe.study.plan.file import Study
 from heeltoe.views.explain.find import everything, explain, related, usual_names
 from heeltoe.views.explain.meaning import KINDS
@@ -230,6 +231,13 @@ def test_a_name_may_be_written_in_several_ways():
     assert {item.kind for item in explain("friction")} == {"field of a case", "key of the JSON"}
     assert explain("band-pass")[0].parts[1].endswith(".low")
     assert [item.name for item in explain("evidence.residual_slip_m.step")] == ["evidence.residual_slip_m.step"]
+
+
+def test_every_way_to_end_is_explained_with_its_remedy():
+    assert {item.name for item in everything() if item.kind == "outcome of a run"} == set(Outcome)
+    (found,) = explain("lifts across")
+    assert "set motion.cross_valley" in found.meaning
+    assert found.meaning[0].isupper()
 
 
 @pytest.mark.parametrize("name", ["", ".", "*", "crack.frction", "x" * 100_000, "a.b.c", "[", "\0"])

@@ -29,7 +29,7 @@ def explain(
         bool, typer.Option("--schema", help="Print the JSON schema of `heeltoe run --json`, with units and meanings.")
     ] = False,
 ) -> None:
-    """Say what a field of a case or a study, a key of the JSON or a column of a table means."""
+    """Say what a field of a case or a study, a key of the JSON, a column of a table or an outcome means."""
     if schema:
         from heeltoe.result.schema import run_schema
         from heeltoe.result.write import json_text

@@ -221,7 +221,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "run the suite with `heeltoe run` or heeltoe.run_suite, or add [motion]",
     ),
     "explain-unknown": (
-        "{value} is not a field of a case or a study, a key of the JSON or a column{near}",
+        "{value} is not a field of a case or a study, a key of the JSON, a column or an outcome{near}",
         "`heeltoe explain --all` lists all",
     ),
     "app-public": (

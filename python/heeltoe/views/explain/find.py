@@ -12,7 +12,7 @@ from heeltoe.errors.sanitize import near
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.crest import CREST_PEAKS
 from heeltoe.views.explain.fields import fields_of_a_case, fields_of_a_study
-from heeltoe.views.explain.keys import columns, keys_of_the_json
+from heeltoe.views.explain.keys import columns, keys_of_the_json, outcomes
 from heeltoe.views.explain.meaning import KINDS, Meaning
 
 # No name is so long; what is longer is not compared with all of them.
@@ -30,7 +30,7 @@ _HEADLINES = frozenset((*(headline.key for headline in HEADLINES), *CREST_PEAKS)
 @cache
 def everything() -> tuple[Meaning, ...]:
     """Return all names with their meanings, in the order of their kinds."""
-    return (*fields_of_a_case(), *fields_of_a_study(), *keys_of_the_json(), *columns())
+    return (*fields_of_a_case(), *fields_of_a_study(), *keys_of_the_json(), *columns(), *outcomes())
 
 
 def usual_names() -> tuple[Meaning, ...]:

@@ -30,6 +30,7 @@ from heeltoe.result.numbers import (
     Spread,
     Stage,
 )
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.record import ResponseData
 from heeltoe.result.write import MotionNumbers
 from heeltoe.study.answers.comparison import Compared
@@ -153,6 +154,14 @@ def columns() -> Iterator[Meaning]:
             yield Meaning(name, kind, number.meaning, number.unit, found_in=where)
     for name, meaning in OF_STUDIES.items():
         yield Meaning(name, "column of a study", meaning, unit_of(name), found_in="runs of heeltoe study")
+
+
+def outcomes() -> Iterator[Meaning]:
+    """Walk the ways in which a run ends, each with the remedy where it leaves no result."""
+    for outcome in Outcome:
+        sentences = (text[0].upper() + text[1:] for text in (outcome.sentence, outcome.remedy) if text)
+        where = "outcome of heeltoe run --json, runs of heeltoe study"
+        yield Meaning(outcome.value, "outcome of a run", ". ".join(sentences) + ".", "", found_in=where)
 
 
 def attribute_meanings(kind: type) -> dict[str, str]:

@@ -13,6 +13,7 @@ KINDS = {
     "column of the histories": "Columns of the histories",
     "column of the events": "Columns of the events",
     "column of a study": "Columns of the runs of a study",
+    "outcome of a run": "Outcomes of a run",
 }
 
 
