@@ -236,7 +236,7 @@ def test_a_name_may_be_written_in_several_ways():
 def test_every_way_to_end_is_explained_with_its_remedy():
     assert {item.name for item in everything() if item.kind == "outcome of a run"} == set(Outcome)
     (found,) = explain("lifts across")
-    assert "set motion.cross_valley" in found.meaning
+    assert "Set motion.cross_valley" in found.meaning
     assert found.meaning[0].isupper()
 
 
