@@ -21,7 +21,7 @@ from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.evidence.refinement import answer
-from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
+from heeltoe.models.flexible.evidence.trials import CROSS_SLIP, SCALES, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake
 from heeltoe.result.contract import CRACKED, HEADLINES, RESIDUAL_SLIP
@@ -32,8 +32,9 @@ from validation.sources import ENDS_WITH_MOTION, plane_case
 from validation.thesis_dams import record_named
 
 #: Dams with a straight crack and constant friction, with a friction law, a crack with two kinks, or two cracks; plain
-#: ones on elastic rock before water with sound, those with a bond on the crack, and plain ones whose rock is assumed.
-Kind = Literal["plain", "law", "kinks", "two cracks", "rock and water", "bonds", "assumed rock"]
+#: ones on elastic rock before water with sound, those with a bond on the crack, plain ones whose rock is assumed, and
+#: plain ones that the other component of the record shakes across the valley.
+Kind = Literal["plain", "law", "kinks", "two cracks", "rock and water", "bonds", "assumed rock", "cross valley"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 #: So many of those that are called converged must stay where they are.
 COVERED = 0.95
@@ -51,6 +52,10 @@ _RECORDS = (
     "loma-prieta-1989-corralitos-090-nga",
     "northridge-aftershock-1994-sylmar-090-nga",
     "northridge-aftershock-1994-sylmar-360-nga",
+)
+# Components of one record follow each other.
+_OTHER = dict(
+    pair for one, other in zip(_RECORDS[::2], _RECORDS[1::2], strict=True) for pair in ((one, other), (other, one))
 )
 
 
@@ -158,6 +163,10 @@ def draw(seed: int, kind: Kind = "plain") -> Case:
     if kind == "two cracks":
         friction = float(own.uniform(0.6, 1.4))
         fields["further_cracks"] = [{"elevation": f"{height * own.uniform(0.4, 0.85)} m", "friction": friction}]
+    if kind == "cross valley":
+        fields["motion"]["cross_valley"] = {
+            "file": _OTHER.get(record, record.replace(f"seed={seed}", f"seed={seed + 1}"))
+        }
     if kind == "assumed rock":
         return Case.of(fields)
     if kind not in ("rock and water", "bonds"):
@@ -251,7 +260,8 @@ def _moved(shaken: ShakenDam, evidence: EvidenceNumbers, crack: int) -> dict[str
         scales = tuple(evidence.scales)
         halvings = -round(math.log2((evidence.varied_time_step_s or evidence.time_step_s) / evidence.time_step_s))
     finer, shorter = Level(1, halvings), Level(0, halvings + 2)
-    worths = {item.key: getattr(evidence, item.key) for item in HEADLINES} | {CRACKED: evidence.cracked_length_m}
+    worths = {item.key: getattr(evidence, item.key) for item in HEADLINES}
+    worths |= {CRACKED: evidence.cracked_length_m, CROSS_SLIP: evidence.residual_slip_cross_m}
     mesh, step = (trials.numbers(level, scales, crack) for level in (finer, shorter))
     return {
         key: (
