@@ -256,8 +256,8 @@ def _moved(shaken: ShakenDam, evidence: EvidenceNumbers, crack: int) -> dict[str
     trials = Trials(shaken, evidence.time_step_s, _FRAMES)
     scales, halvings = SCALES[:1], 0
     if evidence.scatters:
-        # Means are over runs at the longer of the two steps.
-        scales = tuple(evidence.scales)
+        # Means are over runs at the longer of the two steps; 17 of them say enough.
+        scales = tuple(evidence.scales[:: max(1, len(evidence.scales) // 17)])
         halvings = -round(math.log2((evidence.varied_time_step_s or evidence.time_step_s) / evidence.time_step_s))
     finer, shorter = Level(1, halvings), Level(0, halvings + 2)
     worths = {item.key: getattr(evidence, item.key) for item in HEADLINES}

@@ -34,6 +34,11 @@ PAGES = {
         ("column of the histories", "column of the events", "column of a study"),
         "Parquet or CSV, SI. An elastic dam has no events; columns of what a model does not have are not there.",
     ),
+    "outcomes": (
+        "Outcomes of a run",
+        ("outcome of a run",),
+        "The key and the column `outcome` have one of these; a command whose run has no result ends with exit code 3.",
+    ),
 }
 
 

@@ -16,9 +16,11 @@ _LARGE = 1 << 22
 
 
 def share_heaps() -> None:
-    """Let the threads of this process share one heap for each processor, and large arrays go back as they are freed."""
+    """Let the threads of this process share one heap for each processor, and large arrays go back as they are freed.
+
+    Where the user has set the number of heaps, it stays."""
     set_option = _function("mallopt")
-    if set_option is not None:
+    if set_option is not None and "MALLOC_ARENA_MAX" not in os.environ:
         for name, value in ((_ARENA_MAX, os.cpu_count() or 1), (_MMAP_THRESHOLD, _LARGE), (_TRIM_THRESHOLD, _LARGE)):
             set_option(name, value)
 

@@ -115,7 +115,7 @@ def run(
     return _with_friction_effect(case, response, shaking, output_step) if model == AUTO else response
 
 
-def run_at_best(case: Case, model: str = AUTO) -> Response:
+def run_as_stated(case: Case, model: str = AUTO) -> Response:
     """Run a model on a case as :func:`run` does, with the friction that the crack states and no other: for a caller who
     needs how far the dam slides."""
     check_model(model, "model")

@@ -45,7 +45,7 @@ class Solved(Shown, Block):
     Attributes
     ----------
     quantity
-        What the field holds, a key of :data:`heeltoe.units.parse.DIMENSIONS`.
+        Quantity that the field holds, a key of :data:`heeltoe.units.parse.DIMENSIONS`.
     """
 
     title: Annotated[str, Number("Title of the case.")]

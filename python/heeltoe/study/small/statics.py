@@ -9,7 +9,7 @@ from typing import Any
 from heeltoe.case.model import Case
 from heeltoe.case.read import Source
 from heeltoe.models.cost import Cost
-from heeltoe.models.run import AUTO, cost_of, record_cost, run_at_best, wish_cost
+from heeltoe.models.run import AUTO, cost_of, record_cost, run_as_stated, wish_cost
 from heeltoe.models.statics.after import joints_after, without_own_slip
 from heeltoe.models.statics.joints import Joints, statics_of_sections
 from heeltoe.models.statics.model import statics
@@ -109,7 +109,7 @@ def _judge(case: Case, after: After, say: Say, made: Made) -> Joints:
         key = model, _run_of(dam)
         if key not in made:
             say(f"running the earthquake{what}")
-            made[key] = tuple(reversed(run_at_best(dam, model).responses))
+            made[key] = tuple(reversed(run_as_stated(dam, model).responses))
         return made[key]
 
     def run_alone(alone: Case) -> Sequence[Response]:

@@ -159,9 +159,12 @@ def columns() -> Iterator[Meaning]:
 def outcomes() -> Iterator[Meaning]:
     """Walk the ways in which a run ends, each with the remedy where it leaves no result."""
     for outcome in Outcome:
-        sentences = (text[0].upper() + text[1:] for text in (outcome.sentence, outcome.remedy) if text)
+        result = "a result" if outcome.has_result else "no result"
+        failed = ", and the dam has failed" if outcome.failed else ""
+        texts = (f"{outcome.sentence}: {result}{failed}", outcome.remedy)
+        meaning = " ".join(f"{text[0].upper()}{text[1:]}." for text in texts if text)
         where = "outcome of heeltoe run --json, runs of heeltoe study"
-        yield Meaning(outcome.value, "outcome of a run", ". ".join(sentences) + ".", "", found_in=where)
+        yield Meaning(outcome.value, "outcome of a run", meaning, "", found_in=where)
 
 
 def attribute_meanings(kind: type) -> dict[str, str]:

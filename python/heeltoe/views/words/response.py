@@ -15,7 +15,7 @@ from heeltoe.units.sentences import written
 from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
 from heeltoe.warnings.input import Severity
 
-#: What the dam of a model is called, at the head of a column.
+#: Names of the dam of a model, at the head of a column.
 NAMES = {"rigid": "rigid block", "flexible": "flexible dam", "decoupled": "decoupled block"}
 #: Figures that each of several cracks has.
 OF_CRACKS = (

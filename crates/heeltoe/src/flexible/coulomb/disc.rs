@@ -51,9 +51,9 @@ const RIGHT: f64 = 1e-10;
 /// Corrections at most, and what each may leave of what was amiss.
 const CORRECTIONS: usize = 12;
 const CLOSER: f64 = 0.5;
-/// How often in a step the inverse may follow the corrections.
+/// How often the inverse may follow in one set of corrections.
 const RENEWALS: u32 = 3;
-/// What part of the usual differences it then may leave.
+/// Part of the usual differences that it then may leave.
 const RENEWED: f64 = 0.2;
 /// Cosine of the most that a direction may have turned in the last step if it is to go on turning.
 const NEAR: f64 = 0.9;

@@ -20,7 +20,7 @@ FLOOR, FLOOR_M = 0.03, 0.5 * JOINT_METER_M
 #: The standard error of a mean that needs no further runs is at most this part of it.
 ERROR_OF_MEAN = 0.03
 #: So much all runs of a result may cost, in single ones with the elements of the case at the first step.
-BUDGET = 32.0
+BUDGET = 40.0
 
 
 #: Rock with less damping of its own is as good as without (docs/water-and-rock.md, "Rock without damping").

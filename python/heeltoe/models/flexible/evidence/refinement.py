@@ -43,8 +43,8 @@ _SCATTERS, _SCATTERS_BY_STEP = 0.2, 0.1
 _MATTERS = 0.25
 _AS_IT_IS: tuple[float, ...] = (1.0,)
 # Each so many runs of a sample are repeated with half the step, a finer mesh or larger surroundings, and a sample is
-# doubled so often at least and at most.
-_PAIRED, _AT_LEAST, _DOUBLINGS = 4, 1, 4
+# doubled so often at most.
+_PAIRED, _DOUBLINGS = 4, 1
 # Fewer runs with a result have no mean.
 _FEWEST = 2
 
@@ -143,8 +143,10 @@ def _fewest(trials: Trials, level: Level, change: int, *, full: bool, means: boo
         if means:
             sample = scales_of(0)
             scales = _paired(sample)
-            wanted += [(Level(level.mesh, longer), sample), (Level(level.mesh - 1, longer), sample)]
-            wanted.append((Level(level.mesh, longer + 1), scales))
+            wanted += [(Level(level.mesh, longer), sample), (Level(level.mesh, longer + 1), scales)]
+            options = trials.dam_of(0).case.flexible
+            if not (options.mesh_above or options.mesh_below):
+                wanted.append((Level(level.mesh - 1, longer), sample))
         if wave_bodies(trials.dam_of(0).case):
             wanted.append((Level(level.mesh - 1, longer, larger=True), scales))
     return wanted
@@ -224,15 +226,15 @@ class _Sample:
         mean = float(self.known(RESIDUAL_SLIP.key).mean())
         return self.error(RESIDUAL_SLIP.key) <= ERROR_OF_MEAN / LIMIT * allowed(mean)
 
-    def moved(self, key: str, other: _Sample) -> float:
+    def moved(self, key: str, other: _Sample) -> float | None:
         """Return by how much the mean differs from that of runs with some of the same factors at another level, and at
         least the standard error of that, below which no difference is known: by pairs where both levels scatter alike,
-        by the two means where each scatters by itself. Without enough runs nothing bounds the mean."""
+        by the two means where each scatters by itself. None without enough runs, which bound nothing."""
         place = {scale: row for row, scale in enumerate(self.scales)}
         rows = np.array([place[scale] for scale in other.scales])
         both = self.good[rows] & other.good
         if np.sum(both) < _FEWEST:
-            return abs(float(self.known(key).mean()))
+            return None
         changes = (other.numbers[key] - self.numbers[key][rows])[both]
         means = float(other.known(key).mean() - self.known(key).mean())
         found = (
@@ -334,19 +336,18 @@ class _Stand:
         numbers = self._trials.numbers(level, scales, crack)
         return _Sample(level, scales, numbers, self._trials.have_results(level, scales))
 
-    def _drawn(self, crack: int) -> tuple[_Sample, bool]:
+    def _drawn(self, crack: int) -> tuple[_Sample | None, bool]:
         """Return runs with the shaking varied until the mean of a crack's slip is known well enough, or the next ones
-        cost more than a result may, and whether that is why there are no more."""
-        trials, scales = self._trials, SCALES
+        cost more than a result may, and whether that is why there are no more; None where the first cost too much."""
+        trials, sample = self._trials, None
         for doublings in range(_DOUBLINGS + 1):
-            more = scales_of(doublings)
-            work = trials.work + trials.cost(self._of_sample(more))
+            scales = scales_of(doublings)
+            work = trials.work + trials.cost(self._of_sample(scales))
             if work > BUDGET or not trials.expected(self._level, work).within(trials.dam_of(0).case):
-                return self._sample(self._own, scales, crack), True
-            scales = more
+                return sample, True
             sample = self._sample(self._own, scales, crack)
-            if doublings >= _AT_LEAST and (np.sum(sample.good) < _FEWEST or sample.is_enough):
-                return sample, False
+            if np.sum(sample.good) < _FEWEST or sample.is_enough:
+                break
         return sample, False
 
     def evidences(self, *, spent: bool = False) -> tuple[EvidenceNumbers, ...]:
@@ -390,9 +391,10 @@ class _Stand:
         mean = varied is not None and (lost or _scatter(varied.numbers[RESIDUAL_SLIP.key], step))
         pairs = dict[str, _Sample]()
         if mean:
-            varied, stopped = self._drawn(crack)
+            drawn, stopped = self._drawn(crack)
             spent = spent or stopped
-            mean = bool(np.sum(varied.good) >= _FEWEST)
+            varied = drawn or varied
+            mean = drawn is not None and bool(np.sum(drawn.good) >= _FEWEST)
         if mean and varied is not None:
             pairs = {name: self._sample(*pair, crack) for name, pair in self._pairs(varied.scales).items()}
         own, beside, third, farther, near = (
@@ -400,7 +402,7 @@ class _Stand:
             for level in (self._own, self.mesh, self._third, self._larger, self._larger and self._cheap)
         )
 
-        failed = 0 if varied is None else int(np.sum(~varied.good))
+        failed = sum(int(np.sum(~sample.good)) for sample in (varied, *pairs.values()) if sample is not None)
         dam = trials.dam_of(self._level.mesh).dam
         width, lowered, missing = dam.sections[crack].crack_width, self._lowered(crack, dam), self._missing(crack)
 
@@ -416,10 +418,10 @@ class _Stand:
                 moved["step"] = abs(single)
             if mean and varied is not None:
                 value = float(varied.known(key).mean())
-                moved |= {name: varied.moved(key, pair) for name, pair in pairs.items() if name != "surroundings"}
-                if "surroundings" in pairs:
-                    smaller = pairs["mesh"] if self._cheap == self.mesh else varied
-                    moved["surroundings"] = smaller.moved(key, pairs["surroundings"])
+                for name, pair in pairs.items():
+                    beside_mesh = name == "surroundings" and self._cheap == self.mesh
+                    by = (pairs["mesh"] if beside_mesh else varied).moved(key, pair)
+                    moved[name] = abs(value) if by is None else by
                 moved["shaking"] = varied.error(key)
             elif self._full and own is not None:
                 moved["mesh"] = _moved_by_mesh(key, own, beside, third)
