@@ -232,7 +232,7 @@ def commands(both: Both) -> list[Row]:
     base, plane, own = both.plane("typical-base"), both.plane, both.own
     motions = [word for file in records(SUITE) for word in ("--motions", file)]
     return [
-        both.command("`--help`", ("--help",), None),
+        both.command("help", ("--help",), None),
         both.command("`explain`", ("explain", "crack.friction"), 0.2),
         both.command("`statics`", ("statics", "{case}", "--json", "-"), 0.375, base),
         both.command("`run`, rigid", (*run, "--model", "rigid"), 0.417, base, of_run),

@@ -70,7 +70,7 @@ def ours(step: float) -> Attempt:
 
     run = solve()
     end = run.summary
-    if end.slip_stops == 0 or end.slip_sliding != end.slip:
+    if end.slip_stops == 0 or abs(end.slip_sliding - end.slip) > 1e-12 * abs(end.slip):
         raise NothingMeasured("the block did not slide and stop")
     return Attempt("heeltoe", "sine sampled", step, error(run.histories.slip), repeat(solve))
 
