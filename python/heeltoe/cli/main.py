@@ -117,7 +117,7 @@ def _options(
 
 @cache
 def program(name: str = "") -> typer.Typer:
-    """Return the command line with all commands; for the name of one with that alone, as building 14 of them is a tenth
+    """Return the command line with all commands, or with the one of this name alone: building 14 of them takes a tenth
     of a short run."""
     app = typer.Typer(
         cls=Commands,
@@ -132,7 +132,7 @@ def program(name: str = "") -> typer.Typer:
     for command in [name] if name in _MODULES else _MODULES:
         module = import_module(f"heeltoe.cli.{_MODULES[command]}")
         function = getattr(module, command)
-        # The whole first sentence: what is cut off says nothing.
+        # The whole first sentence: a cut one says nothing.
         sentence = first_sentence(function.__doc__ or "")
         app.command(cls=module.Run if command == "run" else None, short_help=sentence)(function)
     return app

@@ -296,7 +296,7 @@ def test_the_work_of_runs_is_counted_once():
 
 
 def test_a_mesh_whose_runs_are_too_many_is_not_built(monkeypatch):
-    """By hand: of twice the elements five runs at 4 and 17 at 2; on the first mesh 17 at a half, and five of larger
+    """By hand: five runs at 4 and 17 at 2 with twice the elements; on the first mesh 17 at a half, and five with larger
     surroundings."""
     case = read_case(FIELDS | {"flexible": {"elements_across": 2}, "motion": {"file": "elcentro-1940-180-nga"}})
     shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(MOTION, None, 1.0).shaking)

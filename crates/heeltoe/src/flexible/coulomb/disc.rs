@@ -171,7 +171,7 @@ impl Disc {
         }
     }
 
-    /// Begin a step: what its first solution starts from is where the last two steps lead.
+    /// Begin a step, which starts from where the last two steps lead.
     pub(in super::super) fn begin(&mut self) {
         self.begins = true;
     }
