@@ -99,14 +99,13 @@ def test_a_scheduler_without_workers_is_one_sentence(tmp_path):
             time.sleep(0.1)
         assert address
         file = study_file(tmp_path, DRAWN)
-        began = time.monotonic()
         ended = subprocess.run(
             [*HEELTOE, "study", str(file), "--out", str(tmp_path / "out"), "--scheduler", address],
             capture_output=True,
             text=True,
             check=False,
+            timeout=120,
         )
-        assert time.monotonic() - began < 20.0
     finally:
         scheduler.kill()
         scheduler.wait()

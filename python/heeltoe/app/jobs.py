@@ -15,6 +15,7 @@ from time import monotonic
 from typing import Any
 
 from heeltoe.app.stopping import end_with_parent
+from heeltoe.base.heap import share_heaps
 from heeltoe.base.payload import Json
 from heeltoe.errors.error import InputError
 
@@ -153,6 +154,7 @@ def _run(far_end: Connection, work: Work, arguments: tuple[Any, ...]) -> None:
         # Its processes are ended, and what they share is given back, on the way out.
         signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     end_with_parent()
+    share_heaps()
     try:
         far_end.send(("done", work(lambda text, share=None: far_end.send(("says", (text, share))), *arguments)))
     except InputError as error:

@@ -16,6 +16,7 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from heeltoe.app.stopping import end_with_parent, listen, stoppable
+from heeltoe.base.heap import share_heaps
 
 THREADS = 4
 #: What the names of its threads begin with.
@@ -155,6 +156,7 @@ def _quietly() -> None:
     import signal
 
     end_with_parent()
+    share_heaps()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(os, "nice"):
         os.nice(_NICE)

@@ -653,7 +653,7 @@ class EvidenceNumbers(Block):
     ] = None
     failed: Annotated[int, Number("Runs with the shaking varied that end without a result.")]
     runs: Annotated[int, Number("Runs in all.")]
-    work: Annotated[float, Number("Cost of all runs, in runs of the first mesh and step.")]
+    work: Annotated[float, Number("Cost of all runs, in runs of the first mesh at the step of runs that scatter.")]
     budget: Annotated[float, Number("Cost that is allowed.")]
     budget_spent: Annotated[bool, Number("Whether that ended the refinement.")]
     residual_slip_m: Annotated[HeadlineWorth, Number("Uncertainty of the residual slip.", "m")]

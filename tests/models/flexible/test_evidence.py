@@ -12,7 +12,7 @@ from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.evidence import refinement
 from heeltoe.models.flexible.evidence.refinement import _finer, _moved_by_mesh, answer, build_ahead
 from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials, scales_of
-from heeltoe.models.flexible.run.dam_runner import ShakenDam
+from heeltoe.models.flexible.run.dam_runner import ShakenDam, short_step
 from heeltoe.models.flexible.run.expected import with_mesh
 from heeltoe.models.run import earthquake
 from heeltoe.motion.earthquake import Earthquake
@@ -132,6 +132,25 @@ NINE = (0.99, 0.9925, 0.995, 0.9975, 1.0, 1.0025, 1.005, 1.0075, 1.01)
 
 def error_of(numbers):
     return np.std(numbers, ddof=1) / np.sqrt(len(numbers))
+
+
+@pytest.mark.parametrize(("scatters", "times"), [(True, 0.5), (False, 1.0)])
+def test_a_longer_step_that_moves_the_slip_is_taken_back(monkeypatch, scatters, times):
+    case = dam(elements_across=4)
+    shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(MOTION, None, 1.0).shaking)
+    longest, asked = shaken.first_step(), []
+    assert longest == pytest.approx(2.0 * short_step(case, shaken._period()), rel=0.1)
+
+    def scatter(slips, step):
+        asked.append(step)
+        # With the shorter one they do not.
+        return scatters and len(asked) == 1
+
+    monkeypatch.setattr(refinement, "_scatter", scatter)
+    evidence = answer(shaken, 0.01, "full").evidence
+    assert (evidence.time_step_s, evidence.value_is) == (pytest.approx(times * longest), "run")
+    stated = dam(elements_across=4, time_step=f"{longest} s")
+    assert ShakenDam(stated, shaken.dam, shaken.shaking).halvings == 0
 
 
 def test_where_runs_scatter_the_numbers_are_means(monkeypatch):

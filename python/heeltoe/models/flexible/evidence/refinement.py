@@ -94,13 +94,15 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
         A run at the first step with such frames, where it has been made before.
     """
     options = shaken.case.flexible
-    trials = Trials(shaken, shaken.first_step(), frame_step, first)
-    level = Level(0, 0)
+    trials, level = _begun(shaken, frame_step, first)
     if asked == "none":
         return Answer(shaken, trials.whole(level), None)
     full = asked == "full"
     while True:
         stand = _Stand(trials, level, full=full)
+        if full and level.halvings < 0 and stand.scatters:
+            level = Level(level.mesh, 0)
+            continue
         evidence = stand.evidences()
         finer = _finer(_worst(evidence), level, options, lowered=full and stand.lowers_strength)
         if finer is None:
@@ -114,9 +116,16 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
     return Answer(trials.dam_of(level.mesh), trials.whole(level), evidence[trials.asked], beside, evidence)
 
 
+def _begun(shaken: ShakenDam, frame_step: float, first: DamRun | None = None) -> tuple[Trials, Level]:
+    """Return trials, and the level of their first run: that of zero is for runs that scatter."""
+    level = Level(0, -shaken.halvings)
+    step = shaken.first_step() / 2.0**shaken.halvings
+    return Trials(shaken, step, frame_step, {} if first is None else {level: first}), level
+
+
 def build_ahead(shaken: ShakenDam, frame_step: float) -> None:
     """Build the dams that full evidence for a run at the first step will ask for, of which the last few are kept."""
-    stand = _Stand(Trials(shaken, shaken.first_step(), frame_step), Level(0, 0), full=True)
+    stand = _Stand(*_begun(shaken, frame_step), full=True)
     # Asking for it builds it.
     stand.wanted(means=False)
 
@@ -350,10 +359,31 @@ class _Stand:
                 break
         return sample, False
 
+    def _prepare(self) -> None:
+        levels = [level for level in (self._level, self.mesh) if level is not None]
+        self._trials.prepare(levels, self.wanted(means=False))
+
+    @property
+    def scatters(self) -> bool:
+        """Whether single runs scatter, or the step moves them."""
+        self._prepare()
+        return any(self._scatters(crack) for crack in range(self._trials.cracks))
+
+    def _scatters(self, crack: int) -> bool:
+        """Whether single runs of a crack scatter."""
+        varied = self._sample(self._cheap, SCALES, crack)
+        if not (varied.good.all() and self._trials.have_results(self._step, _AS_IT_IS)[0]):
+            # 1 % of the shaking decides whether there is a result.
+            return True
+        own, other = (
+            self._trials.numbers(level, _AS_IT_IS, crack)[RESIDUAL_SLIP.key][0] for level in (self._level, self._step)
+        )
+        return _scatter(varied.numbers[RESIDUAL_SLIP.key], float(own - other))
+
     def evidences(self, *, spent: bool = False) -> tuple[EvidenceNumbers, ...]:
         """Return what the run at this level is worth, crack by crack."""
         trials = self._trials
-        trials.prepare([level for level in (self._level, self.mesh) if level is not None], self.wanted(means=False))
+        self._prepare()
         result = [self._evidence(crack, spent=spent) for crack in range(trials.cracks)]
         # Runs and their cost are those of all.
         return tuple(replace(item, runs=trials.runs, work=trials.work) for item in result)
@@ -385,10 +415,7 @@ class _Stand:
         trials = self._trials
         run, other = trials.numbers(self._level, _AS_IT_IS, crack), trials.numbers(self._step, _AS_IT_IS, crack)
         varied = self._sample(self._cheap, SCALES, crack) if self._full else None
-        step = float(run[RESIDUAL_SLIP.key][0] - other[RESIDUAL_SLIP.key][0])
-        # Where 1 % of the shaking decides whether there is a result, single runs scatter, too.
-        lost = varied is not None and not (varied.good.all() and trials.have_results(self._step, _AS_IT_IS)[0])
-        mean = varied is not None and (lost or _scatter(varied.numbers[RESIDUAL_SLIP.key], step))
+        mean = self._full and self._scatters(crack)
         pairs = dict[str, _Sample]()
         if mean:
             drawn, stopped = self._drawn(crack)

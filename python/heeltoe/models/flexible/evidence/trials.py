@@ -68,14 +68,16 @@ class Trials:
     shaken
         The dam as its case has it, level 0 of the meshes.
     step
-        The first one [s], level 0 of the steps.
+        That of runs that scatter [s], level 0 of the steps.
     frame_step
         Spacing of the frames of whole runs [s].
-    first
-        The run at level 0, where it has been made before.
+    made
+        Runs with frames that have been made before, by their levels.
     """
 
-    def __init__(self, shaken: ShakenDam, step: float, frame_step: float, first: DamRun | None = None) -> None:
+    def __init__(
+        self, shaken: ShakenDam, step: float, frame_step: float, made: Mapping[Level, DamRun] | None = None
+    ) -> None:
         self.step = step
         self._frame_step = frame_step
         self._shaken = {(0, False): shaken}
@@ -83,8 +85,8 @@ class Trials:
         self._numbers: dict[tuple[Level, float], tuple[dict[str, float], ...]] = {}
         self._whole: dict[Level, DamRun] = {}
         self._ending = Ending()
-        if first is not None:
-            self._keep(Level(0, 0), first)
+        for level, run in (made or {}).items():
+            self._keep(level, run)
 
     @property
     def runs(self) -> int:

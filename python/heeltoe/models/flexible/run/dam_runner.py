@@ -26,11 +26,17 @@ from heeltoe.motion.moments import cross_means, step_ends, step_means
 from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.result.rest import LAST_S
 
-#: Spacing of the frames of a run [s], where no other is wanted: enough for an animation, few enough for memory.
+#: Spacing of the frames of a run [s], where no other is wanted: enough for an animation, few enough for memory. Longer
+#: steps make half of it, so that histories keep round moments.
 FRAME_STEP = 0.01
+_PART = FRAME_STEP / 2.0
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
+#: The longest steps [s] of one plain crack where single runs do not scatter (docs/flexible.md): at the base on a rigid
+#: plane, where a dam slides; above it, where it strikes, at this part of that vibration; and at the base on rock through
+#: which waves leave.
+_LONGEST_AT_BASE, _LONGEST_ABOVE_BASE, _STEPS_ABOVE_BASE, _LONGEST_ON_ROCK = _PART / 6, _PART / 12, 50.0, _PART / 3
 #: Where waves surround the dam the step goes with the dam, and is this part of that vibration, at most the longest step
 #: times the first of them over it: a small dam swings as fast as its waves, and similar dams have similar answers.
 #: Where waves leave through damped rock, the second is enough; bonds, laws, penalties, and all where a vibration feeds
@@ -44,12 +50,31 @@ _ENOUGH_STEPS, _FEWEST_STEPS = 30.0, 8.0
 _TOO_FEW_STEPS = 16.0
 #: Stresses are looked at about so often [s]; twice as often finds 1.3 % more at most (docs/flexible.md).
 _STRESS_STEP = 2e-3
+# A step need not be halved once more where it is longer by less than this part of two.
+_ABOUT = 0.1
 # A silence is a multiple of its parts where so little of one is left.
 _FITS = 1e-9
 
 
 def usual_step(case: Case, period: float) -> float:
     """Return a step [s] that follows a part above the crack of a case, of this longest period [s]."""
+    step = short_step(case, period)
+    # A neighbour is passed by the way of a step.
+    alone = _is_plain(case) and not (case.further_cracks or case.crack.kinks or case.crack.side_gap)
+    at_base = case.crack.elevation <= 0.0
+    if not alone or (wave_bodies(case) and not (at_base and _is_smooth(case))):
+        return step
+    if wave_bodies(case):
+        longest = min(period / _STEPS_PER_PERIOD, _LONGEST_ON_ROCK)
+    elif at_base:
+        longest = min(period / _STEPS_PER_PERIOD, _LONGEST_AT_BASE)
+    else:
+        longest = min(period / _STEPS_ABOVE_BASE, _LONGEST_ABOVE_BASE)
+    return _PART / math.ceil(_PART / max(step, longest) - _FITS)
+
+
+def short_step(case: Case, period: float) -> float:
+    """Return the step [s] where single runs scatter, or a longer one moves them."""
     if wave_bodies(case):
         steps = _STEPS_AMONG_WAVES[_is_smooth(case)]
         longest = _LONGEST_STEP * _STEPS_AMONG_WAVES[0] / steps
@@ -109,6 +134,14 @@ class ShakenDam:
             )
         return stated
 
+    @cached_property
+    def halvings(self) -> int:
+        """How often the first step is halved where single runs scatter, or a longer step moves them."""
+        if self.case.flexible.time_step is not None:
+            return 0
+        longer = self.first_step() / short_step(self.case, self._period())
+        return max(0, math.ceil(math.log2(longer) - _ABOUT))
+
     def _period(self) -> float:
         """Return the longest period of the part above a crack that vibrates fastest [s]."""
         return min(float(part_periods(modes, 1)[0]) for modes in self.dam.modes[: self.dam.free])
@@ -122,7 +155,7 @@ class ShakenDam:
     def step_beside(self, step: float) -> float:
         """Return the step [s] of a run that is compared with one at `step`, and has no uncertainty of its own: twice of
         it where that moves slips little (docs/flexible.md)."""
-        smooth = self.case.flexible.time_step is None and _is_smooth(self.case)
+        smooth = self.case.flexible.time_step is None and _is_smooth(self.case) and not self.halvings
         return 2.0 * step if smooth and self.may_step(2.0 * step) else step
 
     def run(
