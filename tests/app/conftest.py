@@ -99,7 +99,7 @@ def _is_own(url: str, address: str) -> bool:
 
 @pytest.fixture
 def page(tab, address):
-    """Open the app in a tab that must not complain, asks nobody else for anything, and knows of no case before it."""
+    """Open the app in a tab that must not complain, asks no one else for anything, and knows of no case before it."""
     opened, complaints = tab
     opened.set_viewport_size(LAPTOP)
     opened.emulate_media(color_scheme="light")

@@ -1,4 +1,4 @@
-"""The command `heeltoe app`: what it refuses, and that nobody else pays for it."""
+"""The command `heeltoe app`: what it refuses, and that no one else pays for it."""
 
 from __future__ import annotations
 

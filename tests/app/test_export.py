@@ -1,4 +1,4 @@
-"""Exports: the files are what the shown words make, and nobody else gets at them."""
+"""Exports: the files are what the shown words make, and no one else gets at them."""
 
 from __future__ import annotations
 

@@ -295,7 +295,7 @@ def test_a_link_leads_nowhere(folder, secret):
         tab = Tab(client, socket)
         name = tab.send(CASE.encode()).json()["name"]
         [path] = stored(folder)
-        # No tab can make one; if one is there, it is nobody's upload.
+        # No tab can make one; if one is there, it is no one's upload.
         path.with_name("link").symlink_to(secret)
         assert tab.ask("open case", file="link", called="a")[0]["of"] == "bad request"
         assert tab.ask("edit case", changes={"motion.file": "link"})[0]["errors"]

@@ -157,7 +157,7 @@ def test_a_pipe_without_a_writer_is_one_sentence(kind, monkeypatch, tmp_path):
     finally:
         os.close(handle)
     assert ended.returncode == 2
-    assert "nobody has written all of it within 0.2 s" in ended.stderr
+    assert "no one has written all of it within 0.2 s" in ended.stderr
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")

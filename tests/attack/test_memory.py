@@ -16,9 +16,9 @@ from shared.attack_page import CASES, SEED
 from shared.attacked import Attack
 from shared.every_field import Fields
 
-#: Below this [B] nobody is told more than "0.1 GB", and what libraries keep for themselves is as much.
+#: Below this [B] no one is told more than "0.1 GB", and what libraries keep for themselves is as much.
 NOTED = 3e7
-#: Each in a process that has only loaded what all need: a heap that has been used has room that nobody counts.
+#: Each in a process that has only loaded what all need: a heap that has been used has room that no one counts.
 PEAKS = """
 import json, os, sys
 from pathlib import Path

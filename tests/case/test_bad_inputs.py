@@ -34,7 +34,7 @@ EDITS = {
     "water far above the crest": ('depth = "95 m"', 'depth = "220 m"', ["reservoir.depth", "220 m", "200 m"]),
     "unit of the wrong kind": ('depth = "95 m"', 'depth = "95 s"', ["reservoir.depth", "length"]),
     "no unit": ('depth = "95 m"', "depth = 95", ["reservoir.depth", "has no unit"]),
-    "unit nobody knows": ('depth = "95 m"', 'depth = "95 furlongz"', ["reservoir.depth", "furlongz"]),
+    "unit no one knows": ('depth = "95 m"', 'depth = "95 furlongz"', ["reservoir.depth", "furlongz"]),
     "not a number": ('depth = "95 m"', 'depth = "deep"', ["reservoir.depth", "deep"]),
     "infinite": ('depth = "95 m"', 'depth = "inf m"', ["reservoir.depth"]),
     "not a number at all": ('depth = "95 m"', 'depth = "nan m"', ["reservoir.depth"]),

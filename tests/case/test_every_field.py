@@ -168,7 +168,7 @@ def faults(model: str, records: dict[str, tuple[Fields, Any]], skip: Skip, *, br
             assert new == old
             continue
         if new == old and not any(written in text for text in message):
-            result.append(f"{path} changes nothing, and nobody says so")
+            result.append(f"{path} changes nothing, and no one says so")
         if new != old and written in unread:
             result.append(f"{path} changes something, though it is said to have no effect")
     return result

@@ -125,7 +125,7 @@ def test_set_motion_pga_reverse_duration():
     assert slip("--set", "crack.friction=1.2", "--set", "reservoir.depth=90m") < slip("--set", "reservoir.depth=90m")
     recorded = slip("--set", "motion.sign=recorded")
     assert slip("--reverse") != recorded
-    # Where nobody says which way round, the worse one counts.
+    # Where no one says which way round, the worse one counts.
     assert plain == max(slip("--reverse"), recorded)
     assert slip("--duration", "2s") != plain
     assert slip("--motion", "pacoima-1971-164-nga") != plain

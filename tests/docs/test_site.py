@@ -1,4 +1,4 @@
-"""The documentation as pages: what is generated says all that there is, and what is built asks nobody."""
+"""The documentation as pages: what is generated says all that there is, and what is built asks no one."""
 
 from __future__ import annotations
 

@@ -73,7 +73,7 @@ def test_many_runs_end_at_once(work):
 
 
 def test_nothing_of_an_interruption_stays():
-    """A run that nobody interrupts is the same to the bit as before, and after, one that somebody has."""
+    """A run that no one interrupts is the same to the bit as before, and after, one that somebody has."""
     short = Shaking(TIME[:2000], ROUGH.horizontal[:2000])
     first = run_block(BLOCK, short, TIME[:20].copy())
     interrupted(one)

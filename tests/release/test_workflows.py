@@ -12,7 +12,7 @@ WORKFLOWS = {path.name: path.read_text(encoding="utf-8") for path in (ROOT / ".g
 
 @pytest.mark.parametrize("name", ["ci.yml", "release.yml"])
 def test_actions_are_pinned(name):
-    """By the hash of a commit, which nobody can move, and with its version beside it."""
+    """By the hash of a commit, which no one can move, and with its version beside it."""
     used = re.findall(r"uses: (.+)", WORKFLOWS[name])
     jobs = yaml.safe_load(WORKFLOWS[name])["jobs"]
     assert len(used) == sum("uses" in step for job in jobs.values() for step in job["steps"])

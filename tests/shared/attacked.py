@@ -21,7 +21,7 @@ ENDS = {0: "accepted", 2: "refused", 3: "no result"}
 
 
 class TooLong(BaseException):
-    """Time is up; no error, so that nobody takes it for one of its own."""
+    """Time is up; no error, so that no one takes it for one of its own."""
 
 
 class Attack:

@@ -1,4 +1,4 @@
-"""What nobody should write and somebody will: values for fields and options, of every wrong kind."""
+"""What no one should write and somebody will: values for fields and options, of every wrong kind."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The report: the same numbers as the JSON in PDF and HTML, nobody's words as markup, failures that say what failed."""
+"""The report: the same numbers as the JSON in PDF and HTML, no one's words as markup, failures that say what failed."""
 
 from __future__ import annotations
 

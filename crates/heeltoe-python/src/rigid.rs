@@ -17,7 +17,7 @@ use crate::results::{by_column, BlockRun};
 use crate::tables::{named, pool, row, rows, slice, wrong, Numbers};
 use crate::watch::{prompt, watched};
 
-/// Runs of no more events, samples and moments that are wanted take a few milliseconds: nobody interrupts them.
+/// Runs of no more events, samples and moments that are wanted take a few milliseconds: no one interrupts them.
 const EVENTS_AT_ONCE: u64 = 2000;
 const MOMENTS_AT_ONCE: usize = 50_000;
 

@@ -59,7 +59,7 @@ pub fn named<T>(name: &str, known: fn(&str) -> Option<T>, names: &[&str]) -> PyR
     known(name).ok_or_else(|| wrong(format!("{name} is none of {}", names.join(", "))))
 }
 
-/// More threads than this, or than there are cores, help nobody and take a minute to start.
+/// More threads than this, or than there are cores, help no one and take a minute to start.
 const MOST_THREADS: usize = 256;
 
 /// So many threads, or as many as there are cores, or as `RAYON_NUM_THREADS` wants.

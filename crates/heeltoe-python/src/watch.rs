@@ -107,7 +107,7 @@ pub fn watched<T: Send>(
     let done = thread::scope(|scope| {
         let (send, receive) = channel();
         let worker = scope.spawn(move || {
-            // Nobody listens any more only where listening itself has failed.
+            // No one listens any more only where listening itself has failed.
             let done = work(Stop::once(flag));
             let _ = send.send(());
             done

@@ -43,7 +43,7 @@ TRIED = (
     ("period", "amplification"),
     ("margin", "spectrum", "amplification", "period"),
 )
-#: A slip that nobody measures [m].
+#: A slip that no one measures [m].
 LEAST = 1e-5
 #: Shares at which the quantiles of what a line misses are kept.
 SHARES = np.linspace(0.0, 1.0, 41)

@@ -105,7 +105,7 @@ class Job:
             # A result is sent once: a second one would replace what the page has marked as out of date since.
             if state == "running":
                 state = await self._tell(tell)
-        # A process that has processes of its own takes a while to end: nobody else shall wait for it.
+        # A process that has processes of its own takes a while to end: no one else shall wait for it.
         await loop.run_in_executor(None, self._process.join, _PATIENCE_S)
         self._kill()
         self._here.close()

@@ -36,7 +36,7 @@ def _end_after(sentinel: int) -> None:
 
 
 class StoppedError(Exception):
-    """Nobody waits for this computation any more."""
+    """No one waits for this computation any more."""
 
 
 class _State:

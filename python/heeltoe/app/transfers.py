@@ -1,7 +1,7 @@
 """Files that a browser sends and keeps, and the room that they have.
 
 Sent files are few and not large, are kept under names of our own, and are opened by the readers of the package alone.
-Offered files stand behind addresses that nobody can guess and that serve once."""
+Offered files stand behind addresses that no one can guess and that serve once."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ def read_bounded(path: Path, largest: int) -> bytes:
     Raises
     ------
     OSError
-        Where it cannot be read, or is a pipe to which nobody writes within :data:`PATIENCE` seconds.
+        Where it cannot be read, or is a pipe to which no one writes within :data:`PATIENCE` seconds.
     """
     # Opening a pipe waits for its writer, which may never come.
     handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
@@ -70,7 +70,7 @@ def _of_pipe(handle: int, largest: int) -> bytes:
         except BlockingIOError:
             continue
         if part is None:
-            raise TimeoutError(f"a pipe, and nobody has written all of it within {PATIENCE:g} s")
+            raise TimeoutError(f"a pipe, and no one has written all of it within {PATIENCE:g} s")
         if not part:
             break
         content += part

@@ -24,7 +24,7 @@ P = typing.ParamSpec("P")
 R = typing.TypeVar("R")
 M = typing.TypeVar("M", bound=BaseModel)
 
-# Nobody reads more problems at a time, and each takes a search for the name that was meant.
+# No one reads more problems at a time, and each takes a search for the name that was meant.
 _MOST = 100
 _BOUNDS = {"gt": "above", "ge": "of at least", "lt": "below", "le": "of at most"}
 # How pydantic calls the words of a field that holds one of them or a block.

@@ -122,7 +122,7 @@ def command_line() -> str:
 
 def resolved_path(motion: str) -> str:
     """A path on the command line is relative to where the user stands, not to the case file."""
-    path = Path(os.path.expanduser(motion))  # unlike that of paths, it leaves nobody's home as it is
+    path = Path(os.path.expanduser(motion))  # unlike that of paths, it leaves no one's home as it is
     return str(path.resolve()) if os.path.isfile(path) else motion
 
 

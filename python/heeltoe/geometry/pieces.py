@@ -13,7 +13,7 @@ from heeltoe.base.blocks import Block, Number
 
 # What is so short beside the whole is no side.
 _NOTHING = 1e-9
-# More than so many pieces nobody adds by hand.
+# More than so many pieces no one adds by hand.
 _MOST = 8
 
 _Corner = tuple[float, float]

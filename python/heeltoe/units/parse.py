@@ -24,7 +24,7 @@ _PARTS = {"": 1.0, "%": 0.01, "percent": 0.01}
 _FREQUENCY = re.compile(r"[mkM]?Hz|hertz|1/s|s\^-1")
 _MEMORY = re.compile(r"[kMGT]i?B|B")
 _ANGLE = re.compile(r"deg|degrees?|°|rad|radians?|mrad")
-# 907 kg to pint, 1000 kg to most of the world: a difference of a tenth that nobody would see.
+# 907 kg to pint, 1000 kg to most of the world: a difference of a tenth that no one would see.
 _TON = re.compile(
     r"(?<![A-Za-z_])(?:[kM]|kilo|mega)?tons?(?:_force)?(?![A-Za-z_])|(?<![A-Za-z_])force_tons?(?![A-Za-z_])"
 )

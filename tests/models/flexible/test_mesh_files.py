@@ -142,7 +142,7 @@ def test_pieces(tmp_path, own):
     nodes, elements = numbered(own.upper)
     away = np.vstack([nodes, nodes + np.array([100.0, 0.0])]), np.vstack([elements, elements + len(nodes)])
     assert refused(tmp_path, *away).startswith("falls into 2 pieces")
-    # Side by side, but each with nodes of its own: a crack that nobody has asked for.
+    # Side by side, but each with nodes of its own: a crack that no one has asked for.
     row = np.unique(elements[:2])
     slit = elements.copy()
     shared = np.intersect1d(row, elements[2:])

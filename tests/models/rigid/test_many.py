@@ -101,7 +101,7 @@ def test_threads_and_a_bar_change_no_bit():
 
 
 def test_what_is_seen_of_a_block_changes_no_bit_of_it():
-    """Rest and slides are passed over in stretches where nobody looks, rest with all that is seen of it where somebody
+    """Rest and slides are passed over in stretches where no one looks, rest with all that is seen of it where somebody
     does."""
     time = np.linspace(0.0, 20.0, 2001)
     noise = np.random.default_rng(4).normal(size=time.size)

@@ -172,7 +172,7 @@ def _check(session: Session, draft: Draft) -> None:
 def _read(session: Session, fields: dict[str, object]) -> tuple[Case | None, list[InputError]]:
     foreign = unsent(session, fields)
     if foreign:
-        # Nobody looks for these.
+        # No one looks for these.
         return None, foreign + problems(fields, None)[1]
     case, errors = problems(of_this_machine(session, fields), session.folder)
     return (None if case is None else case.based_in(session.folder)), errors

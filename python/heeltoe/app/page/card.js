@@ -37,7 +37,7 @@ function warnings(answer) {
 
 const BADGES = /** @type {Record<string, string>} */ ({ met: "✓ ", doubted: "? ", failed: "✗ ", free: "" });
 
-/** Number, limit and colour, which nobody has to read a sentence for. @param {any} headline */
+/** Number, limit and colour, which no one has to read a sentence for. @param {any} headline */
 export function headlineOf({ value, label, limit, state, limits }) {
   const badge = (/** @type {string} */ of) => element("span", { "aria-hidden": "true" }, BADGES[of]);
   const free = state === "free" ? [" (", element("a", { href: "#case" }, "page Case"), ")"] : [];

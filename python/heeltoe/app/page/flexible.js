@@ -73,7 +73,7 @@ export class FlexibleRun {
   moved() {
     this.position += 1;
     clearTimeout(this.resting);
-    // Nobody waits for what runs.
+    // No one waits for what runs.
     if (this.serial) this.talk.ask("elastic", { values: null });
     this.serial = 0;
     this.long.toggleAttribute("disabled", false);

@@ -36,7 +36,7 @@ class Rows:
     scales
         (n, 2) factor on the horizontal and on the vertical one.
     crest
-        (n, 3) how far slip, heel gap and toe gap move the crest downstream; None where nobody asks how it moves.
+        (n, 3) how far slip, heel gap and toe gap move the crest downstream; None where no one asks how it moves.
     """
 
     numbers: Floats

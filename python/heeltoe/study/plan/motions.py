@@ -372,7 +372,7 @@ def records_of(name: str, directory: Path, field: str = "motions.folder") -> lis
     InputError
         Where it is no folder, or has none.
     """
-    # Unlike that of paths, it leaves the home of nobody as it is.
+    # Unlike that of paths, it leaves the home of no one as it is.
     root = directory / os.path.expanduser(name)
     # A name that is too long for any file is no folder, either: Path.is_dir raises.
     if not os.path.isdir(root):

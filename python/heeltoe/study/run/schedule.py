@@ -68,7 +68,7 @@ def run_on_workers(
             stack.enter_context(_without_script())
             aside = TemporaryDirectory(prefix=_ASIDE, dir=directory, ignore_cleanup_errors=True)
             # Workers are started anew, not forked: what the parent's threads hold would be held for ever.
-            # Any port does for a server that nobody asks: the usual one may be that of another study.
+            # Any port does for a server that no one asks: the usual one may be that of another study.
             cluster = stack.enter_context(
                 LocalCluster(
                     n_workers=cores,

@@ -102,7 +102,7 @@ def run_suite(
         raise
     if out is not None:
         return results
-    # Nobody finds it there.
+    # No one finds it there.
     results = replace(results, kept=False)
     weakref.finalize(results, shutil.rmtree, place, ignore_errors=True)
     return results

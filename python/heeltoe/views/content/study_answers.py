@@ -465,7 +465,7 @@ def _years(row: AnnualRate) -> str:
     return NOTHING if years is None or years >= _ENDLESS else f"{digits(years, 2)} years"
 
 
-#: Nobody counts in more years.
+#: No one counts in more years.
 _ENDLESS = 1e8
 
 

@@ -49,7 +49,7 @@ pub(in super::super) trait ContactOperator {
     fn velocities<W: Lanes>(&mut self, problem: &Problem, p: &[f64], u: &mut [f64]);
 }
 
-/// Nobody to ask: `G` is right everywhere.
+/// No one to ask: `G` is right everywhere.
 pub(in super::super) struct Known;
 
 impl ContactOperator for Known {

@@ -39,7 +39,7 @@ function extent(shown, row) {
 }
 
 /**
- * The rows of a plot at rest whose axes follow what is drawn: nobody has zoomed in there.
+ * The rows of a plot at rest whose axes follow what is drawn: no one has zoomed in there.
  * @param {HTMLElement} place
  */
 export const following = (place) => ROWS.filter((row) => row !== "modes" && axis(place, row).autorange);

@@ -56,7 +56,7 @@ export class VaryRows {
     for (const entry of rows) if (this.fields.some((known) => known.path === entry.path)) this._make(entry);
   }
 
-  /** @param {boolean} drawn Whether dams are drawn: then nobody counts values. */
+  /** @param {boolean} drawn Whether dams are drawn: then no one counts values. */
   arrange(drawn) {
     this.drawn = drawn;
     for (const row of this.rows) row.arrange(drawn);

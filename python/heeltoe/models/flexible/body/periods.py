@@ -50,7 +50,7 @@ class DamPeriods:
     simplified
         Sentences on what of the case is simpler here.
     amplification
-        How the crest answers by frequency, with and without rock and water; None where nobody asked.
+        How the crest answers by frequency, with and without rock and water; None where no one asked.
     drawing
         Which outline of a drawing is the dam; empty where the section is not drawn.
     """

@@ -34,7 +34,7 @@ _PART = FRAME_STEP / 2.0
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
 #: The longest steps [s] of one plain crack where single runs do not scatter (docs/flexible.md): at the base on a rigid
-#: plane, where a dam slides; above it, where it strikes, at this part of that vibration; and at the base on rock through
+#: plane, where a dam slides; above it, where it strikes, at this part of that vibration; at the base on rock through
 #: which waves leave.
 _LONGEST_AT_BASE, _LONGEST_ABOVE_BASE, _STEPS_ABOVE_BASE, _LONGEST_ON_ROCK = _PART / 6, _PART / 12, 50.0, _PART / 3
 #: Where waves surround the dam the step goes with the dam, and is this part of that vibration, at most the longest step
