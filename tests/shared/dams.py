@@ -46,7 +46,7 @@ FAST = [*COARSE, "motion.duration=3s", ENDS]
 SHORT = ["flexible.elements_across=3", "motion.duration=4s", ENDS]
 
 
-def example(name: str, *changes: str) -> Case:
+def example(name: str, *changes: Any) -> Case:
     """Return an example with changes as on the command line, on a rigid plane and before water without sound where it
     says nothing of them: the simplest dam that has what is tested."""
     return plane_case(EXAMPLES / f"{name}.toml", list(changes))

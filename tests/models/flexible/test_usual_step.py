@@ -5,10 +5,13 @@ from __future__ import annotations
 import pytest
 
 from heeltoe.models.flexible.run.dam_runner import short_step, usual_step
+from shared import features
 from shared.dams import example
 
 LONG, SHORT = 0.2, 0.012
 PLANE, ROCK = (), ("rock.modulus=20 GPa",)
+LAW = ({"crack.friction": None, "crack.law": features.LAW},)
+BOND = ({"crack.friction": None, "crack.law": features.BOND},)
 
 
 @pytest.mark.parametrize(
@@ -19,7 +22,11 @@ PLANE, ROCK = (), ("rock.modulus=20 GPa",)
         ("typical-base", PLANE, SHORT, 0.005 / 42),
         ("typical-height", PLANE, LONG, 0.005 / 12),
         ("typical-height", PLANE, SHORT, 0.005 / 21),
+        ("typical-base", (*PLANE, "reservoir.compressible=true"), LONG, 0.005 / 6),
+        ("typical-height", (*PLANE, "reservoir.compressible=true"), SHORT, 0.005 / 42),
+        ("typical-base", LAW, LONG, 0.005 / 13),
         # Shorter steps.
+        ("typical-base", BOND, LONG, 2e-4),
         ("two-cracks", PLANE, LONG, 2e-4),
         ("stepped-crack", PLANE, LONG, 2e-4),
         ("typical-base", ('crack.side_gap="3 mm"',), LONG, 2e-4),

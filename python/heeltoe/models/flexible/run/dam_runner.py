@@ -33,10 +33,11 @@ _PART = FRAME_STEP / 2.0
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
-#: The longest steps [s] of one plain crack where single runs do not scatter (docs/flexible.md): at the base on a rigid
-#: plane, where a dam slides; above it, where it strikes, at this part of that vibration; at the base on rock through
-#: which waves leave.
+#: The longest steps [s] of one crack where single runs do not scatter (docs/flexible.md): at the base on a rigid plane,
+#: where a dam slides, and among waves; above it, where it strikes, at this part of that vibration; at the base on rock
+#: through which waves leave. By these laws of friction they are at most so many times those of runs that scatter.
 _LONGEST_AT_BASE, _LONGEST_ABOVE_BASE, _STEPS_ABOVE_BASE, _LONGEST_ON_ROCK = _PART / 6, _PART / 12, 50.0, _PART / 3
+_SMOOTH_LAWS, _TIMES_BY_LAW = ("slip weakening", "speed weakening"), 2.0
 #: Where waves surround the dam the step goes with the dam, and is this part of that vibration, at most the longest step
 #: times the first of them over it: a small dam swings as fast as its waves, and similar dams have similar answers.
 #: Where waves leave through damped rock, the second is enough; bonds, laws, penalties, and all where a vibration feeds
@@ -60,17 +61,20 @@ def usual_step(case: Case, period: float) -> float:
     """Return a step [s] that follows a part above the crack of a case, of this longest period [s]."""
     step = short_step(case, period)
     # A neighbour is passed by the way of a step.
-    alone = _is_plain(case) and not (case.further_cracks or case.crack.kinks or case.crack.side_gap)
-    at_base = case.crack.elevation <= 0.0
-    if not alone or (wave_bodies(case) and not (at_base and _is_smooth(case))):
+    if case.further_cracks or case.crack.kinks or case.crack.side_gap or not _is_plain(case, _SMOOTH_LAWS):
         return step
-    if wave_bodies(case):
-        longest = min(period / _STEPS_PER_PERIOD, _LONGEST_ON_ROCK)
-    elif at_base:
-        longest = min(period / _STEPS_PER_PERIOD, _LONGEST_AT_BASE)
-    else:
-        longest = min(period / _STEPS_ABOVE_BASE, _LONGEST_ABOVE_BASE)
-    return _PART / math.ceil(_PART / max(step, longest) - _FITS)
+    at_base, waves = case.crack.elevation <= 0.0, bool(wave_bodies(case))
+    steps, longest = _STEPS_PER_PERIOD, _LONGEST_AT_BASE
+    if waves and _is_smooth(case):
+        if not at_base:
+            return step
+        longest = _LONGEST_ON_ROCK
+    elif not (waves or at_base):
+        steps, longest = _STEPS_ABOVE_BASE, _LONGEST_ABOVE_BASE
+    wanted = min(period / steps, longest)
+    if case.crack.law is not None:
+        wanted = min(wanted, _TIMES_BY_LAW * step)
+    return _PART / math.ceil(_PART / max(step, wanted) - _FITS)
 
 
 def short_step(case: Case, period: float) -> float:
@@ -91,10 +95,11 @@ def _is_smooth(case: Case) -> bool:
     return _is_plain(case)
 
 
-def _is_plain(case: Case) -> bool:
-    """Whether nothing but friction that does not change acts in the cracks of a case."""
+def _is_plain(case: Case, laws: tuple[str, ...] = ()) -> bool:
+    """Whether nothing but friction acts in the cracks of a case, which does not change but by these laws."""
     plain = case.flexible.contact == "coulomb" and case.uplift.during_shaking == "constant"
-    return plain and all(crack.bond is None and crack.law is None for crack in (case.crack, *case.further_cracks))
+    cracks = (case.crack, *case.further_cracks)
+    return plain and all(crack.bond is None and (crack.law is None or crack.law.name in laws) for crack in cracks)
 
 
 class Pauses(NamedTuple):
