@@ -153,33 +153,40 @@ def test_a_longer_step_that_moves_the_slip_is_taken_back(monkeypatch, scatters, 
     assert ShakenDam(stated, shaken.dam, shaken.shaking).halvings == 0
 
 
-def test_where_runs_scatter_the_numbers_are_means(monkeypatch):
+@pytest.mark.parametrize("finest", [4, 8])
+def test_where_runs_scatter_the_numbers_are_means(monkeypatch, finest):
     monkeypatch.setattr(refinement, "_scatter", lambda slips, step: True)
     monkeypatch.setattr(refinement, "scales_of", lambda doublings: NINE)
-    response = flexible(dam(elements_across=4), MOTION)
+    response = flexible(dam(elements_across=finest), MOTION)
     evidence = response.evidence
     step = evidence["time_step_s"]
 
     def slips(scales, across, times):
         return np.array([slip(s, elements_across=across, time_step=f"{times * step} s") for s in scales])
 
-    members = slips(NINE, 4, 2.0)
+    def moved(scales, one, other, times=1.0):
+        changes = other - one[[NINE.index(scale) for scale in scales]]
+        by_pairs = (error_of(changes), abs(np.mean(changes)))
+        by_means = (np.hypot(error_of(one), error_of(other)), abs(np.mean(other) - np.mean(one)))
+        error, known = min(by_pairs, by_means)
+        return max(error, known, times * (known - error))
+
+    members, coarse = slips(NINE, finest, 2.0), slips(NINE, finest // 2, 2.0)
     worth = evidence["residual_slip_m"]
     assert evidence["value_is"] == "mean"
     assert evidence["scales"] == list(NINE)
-    assert (evidence["varied_elements_across"], evidence["varied_time_step_s"]) == (4, pytest.approx(2.0 * step))
+    assert evidence["varied_elements_across"] == finest
+    assert evidence["varied_time_step_s"] == pytest.approx(2.0 * step)
     assert evidence["residual_slips_m"] == worth["distribution"]["numbers"] == pytest.approx(members, abs=1e-12)
     assert response.residual_slip_m == worth["value"] == pytest.approx(np.mean(members), abs=1e-12)
     assert worth["spread"] == pytest.approx(np.std(members, ddof=1), abs=1e-12)
     assert worth["shaking"] == pytest.approx(error_of(members), abs=1e-12)
-    for name, scales, across, times in (("step", SCALES, 4, 1.0), ("mesh", NINE, 2, 2.0)):
-        others = slips(scales, across, times)
-        changes = others - members[[NINE.index(scale) for scale in scales]]
-        by_pairs = (error_of(changes), abs(np.mean(changes)))
-        by_means = (np.hypot(error_of(members), error_of(others)), abs(np.mean(others) - np.mean(members)))
-        assert worth[name] == pytest.approx(max(min(by_pairs, by_means)), abs=1e-12)
+    # Half the step leaves half of the error, the finer of two meshes a quarter at best.
+    assert worth["step"] == pytest.approx(moved(SCALES, members, slips(SCALES, finest, 1.0), 2.0), abs=1e-12)
+    third = moved(NINE, coarse, slips(NINE, 2, 2.0)) if finest == 8 else 0.0
+    assert worth["mesh"] == pytest.approx(max(moved(NINE, members, coarse), 0.25 * third), abs=1e-12)
     parts = [worth[name] for name in ("step", "mesh", "shaking")]
-    assert worth["uncertainty"] == pytest.approx(np.linalg.norm(parts))
+    assert worth["uncertainty"] == pytest.approx(max(np.linalg.norm(parts), 0.03 * worth["value"]))
     assert worth["run"] == pytest.approx(response.histories["slip_m"][-1], abs=1e-12) != worth["value"]
     assert any("single runs scatter" in str(warning) for warning in response.warnings)
     assert "numerically ±" in response.to_json()["verdict"]
@@ -231,9 +238,12 @@ def test_pairs_tell_the_difference_of_two_levels_below_the_scatter_of_either():
     own = sample(lambda scale: scatter[scale], NINE)
     farther = sample(lambda scale: scatter[scale] + 0.004, NINE[::4])
     assert own.moved(RESIDUAL_SLIP.key, farther) == pytest.approx(0.004)
+    # Where half of the error is left there, it is twice the difference.
+    assert own.moved(RESIDUAL_SLIP.key, farther, 0.5) == pytest.approx(0.008)
     jump = dict(zip(NINE[1:5], (1e-3, -1e-3, 1e-3, -1e-3), strict=True))
     other = sample(lambda scale: scatter[scale] + jump[scale], NINE[1:5])
-    assert own.moved(RESIDUAL_SLIP.key, other) == pytest.approx(1e-3 * np.sqrt(4.0 / 3.0) / 2.0)
+    for left in (0.0, 0.5):
+        assert own.moved(RESIDUAL_SLIP.key, other, left) == pytest.approx(1e-3 * np.sqrt(4.0 / 3.0) / 2.0)
     # Too little is left to compare.
     lost = sample(lambda scale: scatter[scale], NINE[:4], fails=NINE[:3])
     assert own.moved(RESIDUAL_SLIP.key, lost) is None

@@ -36,6 +36,8 @@ from heeltoe.result.numbers import EvidenceNumbers, HeadlineWorth, RotationWorth
 # Two meshes may agree by chance. Twice the elements of quadratic shape make what they leave a quarter at best, so of
 # what moves a number from the third mesh to the second at least this part is left; coarser meshes say nothing.
 _LEFT, _LEAST_ACROSS = 0.25, 2
+# Means are taken at the longer step: the scheme is of the first order, so half the step leaves so much of its error.
+_LEFT_BY_HALF = 0.5
 # Single runs scatter where what a straight line through them leaves is more than this part of the uncertainty that is
 # allowed, or where half the step, which moves a smooth run by a few thousandths, moves it by more than this one.
 _SCATTERS, _SCATTERS_BY_STEP = 0.2, 0.1
@@ -235,10 +237,11 @@ class _Sample:
         mean = float(self.known(RESIDUAL_SLIP.key).mean())
         return self.error(RESIDUAL_SLIP.key) <= ERROR_OF_MEAN / LIMIT * allowed(mean)
 
-    def moved(self, key: str, other: _Sample) -> float | None:
-        """Return by how much the mean differs from that of runs with some of the same factors at another level, and at
-        least the standard error of that, below which no difference is known: by pairs where both levels scatter alike,
-        by the two means where each scatters by itself. None without enough runs, which bound nothing."""
+    def moved(self, key: str, other: _Sample, left: float = 0.0) -> float | None:
+        """Return by how much the mean may be off by its difference from that of runs with some of the same factors at
+        another level, at which this part of the error is `left`: the difference, what is known of it over what remains
+        once that part is taken off, and at least its standard error. By pairs where both levels scatter alike, by the
+        two means where each scatters by itself. None without enough runs, which bound nothing."""
         place = {scale: row for row, scale in enumerate(self.scales)}
         rows = np.array([place[scale] for scale in other.scales])
         both = self.good[rows] & other.good
@@ -246,11 +249,11 @@ class _Sample:
             return None
         changes = (other.numbers[key] - self.numbers[key][rows])[both]
         means = float(other.known(key).mean() - self.known(key).mean())
-        found = (
+        error, moved = min(
             (float(changes.std(ddof=1) / math.sqrt(changes.size)), abs(float(changes.mean()))),
             (math.hypot(self.error(key), other.error(key)), abs(means)),
         )
-        return max(min(found))
+        return max(error, moved, (moved - error) / (1.0 - left))
 
 
 def _paired(scales: tuple[float, ...]) -> tuple[float, ...]:
@@ -320,11 +323,14 @@ class _Stand:
 
     def _pairs(self, scales: tuple[float, ...]) -> dict[str, tuple[Level, tuple[float, ...]]]:
         """Return the levels, and the factors, that a sample is compared with, by their difference: half the step and
-        the other mesh; and for rock and water that reach farther the cheapest mesh as it is, beside which they are."""
+        the other mesh, that one with the third; and for rock and water that reach farther the cheapest mesh as it is,
+        beside which they are."""
         some = _paired(scales)
         pairs = {"step": (replace(self._own, halvings=self._halvings + 1), some)}
         if self.mesh is not None:
             pairs["mesh"] = (self.mesh, scales if self.mesh < self._own else some)
+        if self._third is not None:
+            pairs["third mesh"] = (self._third, scales)
         if self._larger is not None:
             pairs["surroundings"] = (self._larger, some)
         return pairs
@@ -416,7 +422,7 @@ class _Stand:
         run, other = trials.numbers(self._level, _AS_IT_IS, crack), trials.numbers(self._step, _AS_IT_IS, crack)
         varied = self._sample(self._cheap, SCALES, crack) if self._full else None
         mean = self._full and self._scatters(crack)
-        pairs = dict[str, _Sample]()
+        pairs, coarser = dict[str, _Sample](), None
         if mean:
             drawn, stopped = self._drawn(crack)
             spent = spent or stopped
@@ -424,6 +430,7 @@ class _Stand:
             mean = drawn is not None and bool(np.sum(drawn.good) >= _FEWEST)
         if mean and varied is not None:
             pairs = {name: self._sample(*pair, crack) for name, pair in self._pairs(varied.scales).items()}
+            coarser = pairs.pop("third mesh", None)
         own, beside, third, farther, near = (
             None if level is None or mean else trials.numbers(level, _AS_IT_IS, crack)
             for level in (self._own, self.mesh, self._third, self._larger, self._larger and self._cheap)
@@ -447,8 +454,12 @@ class _Stand:
                 value = float(varied.known(key).mean())
                 for name, pair in pairs.items():
                     beside_mesh = name == "surroundings" and self._cheap == self.mesh
-                    by = (pairs["mesh"] if beside_mesh else varied).moved(key, pair)
+                    left = _LEFT_BY_HALF if name == "step" else 0.0
+                    by = (pairs["mesh"] if beside_mesh else varied).moved(key, pair, left)
                     moved[name] = abs(value) if by is None else by
+                if coarser is not None:
+                    by = pairs["mesh"].moved(key, coarser)
+                    moved["mesh"] = max(moved["mesh"] or 0.0, _LEFT * (by or 0.0))
                 moved["shaking"] = varied.error(key)
             elif self._full and own is not None:
                 moved["mesh"] = _moved_by_mesh(key, own, beside, third)
@@ -506,7 +517,7 @@ class _Stand:
             other_time_step_s=trials.step_of(self._step),
             elements_across=self._options.elements_across,
             other_elements_across=None if self.mesh is None else trials.across_of(self.mesh),
-            third_elements_across=None if third is None or self._third is None else trials.across_of(self._third),
+            third_elements_across=None if self._third is None else trials.across_of(self._third),
             scales=[] if varied is None else list(varied.scales),
             residual_slips_m=[] if varied is None else varied.values(RESIDUAL_SLIP.key),
             varied_time_step_s=None if varied is None else trials.step_of(varied.level),
