@@ -98,7 +98,7 @@ class ShakenDam:
         period = self._period()
         stated = self.case.flexible.time_step
         wanted = stated or usual_step(self.case, period)
-        step, field = longest_step(self.dam, self.case.flexible.theta, wanted)
+        step, field = self._followed(wanted)
         if step < (wanted if stated else _SHORTEST_OF_ALL):
             raise InputError("step-stiff", field, step=f"{step:.2g} s")
         if stated is None:
@@ -109,6 +109,12 @@ class ShakenDam:
             )
         return stated
 
+    def _followed(self, step: float) -> tuple[float, str]:
+        """Return a step [s], this or a shorter one, that follows what acts in the cracks, and the field that asks for
+        it."""
+        across = () if self.across is None else self.across.parts
+        return longest_step(self.dam, self.case.flexible.theta, step, across)
+
     def _period(self) -> float:
         """Return the longest period of the part above a crack that vibrates fastest [s]."""
         return min(float(part_periods(modes, 1)[0]) for modes in self.dam.modes[: self.dam.free])
@@ -116,7 +122,7 @@ class ShakenDam:
     def may_step(self, step: float) -> bool:
         """Whether a step [s] still follows the dam and what acts in its crack, so that a run can be compared."""
         period = self._period()
-        followed, _ = longest_step(self.dam, self.case.flexible.theta, step)
+        followed, _ = self._followed(step)
         return step <= min(followed, period / _TOO_FEW_STEPS, self.shaking.end / 2.0)
 
     def step_beside(self, step: float) -> float:
