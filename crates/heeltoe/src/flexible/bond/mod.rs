@@ -25,28 +25,20 @@
 //! of the shear is within a circle of the radius `C - mu T`, and `s` is the path of the vector.
 //!
 //! In a step of dt, contact is solved for what is left of `p` without the bond, whose conditions are those of a crack.
-//! `T` and `C` are means of the start and the end of the step, found by passes: so the work of a bond that breaks is
+//! `T` and `C` are means of the start and the end of the step, found by [`passes`]: so the work of a bond that breaks is
 //! `a G_f`, whatever the step.
 
-use super::across::Across;
-use super::contact_operator::FacesOperator;
+mod passes;
+
 use super::coulomb::{ContactOperator, Known, Problem, Report, Solver};
 use super::crack_line::Line;
 use super::law::sideways::Sideways;
 use super::scheme::TimeStep;
-use super::simd::{largest, Lanes};
+use super::simd::Lanes;
 use super::status::Status;
 
 /// Share of the change of a pass that the spring of a node which closes may hand on to the next.
 const FOLLOWED: f64 = 0.1;
-/// What the bond of the last pass may miss, as a share of the largest impulse.
-const MISSED: f64 = 1e-11;
-/// Velocity of a node that sticks, as a share of the fastest: rounding.
-const ROUNDED: f64 = 1e-11;
-/// Passes after which half of each change must do, and after which what is found must do. Its miss is in the residual.
-const HALVED: u32 = 20;
-const MOST: u32 = 60;
-
 /// So many times their strengths tie joints before the search for rest.
 const TIED: f64 = 1e6;
 /// Less damage is rounding.
@@ -428,114 +420,8 @@ impl Bonds {
         change
     }
 
-    /// Look at a solution; whether it meets the law of the bonds.
-    fn met(
-        &mut self,
-        problem: &mut Problem,
-        solver: &Solver,
-        before: &[f64],
-        sideways: Sideways,
-        step: TimeStep,
-        report: &mut Report,
-    ) -> bool {
-        self.passes += 1;
-        let m = solver.status.len();
-        let way = |u: f64, before: f64| step.dt * (step.theta * u + (1.0 - step.theta) * before);
-        let fastest = largest(&problem.b).max(largest(&self.own_across));
-        let largest = largest(&solver.p)
-            .max(largest(&self.shift))
-            .max(largest(sideways.p))
-            .max(largest(&self.shift_across));
-        for bond in self.iter_mut() {
-            let k = bond.contact;
-            let [along, apart] = [k, m + k].map(|i| way(solver.u[i], before[i]));
-            let of = |numbers: &[f64]| numbers.get(k).copied().unwrap_or(0.0);
-            let mut slip = [along, way(of(sideways.u), of(sideways.before))];
-            // What goes on to stick does not move: its bond bears the same to the last bit.
-            if solver.status[k] == Status::Stick && size(slip) <= ROUNDED * fastest * step.dt {
-                slip = [0.0; 2];
-            }
-            let shear = [solver.p[k], of(sideways.p)].map(|impulse| impulse / step.dt);
-            bond.follow(solver.status[k], [slip[0], apart, slip[1]], shear);
-        }
-        let far = if self.passes > HALVED { 0.5 } else { 1.0 };
-        let change = self.draw(problem, step.dt, far);
-        if change <= MISSED * largest || self.passes >= MOST {
-            report.residual = report
-                .residual
-                .max(if largest > 0.0 { change / largest } else { 0.0 });
-            return true;
-        }
-        false
-    }
-
-    /// Solve the contact problem of a step with the bonds; `moved` says that the crack may answer otherwise than before.
-    pub(super) fn solve<W: Lanes>(
-        &mut self,
-        problem: &mut Problem,
-        solver: &mut Solver,
-        (crack, mut across): (&mut FacesOperator, Option<&mut Across>),
-        before: &[f64],
-        step: TimeStep,
-        moved: &mut bool,
-    ) -> Report {
-        let mut report = Report::default();
-        self.passes = 0;
-        if let Some(across) = across.as_deref_mut() {
-            across.part_with_bonds();
-            self.own_across.clone_from(&across.rows.b);
-        }
-        self.own.clone_from(&problem.b);
-        // The last solution is that of contact alone again.
-        let left = solver.p.iter_mut().zip(&self.pushed);
-        left.for_each(|(p, pushed)| *p -= pushed);
-        loop {
-            if *moved || self.pushed != self.shift {
-                self.pushed.clone_from(&self.shift);
-                crack.velocities::<W>(problem, &self.pushed, &mut self.push);
-                self.push.iter_mut().zip(&self.own).for_each(|(u, b)| *u -= b);
-                *moved = false;
-            }
-            for (b, (own, push)) in problem.b.iter_mut().zip(self.own.iter().zip(&self.push)) {
-                *b = own + push;
-            }
-            if let Some(across) = across.as_deref_mut() {
-                let (push, bonds) = (&mut self.push_across, &self.shift_across);
-                across.push_by_bonds::<W>(crack.contacts, bonds, &self.own_across, push);
-            }
-            let mut shifted = Shifted {
-                crack: &mut *crack,
-                sum: std::mem::take(&mut self.sum),
-                shift: &self.pushed,
-            };
-            report.go_on(match across.as_deref_mut() {
-                None => solver.solve::<W>(problem, &mut shifted),
-                Some(across) => {
-                    let report = shifted.crack.solve_disc::<W>(problem, solver, across);
-                    shifted.velocities::<W>(problem, &solver.p, &mut solver.u);
-                    report
-                }
-            });
-            self.sum = shifted.sum;
-            let sideways = across.as_deref().map_or_else(Sideways::default, Across::sideways);
-            let met = self.met(problem, solver, before, sideways, step, &mut report);
-            problem.b.copy_from_slice(&self.own);
-            if met {
-                // What the solution was found with, not what the next pass would have had.
-                self.shift.clone_from(&self.pushed);
-                break;
-            }
-        }
-        if let Some(across) = across {
-            self.shift_across.clone_from(&across.bonds);
-            across.join_bonds(&self.own_across);
-        }
-        let whole = solver.p.iter_mut().zip(&self.pushed);
-        whole.for_each(|(p, pushed)| *p += pushed);
-        report
-    }
-
-    /// The same of a search for the state of rest, where `G` is known and steps follow each other until nothing moves.
+    /// Solve the contact problem in a search for the state of rest, where `G` is known and steps follow each other until
+    /// nothing moves.
     pub(super) fn rest<W: Lanes>(
         &mut self,
         problem: &mut Problem,
@@ -656,30 +542,4 @@ fn towards(friction: [f64; 2], sign: f64) -> [f64; 2] {
     }
     let size = size(friction);
     friction.map(|impulse| -impulse / size)
-}
-
-/// The crack under the impulses of the bonds and those that are looked for.
-struct Shifted<'s, C> {
-    crack: &'s mut C,
-    shift: &'s [f64],
-    sum: Vec<f64>,
-}
-
-impl<C: ContactOperator> ContactOperator for Shifted<'_, C> {
-    fn fill(&mut self, problem: &mut Problem, wanted: impl Fn(usize) -> bool) {
-        self.crack.fill(problem, wanted);
-    }
-
-    fn fill_row(&mut self, problem: &mut Problem, contact: usize, wanted: impl Fn(usize) -> bool) {
-        self.crack.fill_row(problem, contact, wanted);
-    }
-
-    fn velocities<W: Lanes>(&mut self, problem: &Problem, p: &[f64], u: &mut [f64]) {
-        for (sum, (p, own)) in self.sum.iter_mut().zip(p.iter().zip(self.shift)) {
-            *sum = p + own;
-        }
-        let sum = std::mem::take(&mut self.sum);
-        self.crack.velocities::<W>(problem, &sum, u);
-        self.sum = sum;
-    }
 }
