@@ -109,12 +109,6 @@ class ShakenDam:
             )
         return stated
 
-    def _followed(self, step: float) -> tuple[float, str]:
-        """Return a step [s], this or a shorter one, that follows what acts in the cracks, and the field that asks for
-        it."""
-        across = () if self.across is None else self.across.parts
-        return longest_step(self.dam, self.case.flexible.theta, step, across)
-
     def _period(self) -> float:
         """Return the longest period of the part above a crack that vibrates fastest [s]."""
         return min(float(part_periods(modes, 1)[0]) for modes in self.dam.modes[: self.dam.free])
@@ -223,6 +217,12 @@ class ShakenDam:
         """The dam across the valley; None where the ground does not shake that way."""
         cross = self.shaking.cross
         return None if cross is None or not cross.any() else across_dam(self.case, self.dam)
+
+    def _followed(self, step: float) -> tuple[float, str]:
+        """Return a step [s], this or a shorter one, that follows what acts in the cracks, and the field that asks for
+        it."""
+        across = () if self.across is None else self.across.parts
+        return longest_step(self.dam, self.case.flexible.theta, step, across)
 
     def _across_means(self, step: float, ground: Floats) -> Floats | None:
         """Return the ground's mean acceleration across the valley in each step [m/s2], silence at the end included."""
