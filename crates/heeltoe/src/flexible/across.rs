@@ -37,7 +37,7 @@ pub(super) struct Across<'a> {
     crossing: CrossShaking<'a>,
     linear: LinearDam<'a>,
     held: [HeldNodes; 2],
-    /// What to add to the answer of a contact to itself, as a share of it.
+    /// Added to the answer of a contact to itself, as a share of it.
     softness: f64,
     places: Vec<Place>,
     disc: Disc,

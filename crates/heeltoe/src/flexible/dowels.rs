@@ -116,7 +116,7 @@ impl Dowels {
 
     /// Book a step.
     pub(super) fn book(&self, ledger: &mut Ledger) {
-        // What they have not taken up of their work is the scheme's doing.
+        // Work that they have not taken up is the scheme's doing.
         ledger.numerical -= self.work + self.grown;
         ledger.springs += self.stored;
         ledger.turnover += self.work.abs();

@@ -251,7 +251,7 @@ pub(super) struct Bonds {
     shift_across: Vec<f64>,
     push_across: Vec<f64>,
     own_across: Vec<f64>,
-    /// What they have taken in the step from each component of each contact, and across the valley.
+    /// Work that they have taken in the step from each component of each contact, and across the valley.
     pub taken: Vec<f64>,
     pub taken_across: Vec<f64>,
     /// Energy (J) that they have given in the step beyond what they held; they ought to give none.

@@ -12,7 +12,7 @@ use super::super::simd::{largest, Lanes};
 use super::super::status::Status;
 use super::{size, Bonds};
 
-/// What the bond of the last pass may miss, as a share of the largest impulse.
+/// Miss that the bond of the last pass may have, as a share of the largest impulse.
 const MISSED: f64 = 1e-11;
 /// Velocity of a node that sticks, as a share of the fastest: rounding.
 const ROUNDED: f64 = 1e-11;
@@ -73,7 +73,7 @@ impl Bonds {
             let met = self.met(problem, solver, before, sideways, step, &mut report);
             problem.b.copy_from_slice(&self.own);
             if met {
-                // What the solution was found with, not what the next pass would have had.
+                // Those that the solution was found with, not those of a next pass.
                 self.shift.clone_from(&self.pushed);
                 break;
             }
@@ -110,7 +110,7 @@ impl Bonds {
             let [along, apart] = [k, m + k].map(|i| way(solver.u[i], before[i]));
             let of = |numbers: &[f64]| numbers.get(k).copied().unwrap_or(0.0);
             let mut slip = [along, way(of(sideways.u), of(sideways.before))];
-            // What goes on to stick does not move: its bond bears the same to the last bit.
+            // A node that goes on to stick does not move: its bond bears the same to the last bit.
             if solver.status[k] == Status::Stick && size(slip) <= ROUNDED * fastest * step.dt {
                 slip = [0.0; 2];
             }
