@@ -422,14 +422,11 @@ RULES = (
     *(
         Rule("shaking across the valley", other, ("flexible",), why)
         for other, why in (
-            ("kinks", "friction across the valley is that of a straight crack"),
-            ("a bonded joint", "a bond breaks along the stream alone"),
-            ("an anchor with stiffness", "its anchors resist along the stream alone"),
             ("penalty contact", _NO_PENALTY),
             ("all nodes watched twice", "nodes that meet would share their friction"),
         )
     ),
-    Rule("neighbours", "several cracks", ("flexible",), "a neighbour stops the part above one crack"),
+    Rule("neighbours", "several cracks", ("flexible",), "a neighbour stops each part by the sum of the slips below it"),
     Rule(
         "shaking across the valley",
         "",

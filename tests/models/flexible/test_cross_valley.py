@@ -264,6 +264,30 @@ def test_a_run_says_what_the_shaking_across_the_valley_adds():
 
 WEAKENING = {"name": "slip weakening", "peak_friction": 1.1, "residual_friction": 0.8, "slip": "40 mm"}
 SPEED = {"name": "speed weakening", "peak_friction": 1.1, "residual_friction": 0.8, "speed": "0.3 m/s"}
+STEP_UP = [["30 m", "0 m"], ["33 m", "1.5 m"]]
+TOOTH = [["10 m", "-0.4 m"], ["14 m", "0.3 m"]]
+BOND = {
+    "tensile_strength": "0.2 MPa",
+    "cohesion": "0.6 MPa",
+    "fracture_energy": "200 N/m",
+    "shear_energy": "1000 N/m",
+}
+DOWEL = {
+    "distance": "40 m",
+    "prestress": "2 MN/m",
+    "axial_stiffness": "200 MN/m/m",
+    "shear_stiffness": "100 MN/m/m",
+    "inclination": "-15 deg",
+}
+THROUGH_BOTH = {
+    "head_x": "6 m",
+    "head_elevation": "60 m",
+    "foot_x": "20 m",
+    "foot_elevation": "-5 m",
+    "prestress": "1 MN/m",
+    "axial_stiffness": "100 MN/m/m",
+    "shear_stiffness": "60 MN/m/m",
+}
 # Without friction where a law has it.
 FURTHER = {
     "slip weakening": (None, {"crack": {"law": WEAKENING}}),
@@ -275,6 +299,32 @@ FURTHER = {
     ),
     "neighbours without a gap": (0.9, {"crack": {"elevation": "40 m", "side_gap": "0 mm"}}),
     "a law between neighbours": (None, {"crack": {"law": WEAKENING, "side_gap": "2 mm"}}),
+    "kinks": (0.9, {"crack": {"elevation": "20 m", "kinks": STEP_UP}}),
+    "kinks with a law between neighbours": (
+        None,
+        {"crack": {"elevation": "20 m", "kinks": STEP_UP, "law": WEAKENING, "side_gap": "1 mm"}},
+    ),
+    "two cracks with kinks": (
+        0.9,
+        {
+            "crack": {"elevation": "20 m", "kinks": STEP_UP},
+            "further_cracks": [{"elevation": "50 m", "friction": 0.9, "kinks": TOOTH}],
+        },
+    ),
+    "an anchor": (0.8, {"anchors": [DOWEL]}),
+    "an anchor through two cracks": (
+        1.0,
+        {"further_cracks": [{"elevation": "40 m", "friction": 0.9}], "anchors": [THROUGH_BOTH]},
+    ),
+    "a joint": (1.0, {"crack": {"elevation": "20 m", "bond": BOND}}),
+    "a joint between neighbours": (1.0, {"crack": {"bond": BOND, "side_gap": "1 mm"}}),
+    "a joint above a crack with a law": (
+        None,
+        {
+            "crack": {"elevation": "20 m", "law": WEAKENING},
+            "further_cracks": [{"elevation": "50 m", "friction": 1.0, "bond": BOND}],
+        },
+    ),
 }
 
 
@@ -289,7 +339,9 @@ def test_what_a_crack_may_have_besides_keeps_ledger_mirror_and_bits(name):
         assert run.outcome == "ok"
         assert run.summary.energy_residual < 1e-11
         assert run.summary.contact_residual < 1e-8
-        assert run.summary.energy_gained <= 1e-6 * run.summary.energy_turnover
+        # Bonds that break make a little more, as with one component.
+        allowed = 1e-2 * run.summary.energy_fracture if "joint" in name else 1e-6 * run.summary.energy_turnover
+        assert run.summary.energy_gained <= allowed
     for here, there in zip(one.summaries, other.summaries, strict=True):
         assert here.slip == there.slip
         assert here.cross_slip == -there.cross_slip
@@ -378,16 +430,6 @@ def test_what_is_not_built_is_refused():
         {"flexible": {"contact": "idce", "damping": "stiffness"}},
         {"flexible": {"contactors": 5}},
         {"further_cracks": [{"elevation": "40 m", "friction": 0.8}], "crack": {"side_gap": "3 mm"}},
-        {
-            "crack": {
-                "bond": {
-                    "tensile_strength": "1 MPa",
-                    "fracture_energy": "200 N/m",
-                    "cohesion": "2 MPa",
-                    "shear_energy": "400 N/m",
-                }
-            }
-        },
     ):
         with pytest.raises(InputError, match=r"shaking across the valley|neighbours"):
             check(case_of(**more, **shaken_across), "flexible")

@@ -15,6 +15,7 @@ use super::contact::Contacts;
 use super::coulomb::disc::{Disc, Rows, Side};
 use super::dam::{CrossShaking, Dam};
 use super::dampers::HeldNodes;
+use super::dowels::Dowels;
 use super::law::sideways::Sideways;
 use super::ledger::Ledger;
 use super::linear::LinearDam;
@@ -36,14 +37,19 @@ pub(super) struct Across<'a> {
     crossing: CrossShaking<'a>,
     linear: LinearDam<'a>,
     held: [HeldNodes; 2],
+    /// Added to the answer of a contact to itself, as a share of it.
+    softness: f64,
     places: Vec<Place>,
     disc: Disc,
     pub rows: Rows,
     /// For each contact: velocity before the step, and how far it has slipped.
     before: Vec<f64>,
     slip: Vec<f64>,
-    /// Impulses of friction.
+    /// Impulses of friction and of bonds.
     friction: Vec<f64>,
+    /// Those of bonds, which `rows.p` contains.
+    pub bonds: Vec<f64>,
+    dowels: Option<Dowels>,
     /// Whether contacts have moved since their answers were written.
     pub moved: bool,
     pub track: Option<Track>,
@@ -62,12 +68,15 @@ impl<'a> Across<'a> {
         Some(Across {
             held: [0, 1].map(|state| linear.held(state)),
             linear,
+            softness: dam.softness(),
             places: Place::all(&dam.cracks),
             disc: Disc::new(contacts),
             rows: Rows::new(contacts),
             before: vec![0.0; contacts],
             slip: vec![0.0; contacts],
             friction: vec![0.0; contacts],
+            bonds: vec![0.0; contacts],
+            dowels: Dowels::new(&dam.cracks),
             moved: true,
             track: crossing.crest.map(Track::new),
             crossing,
@@ -94,11 +103,17 @@ impl<'a> Across<'a> {
         self.moved |= contacts.moved.contains(&true);
         self.rows.p.fill(0.0);
         self.rows.u.fill(0.0);
+        if let Some(dowels) = &mut self.dowels {
+            dowels.stay();
+        }
     }
 
     /// Write the rows of the step's contact problem.
     pub(super) fn set_up<W: Lanes>(&mut self, contacts: &Contacts) {
-        self.linear.find_free::<W>(false, false);
+        if let Some(dowels) = &mut self.dowels {
+            self.linear.push_across(dowels);
+        }
+        self.linear.find_free::<W>(self.dowels.is_some(), false);
         self.disc.begin();
         let (linear, rows, m) = (&self.linear, &mut self.rows, contacts.len());
         let held = &self.held[linear.damping()];
@@ -110,7 +125,8 @@ impl<'a> Across<'a> {
                 let (Some(other), true) = (other, all || contacts.moved[i] || contacts.moved[j]) else {
                     continue;
                 };
-                let answer = held.across(one, other);
+                let own = if i == j { 1.0 + self.softness } else { 1.0 };
+                let answer = own * held.across(one, other);
                 (rows.g[i * m + j], rows.g[j * m + i]) = (answer, answer);
             }
             if rows.scale[i] == 0.0 {
@@ -125,7 +141,7 @@ impl<'a> Across<'a> {
             *touches = [slip + TOUCHES > left, TOUCHES - slip > right];
         }
         for contact in 1..m {
-            if stopped_by_another(contacts, rows, contact) {
+            if stopped_by_another(contacts, rows, self.softness, contact) {
                 rows.touches[contact] = [false; 2];
             }
         }
@@ -137,14 +153,48 @@ impl<'a> Across<'a> {
             p: &self.friction,
             u: &self.rows.u,
             before: &self.before,
+            scale: &self.rows.scale,
         }
     }
 
-    /// Note what friction does.
+    /// Let contact bear what it does without the bonds.
+    pub(super) fn part_with_bonds(&mut self) {
+        let impulses = self.rows.p.iter_mut().zip(&self.bonds);
+        impulses.for_each(|(p, bond)| *p -= bond);
+    }
+
+    /// Let bonds push with these impulses, with the velocities `own` without them; `push` is what those of `self.bonds` do.
+    pub(super) fn push_by_bonds<W: Lanes>(
+        &mut self,
+        contacts: &Contacts,
+        bonds: &[f64],
+        own: &[f64],
+        push: &mut [f64],
+    ) {
+        if self.moved || self.bonds != bonds {
+            self.bonds.copy_from_slice(bonds);
+            self.linear.spread_across(contacts, bonds);
+            self.linear.answer::<W>();
+            contacts.relative_across(|crack| self.linear.answered(crack), push);
+            push.iter_mut().zip(own).for_each(|(u, own)| *u -= own);
+        }
+        let velocities = self.rows.b.iter_mut().zip(own.iter().zip(push));
+        velocities.for_each(|(b, (own, push))| *b = own + *push);
+    }
+
+    /// Let the impulses be those of contact and bonds together, and the velocities without them what they are.
+    pub(super) fn join_bonds(&mut self, own: &[f64]) {
+        self.rows.b.copy_from_slice(own);
+        let impulses = self.rows.p.iter_mut().zip(&self.bonds);
+        impulses.for_each(|(p, bond)| *p += bond);
+        self.note();
+    }
+
+    /// Note what friction and bonds do.
     pub(super) fn note(&mut self) {
-        let pushed = self.rows.p.iter().zip(&self.rows.side);
-        for (friction, (p, side)) in self.friction.iter_mut().zip(pushed) {
-            *friction = if *side == Side::None { *p } else { 0.0 };
+        let pushed = self.rows.p.iter().zip(&self.rows.side).zip(&self.bonds);
+        for (friction, ((p, side), bond)) in self.friction.iter_mut().zip(pushed) {
+            *friction = if *side == Side::None { *p } else { *bond };
         }
     }
 
@@ -159,16 +209,44 @@ impl<'a> Across<'a> {
         self.linear.spread_across(contacts, &self.rows.p);
         self.linear.answer::<W>();
         contacts.relative_across(|crack| self.linear.answered(crack), &mut self.rows.u);
+        let work = self.dowels_work();
         self.linear.finish::<W>();
+        let (theta, after) = (self.linear.step.theta, self.dowels_work());
+        if let Some(dowels) = &mut self.dowels {
+            dowels.settle(
+                |crack| self.linear.position(crack),
+                (1.0 - theta) * work + theta * after,
+            );
+            self.linear.join(false, true);
+        }
     }
 
-    /// Works of friction and of the neighbours on some contacts.
-    pub(super) fn works(&self, contacts: std::ops::Range<usize>) -> [f64; 2] {
+    /// Work of the impulses of anchors on the velocities as they are.
+    fn dowels_work(&self) -> f64 {
+        let dowels = self.dowels.as_ref();
+        dowels.map_or(0.0, |dowels| dowels.work(|crack| self.linear.velocity(crack)))
+    }
+
+    /// How far the points of each anchor have moved against each other.
+    pub(super) fn stretched(&self) -> &[f64] {
+        self.dowels.as_ref().map_or(&[], |dowels| &dowels.moved)
+    }
+
+    /// Book what anchors have done in the step.
+    pub(super) fn book_acted(&self, ledger: &mut Ledger) {
+        if let Some(dowels) = &self.dowels {
+            dowels.book(ledger);
+        }
+    }
+
+    /// Works of friction and of the neighbours on some contacts; `taken` is what bonds take, empty without any.
+    pub(super) fn works(&self, contacts: std::ops::Range<usize>, taken: &[f64]) -> [f64; 2] {
         let (theta, rows) = (self.linear.step.theta, &self.rows);
         let mut works = [0.0; 2];
         for k in contacts {
             let mean = (1.0 - theta) * self.before[k] + theta * rows.u[k];
-            works[usize::from(rows.side[k] != Side::None)] += rows.p[k] * mean;
+            let bond = taken.get(k).copied().unwrap_or(0.0);
+            works[usize::from(rows.side[k] != Side::None)] += rows.p[k] * mean + bond;
         }
         works
     }
@@ -201,7 +279,7 @@ impl<'a> Across<'a> {
         for k in contacts {
             if rows.side[k] != Side::None {
                 held = true;
-                summary.side_impulse += rows.p[k].abs();
+                summary.side_impulse += (rows.p[k] - self.bonds[k]).abs();
             }
         }
         summary.side_contacts += u64::from(held && !summary.at_side);
@@ -228,10 +306,10 @@ impl<'a> Across<'a> {
 
 /// Whether a contact that touches a neighbour is of the same two nodes as one before it that does, too: where the ends of
 /// both faces meet, each has one, and what stops one of them stops the other.
-fn stopped_by_another(contacts: &Contacts, rows: &Rows, contact: usize) -> bool {
+fn stopped_by_another(contacts: &Contacts, rows: &Rows, softness: f64, contact: usize) -> bool {
     let touches = |k: usize| contacts.pairs[k].is_some() && rows.touches[k] != [false; 2];
     let g = |i: usize, j: usize| rows.g[i * contacts.len() + j];
-    let alike =
-        |other: usize| g(contact, other).powi(2) > (1.0 - ALIKE) * g(contact, contact) * g(other, other);
+    let own = |k: usize| g(k, k) / (1.0 + softness);
+    let alike = |other: usize| g(contact, other).powi(2) > (1.0 - ALIKE) * own(contact) * own(other);
     touches(contact) && (0..contact).any(|other| touches(other) && alike(other))
 }

@@ -24,6 +24,18 @@ impl FacesOperator<'_, '_> {
         solver: &mut Solver,
         across: &mut Across,
     ) -> Report {
+        let report = self.solve_disc::<W>(problem, solver, across);
+        self.velocities::<W>(problem, &solver.p, &mut solver.u);
+        report
+    }
+
+    /// Find the impulses of both.
+    pub(super) fn solve_disc<W: Lanes>(
+        &mut self,
+        problem: &mut Problem,
+        solver: &mut Solver,
+        across: &mut Across,
+    ) -> Report {
         let (status, moved) = (&solver.status, across.moved);
         if moved {
             self.fill(problem, |contact| status[contact] != Status::Absent);
@@ -31,8 +43,8 @@ impl FacesOperator<'_, '_> {
         let (disc, rows) = across.problem();
         let solution = (&mut solver.p[..], &mut solver.u[..]);
         let report = disc.solve::<W>(problem, rows, &mut solver.status, solution, moved);
-        self.velocities::<W>(problem, &solver.p, &mut solver.u);
         across.note();
+        across.moved = false;
         report
     }
 }

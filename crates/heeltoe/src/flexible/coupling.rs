@@ -140,7 +140,8 @@ impl Crack {
             laws.set_up(&mut self.problem, &mut self.solver, before, sideways, step.dt);
         }
         if let Some(bonds) = &mut self.bonds {
-            bonds.set_up(&mut self.problem, &self.solver, &self.contacts.gaps, step);
+            let gaps = &self.contacts.gaps;
+            bonds.set_up(&mut self.problem, &self.solver, gaps, sideways, step);
         }
     }
 

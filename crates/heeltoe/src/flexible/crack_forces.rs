@@ -150,8 +150,9 @@ impl<'a> CrackForces<'a> {
         sums
     }
 
-    /// Note what the anchors bear where the nodes are now, and return by how much their energy has grown.
-    pub(super) fn settle<'f>(&mut self, position: impl Fn(usize) -> Faces<'f>) -> f64 {
+    /// Note what the anchors bear where the nodes are now, and return by how much their energy has grown; `sideways` is how
+    /// far the points of each have moved across the valley, empty where none has.
+    pub(super) fn settle<'f>(&mut self, position: impl Fn(usize) -> Faces<'f>, sideways: &[f64]) -> f64 {
         for acting in &mut self.cracks {
             let faces = acting.place.of(position(acting.crack));
             stretch(&mut acting.moved, acting.inside, faces, &acting.apart);
@@ -159,13 +160,18 @@ impl<'a> CrackForces<'a> {
         self.add_up();
         let before = self.stored;
         self.stored = 0.0;
+        let mut sideways = sideways.iter();
         // Elongation is stored once, wherever it is.
         let mut stored = vec![false; self.elongation.len()];
         for acting in &mut self.cracks {
             for (k, anchor) in acting.inside.anchors.iter().enumerate() {
                 let (moved, which) = (acting.moved[k], anchor.place.anchor);
                 let elongation = self.elongation[which];
-                let borne = anchor.borne(moved, elongation);
+                let [tension, force] = anchor.borne(moved, elongation);
+                let dowel = sideways
+                    .next()
+                    .map_or(0.0, |moved| anchor.shear_stiffness * moved);
+                let borne = [tension, force.hypot(dowel)];
                 acting.borne[k].note(anchor, borne, self.now);
                 self.stored += anchor.dowel_energy(moved);
                 if !std::mem::replace(&mut stored[which], true) {

@@ -15,6 +15,7 @@ use super::compliance::Compliance;
 use super::contact::Contacts;
 use super::crack_forces::CrackForces;
 use super::dampers::{Dampers, HeldNodes, Holding};
+use super::dowels::Dowels;
 use super::faces::Faces;
 use super::ledger::Ledger;
 use super::modal_stepper::{advance, move_crack, Drive, ModalStepper};
@@ -143,6 +144,16 @@ impl<'a> LinearDam<'a> {
             self.step,
         );
         acting.spread(&mut self.bodies, |body| &mut body.push);
+    }
+
+    /// The same of anchors across the valley.
+    pub(super) fn push_across(&mut self, dowels: &mut Dowels) {
+        dowels.find(
+            |crack| self.position(crack),
+            |crack| self.velocity(crack),
+            self.step,
+        );
+        dowels.spread(&mut self.bodies, |body| &mut body.push);
     }
 
     /// Find the velocities without contact: with what acts beside it, where anything does, less the forces that the start

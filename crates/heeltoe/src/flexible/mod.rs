@@ -16,6 +16,7 @@ mod crack_forces;
 mod crack_line;
 mod dam;
 mod dampers;
+mod dowels;
 mod envelope;
 mod faces;
 mod frames;

@@ -291,8 +291,17 @@ impl<'a> Moreau<'a> {
                 ledger.fracture += taken[0] + taken[1];
                 ledger.turnover += taken[0].abs() + taken[1].abs();
             }
+            let across_taken = match (bonds, &self.across) {
+                (Some(bonds), Some(_)) => &bonds.taken_across[..],
+                _ => &[],
+            };
+            if let Some(taken) = across_taken.get(of.clone()) {
+                let taken = taken.iter().sum::<f64>();
+                ledger.fracture += taken;
+                ledger.turnover += taken.abs();
+            }
             let work = self.across.as_ref().map_or(work, |across| {
-                let own = across.works(of);
+                let own = across.works(of, across_taken);
                 [work[0] + own[0], work[1] + own[1]]
             });
             for (lost, work) in watch.summary.lost.iter_mut().zip(work) {
@@ -315,12 +324,15 @@ impl<'a> Moreau<'a> {
         if let Some(bonds) = &mut crack.bonds {
             if self.quiet {
                 bonds.taken.fill(0.0);
+                bonds.taken_across.fill(0.0);
                 bonds.made = 0.0;
             } else {
+                let across = self.across.as_ref();
                 bonds.book(
                     &crack.problem,
                     &crack.solver,
                     &crack.before,
+                    across.map_or_else(Sideways::default, Across::sideways),
                     self.linear.step,
                     end,
                 );
@@ -344,13 +356,18 @@ impl<'a> Moreau<'a> {
         };
         let theta = self.linear.step.theta;
         let work = [0, 1].map(|k| (1.0 - theta) * before[k] + theta * after[k]);
-        let taken_up = acting.settle(|crack| self.linear.position(crack));
+        let across = self.across.as_ref();
+        let sideways = across.map_or(&[][..], Across::stretched);
+        let taken_up = acting.settle(|crack| self.linear.position(crack), sideways);
         let ledger = &mut self.ledger;
         ledger.input += work[0];
         // What the anchors have not taken up of their work is the scheme's doing.
         ledger.numerical -= work[1] + taken_up;
         ledger.springs = acting.stored;
         ledger.turnover += work[0].abs() + work[1].abs();
+        if let Some(across) = across {
+            across.book_acted(ledger);
+        }
     }
 
     /// Follow the point that is wanted.
@@ -408,10 +425,15 @@ impl Solving<'_, '_, '_> {
         loop {
             let (problem, solver) = (&mut *self.problem, &mut *self.solver);
             report.go_on(match (self.across.as_mut(), self.bonds.as_mut()) {
-                (Some(across), _) => self.faces.solve_across::<W>(problem, solver, across),
-                (None, Some(bonds)) => {
-                    bonds.solve::<W>(problem, solver, self.faces, self.before, self.step, self.moved)
-                }
+                (across, Some(bonds)) => bonds.solve::<W>(
+                    problem,
+                    solver,
+                    (self.faces, across.map(|across| &mut **across)),
+                    self.before,
+                    self.step,
+                    self.moved,
+                ),
+                (Some(across), None) => self.faces.solve_across::<W>(problem, solver, across),
                 (None, None) => solver.solve::<W>(problem, self.faces),
             });
             let across = self.across.as_deref();

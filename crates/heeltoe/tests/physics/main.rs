@@ -1,6 +1,7 @@
 //! The kernels against closed forms, and against steppers so plain that one sees what they do. They use nothing but what
 //! the crate hands out, as any user does.
 
+mod across;
 mod anchors;
 mod bonds;
 mod flexible;

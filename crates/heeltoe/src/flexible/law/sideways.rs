@@ -3,10 +3,12 @@
 /// Motion of contacts across the valley in a step; nothing where the ground moves along the stream alone.
 #[derive(Clone, Copy, Default)]
 pub(in super::super) struct Sideways<'a> {
-    /// Impulses of friction, velocities, and those before the step.
+    /// Impulses of friction and bonds, velocities, and those before the step.
     pub p: &'a [f64],
     pub u: &'a [f64],
     pub before: &'a [f64],
+    /// About what impulse changes each velocity by 1.
+    pub scale: &'a [f64],
 }
 
 impl Sideways<'_> {

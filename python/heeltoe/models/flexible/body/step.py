@@ -15,16 +15,21 @@ from heeltoe.models.flexible.body.reduced import FlexibleDam, ReducedBody
 _FOLLOWED = 1.0
 
 
-def longest_step(dam: FlexibleDam, theta: float, step: float) -> tuple[float, str]:
-    """Return a step [s], `step` or a shorter one, that follows water and anchors, and the field that asks for it.
+def longest_step(
+    dam: FlexibleDam, theta: float, step: float, across: tuple[ReducedBody, ...] = ()
+) -> tuple[float, str]:
+    """Return a step [s], `step` or a shorter one, that follows water, bonds and anchors, and the field that asks for
+    it; `across` are the parts across the valley, where the ground shakes that way.
 
     Each is a spring of stiffness k between the faces. With W, the velocities of the crack nodes by unit impulses on
     them within a step of dt, ``dt^2 W k`` has no eigenvalue above 1. Shorter steps have a larger W: a body answers
     more freely at once.
     """
 
+    places = range(len(dam.lines))
+
     def largest(rate: Callable[[FlexibleDam, int, float, float], float]) -> float:
-        return max(rate(dam, place, theta, step) for place in range(len(dam.lines)))
+        return max(rate(dam, place, theta, step) for place in places)
 
     # Rock answers about as the part above it does.
     both = 1.0 if dam.rock is None else 2.0
@@ -33,8 +38,13 @@ def longest_step(dam: FlexibleDam, theta: float, step: float) -> tuple[float, st
             ("uplift.opening", both * largest(_water_rate)),
             ("crack.bond", largest(_bond_rate)),
             # An anchor is one spring at all cracks that it crosses.
-            ("anchors", both * sum(_anchors_rate(dam, place, theta, step) for place in range(len(dam.lines)))),
+            ("anchors", both * sum(_anchors_rate(dam, place, theta, step) for place in places)),
         ]
+        if across:
+            springs += [
+                ("crack.bond", max(_bond_rate_across(dam, across, place, theta, step) for place in places)),
+                ("anchors", both * sum(_dowels_rate(dam, across, place, theta, step) for place in places)),
+            ]
         field, rate = max(springs, key=lambda spring: spring[1])
         if step * step * rate <= _FOLLOWED:
             break
@@ -52,6 +62,12 @@ def _faces(dam: FlexibleDam, place: int) -> list[tuple[ReducedBody, int]]:
     """Return the parts of the dam above and, if there is one, below a crack, with the first node of its face."""
     line, parts = dam.lines[place], dam.reduced[place : place + 2]
     return list(zip(parts, (line.upper[0], line.lower[0]), strict=False))
+
+
+def _faces_across(dam: FlexibleDam, across: tuple[ReducedBody, ...], place: int) -> list[tuple[ReducedBody, int]]:
+    """Return the same of the parts across the valley."""
+    line = dam.lines[place]
+    return list(zip(across[place : place + 2], (line.upper[0], line.lower[0]), strict=False))
 
 
 def _water_rate(dam: FlexibleDam, place: int, theta: float, step: float) -> float:
@@ -74,21 +90,44 @@ def _bond_rate(dam: FlexibleDam, place: int, theta: float, step: float) -> float
     if line.bond is None:
         return 0.0
     tensile, cohesion, opening, shear, factor, first = line.bond
-    bodies = _faces(dam, place)
-    (above, top), count = bodies[0], line.upper[1]
-    lengths = node_lengths(above.position[top : top + count])
-    if line.lower[1] not in (0, count):
-        # Faces of unlike meshes: the lower one answers about as the upper one does.
-        bodies = [bodies[0]] * 2
+    lengths = _lengths(dam, place)
     rate = 0.0
     for direction, (strength, energy) in enumerate(((cohesion, shear), (tensile, opening))):
         root = np.sqrt(lengths * (factor * strength) ** 2 / (2.0 * first * energy))
-        answer = np.zeros((count, count))
-        for body, start in bodies:
-            own = direction * (body.position.size // 2) + start
-            answer += _answer(body, theta, step)[own : own + count, own : own + count]
-        rate = max(rate, float(np.linalg.eigvalsh(root[:, None] * answer * root)[-1]))
+        bodies = [(body, direction * (body.position.size // 2) + node) for body, node in _faces(dam, place)]
+        rate = max(rate, _softening(dam, place, bodies, root, theta, step))
     return rate
+
+
+def _bond_rate_across(
+    dam: FlexibleDam, across: tuple[ReducedBody, ...], place: int, theta: float, step: float
+) -> float:
+    """Return the same across the valley, where a joint softens as along it."""
+    bond = dam.lines[place].bond
+    if bond is None:
+        return 0.0
+    _, cohesion, _, shear, factor, first = bond
+    root = np.sqrt(_lengths(dam, place) * (factor * cohesion) ** 2 / (2.0 * first * shear))
+    return _softening(dam, place, _faces_across(dam, across, place), root, theta, step)
+
+
+def _lengths(dam: FlexibleDam, place: int) -> Floats:
+    (above, top), count = _faces(dam, place)[0], dam.lines[place].upper[1]
+    return node_lengths(above.position[top : top + count])
+
+
+def _softening(
+    dam: FlexibleDam, place: int, bodies: list[tuple[ReducedBody, int]], root: Floats, theta: float, step: float
+) -> float:
+    """Return the largest eigenvalue of W k of faces that begin at these components of bodies, from the roots of k."""
+    count = dam.lines[place].upper[1]
+    if dam.lines[place].lower[1] not in (0, count):
+        # Faces of unlike meshes: the lower one answers about as the upper one does.
+        bodies = [bodies[0]] * 2
+    answer = np.zeros((count, count))
+    for body, own in bodies:
+        answer += _answer(body, theta, step)[own : own + count, own : own + count]
+    return float(np.linalg.eigvalsh(root[:, None] * answer * root)[-1])
 
 
 def _anchors_rate(dam: FlexibleDam, place: int, theta: float, step: float) -> float:
@@ -108,3 +147,17 @@ def _anchor_rate(faces: list[tuple[ReducedBody, int]], anchor: CrackAnchor, thet
     axis = np.array(anchor.axis)
     stiffness = anchor.axial_stiffness * np.outer(axis, axis) + anchor.shear_stiffness * np.diag([1.0, 0.0])
     return float(np.abs(np.linalg.eigvals(answer @ stiffness)).max())
+
+
+def _dowels_rate(dam: FlexibleDam, across: tuple[ReducedBody, ...], place: int, theta: float, step: float) -> float:
+    """Return the largest rate of the anchors of a crack across the valley, where they resist slip as along it."""
+    faces, rate = _faces_across(dam, across, place), 0.0
+    for anchor in dam.lines[place].anchors:
+        answer = 0.0
+        for (body, first), point in zip(faces, anchor.points, strict=False):
+            weights = np.zeros(body.position.size)
+            for node, share in point:
+                weights[first + node] += share
+            answer += float(weights @ _answer(body, theta, step) @ weights)
+        rate = max(rate, anchor.shear_stiffness * answer)
+    return rate

@@ -128,7 +128,7 @@ class ShakenDam:
         period = self._period()
         stated = self.case.flexible.time_step
         wanted = stated or usual_step(self.case, period)
-        step, field = longest_step(self.dam, self.case.flexible.theta, wanted)
+        step, field = self._followed(wanted)
         if step < (wanted if stated else _SHORTEST_OF_ALL):
             raise InputError("step-stiff", field, step=f"{step:.2g} s")
         if stated is None:
@@ -154,7 +154,7 @@ class ShakenDam:
     def may_step(self, step: float) -> bool:
         """Whether a step [s] still follows the dam and what acts in its crack, so that a run can be compared."""
         period = self._period()
-        followed, _ = longest_step(self.dam, self.case.flexible.theta, step)
+        followed, _ = self._followed(step)
         return step <= min(followed, period / _TOO_FEW_STEPS, self.shaking.end / 2.0)
 
     def step_beside(self, step: float) -> float:
@@ -255,6 +255,12 @@ class ShakenDam:
         """The dam across the valley; None where the ground does not shake that way."""
         cross = self.shaking.cross
         return None if cross is None or not cross.any() else across_dam(self.case, self.dam)
+
+    def _followed(self, step: float) -> tuple[float, str]:
+        """Return a step [s], this or a shorter one, that follows what acts in the cracks, and the field that asks for
+        it."""
+        across = () if self.across is None else self.across.parts
+        return longest_step(self.dam, self.case.flexible.theta, step, across)
 
     def _across_means(self, step: float, ground: Floats) -> Floats | None:
         """Return the ground's mean acceleration across the valley in each step [m/s2], silence at the end included."""

@@ -21,26 +21,24 @@
 //! no shear at once, and contact has a solution. In the search for rest the bond holds its share of the shear without such a
 //! give: that of the joint before anything opens, then what it was found to bear.
 //!
+//! Where the ground shakes across the valley, too, slip and shear are vectors in the plane of the crack: the bond's part
+//! of the shear is within a circle of the radius `C - mu T`, and `s` is the path of the vector.
+//!
 //! In a step of dt, contact is solved for what is left of `p` without the bond, whose conditions are those of a crack.
-//! `T` and `C` are means of the start and the end of the step, found by passes: so the work of a bond that breaks is
+//! `T` and `C` are means of the start and the end of the step, found by [`passes`]: so the work of a bond that breaks is
 //! `a G_f`, whatever the step.
+
+mod passes;
 
 use super::coulomb::{ContactOperator, Known, Problem, Report, Solver};
 use super::crack_line::Line;
+use super::law::sideways::Sideways;
 use super::scheme::TimeStep;
-use super::simd::{largest, Lanes};
+use super::simd::Lanes;
 use super::status::Status;
 
 /// Share of the change of a pass that the spring of a node which closes may hand on to the next.
 const FOLLOWED: f64 = 0.1;
-/// What the bond of the last pass may miss, as a share of the largest impulse.
-const MISSED: f64 = 1e-11;
-/// Velocity of a node that sticks, as a share of the fastest: rounding.
-const ROUNDED: f64 = 1e-11;
-/// Passes after which half of each change must do, and after which what is found must do. Its miss is in the residual.
-const HALVED: u32 = 20;
-const MOST: u32 = 60;
-
 /// So many times their strengths tie joints before the search for rest.
 const TIED: f64 = 1e6;
 /// Less damage is rounding.
@@ -62,8 +60,8 @@ pub(super) struct Bond {
     /// Way of its slip and its largest gap so far (m).
     path: f64,
     widest: f64,
-    /// Shear (N) and gap as the step begins.
-    shear: f64,
+    /// Shear (N), along the crack and across the valley, and gap as the step begins.
+    shear: [f64; 2],
     gap: f64,
     /// Coefficient of friction while it slips.
     friction: f64,
@@ -73,8 +71,8 @@ pub(super) struct Bond {
     held: f64,
     /// After the step, if this is the last pass.
     next: After,
-    /// Mean tension, shear strength beside friction, and shear of the step (N).
-    mean: [f64; 3],
+    /// Mean tension, shear strength beside friction, and both shears of the step (N).
+    mean: [f64; 4],
     /// Whether a closed node bears its cohesion as a limit, in the search for rest.
     rigid: bool,
 }
@@ -86,7 +84,28 @@ struct After {
     path: f64,
     widest: f64,
     gap: f64,
-    shear: f64,
+    shear: [f64; 2],
+}
+
+/// Length of a vector in the plane of a crack; one along the crack has that of its component to the last bit.
+#[inline(always)]
+fn size([along, across]: [f64; 2]) -> f64 {
+    if across == 0.0 {
+        along.abs()
+    } else {
+        along.hypot(across)
+    }
+}
+
+/// The vector shortened to a limit.
+#[inline(always)]
+fn within([along, across]: [f64; 2], limit: f64) -> [f64; 2] {
+    if across == 0.0 {
+        return [along.clamp(-limit, limit), 0.0];
+    }
+    let size = along.hypot(across);
+    let share = if size > limit { limit / size } else { 1.0 };
+    [share * along, share * across]
 }
 
 impl Bond {
@@ -121,8 +140,9 @@ impl Bond {
         self.bears(self.damage, self.gap, self.widest)
     }
 
-    /// Follow the motion of a step: `ways` along and across, and the shear of contact and bond.
-    fn follow(&mut self, status: Status, ways: [f64; 2], shear: f64) {
+    /// Follow the motion of a step: `ways` along the crack, across its faces and across the valley, and the shear of
+    /// contact and bond.
+    fn follow(&mut self, status: Status, [along, apart, across]: [f64; 3], shear: [f64; 2]) {
         let mut next = After {
             damage: self.damage,
             path: self.path,
@@ -134,28 +154,30 @@ impl Bond {
         match status {
             Status::Absent => next.damage = 1.0,
             Status::Open => {
-                next.gap = (self.gap + ways[1]).max(0.0);
+                next.gap = (self.gap + apart).max(0.0);
                 next.widest = next.widest.max(next.gap);
             }
-            _ if self.rigid && status.slips() => next.path += ways[0].abs(),
+            _ if self.rigid && status.slips() => next.path += along.abs(),
             _ => {}
         }
         let open = status == Status::Open;
         // One that comes to stick in the step has moved in it.
         if open || (status.closed() && !self.rigid) {
-            next.shear = self.shear - self.stiffest[1] * ways[0];
-            next.path += (next.shear.abs() - before[1]).max(0.0) / self.stiffest[1];
+            let spring = self.stiffest[1];
+            next.shear = [self.shear[0] - spring * along, self.shear[1] - spring * across];
+            next.path += (size(next.shear) - before[1]).max(0.0) / spring;
         }
         if next.damage < 1.0 {
             let worn = (next.widest / self.reach[0]).hypot(next.path / self.reach[1]);
             next.damage = next.damage.max(worn.min(1.0));
         }
         let after = self.bears(next.damage, next.gap, next.widest);
-        next.shear = next.shear.clamp(-after[1], after[1]);
+        next.shear = within(next.shear, after[1]);
         self.mean = [
             0.5 * (before[0] + after[0]),
             0.5 * (before[1] + after[1]),
-            0.5 * (self.shear + next.shear),
+            0.5 * (self.shear[0] + next.shear[0]),
+            0.5 * (self.shear[1] + next.shear[1]),
         ];
         self.next = next;
     }
@@ -170,7 +192,8 @@ impl Bond {
             ..
         } = self.next;
         let [closed, open] = [0.0, gap].map(|gap| self.bears(damage, gap, widest)[0]);
-        0.5 * (gap * (closed + open) + shear * shear / self.stiffest[1])
+        let squared = shear[0] * shear[0] + shear[1] * shear[1];
+        0.5 * (gap * (closed + open) + squared / self.stiffest[1])
     }
 
     /// Take over what has been found.
@@ -224,8 +247,13 @@ pub(super) struct Bonds {
     /// Room for velocities and impulses.
     own: Vec<f64>,
     sum: Vec<f64>,
-    /// What they have taken in the step from each component of each contact.
+    /// The same across the valley: impulses of the bonds, what the last ones do, and velocities without them.
+    shift_across: Vec<f64>,
+    push_across: Vec<f64>,
+    own_across: Vec<f64>,
+    /// Work that they have taken in the step from each component of each contact, and across the valley.
     pub taken: Vec<f64>,
+    pub taken_across: Vec<f64>,
     /// Energy (J) that they have given in the step beyond what they held; they ought to give none.
     pub made: f64,
     /// Damage of each contact, 1 where it has no bond.
@@ -262,13 +290,13 @@ impl Bonds {
                         damage: 0.0,
                         path: 0.0,
                         widest: 0.0,
-                        shear: 0.0,
+                        shear: [0.0; 2],
                         gap: 0.0,
                         friction: line.friction[0].max(line.friction[1]),
                         stiffest: [0.0; 2],
                         held: 0.0,
                         next: After::default(),
-                        mean: [0.0; 3],
+                        mean: [0.0; 4],
                         rigid: !shaken,
                     });
                     place += length;
@@ -291,7 +319,11 @@ impl Bonds {
             push: vec![0.0; 2 * first],
             own: Vec::new(),
             sum: vec![0.0; 2 * first],
+            shift_across: vec![0.0; first],
+            push_across: vec![0.0; first],
+            own_across: Vec::new(),
             taken: vec![0.0; 2 * first],
+            taken_across: vec![0.0; first],
             made: 0.0,
             cracks,
             passes: 0,
@@ -306,7 +338,7 @@ impl Bonds {
             let ([tension, limit], m) = (own.now(), forces.len() / 2);
             let rubs = own.friction * (forces[m + own.contact] + tension).max(0.0);
             let shear = forces[own.contact];
-            own.shear = (shear - shear.clamp(-rubs, rubs)).clamp(-limit, limit);
+            own.shear[0] = (shear - shear.clamp(-rubs, rubs)).clamp(-limit, limit);
         }
         self.look(0.0);
     }
@@ -322,7 +354,14 @@ impl Bonds {
     }
 
     /// Begin a step, whose gaps and states are these.
-    pub(super) fn set_up(&mut self, problem: &mut Problem, solver: &Solver, gaps: &[f64], step: TimeStep) {
+    pub(super) fn set_up(
+        &mut self,
+        problem: &mut Problem,
+        solver: &Solver,
+        gaps: &[f64],
+        sideways: Sideways,
+        step: TimeStep,
+    ) {
         if self.iter_mut().any(|bond| bond.rigid) {
             problem.added.resize(solver.status.len(), [0.0; 2]);
             problem.lean.resize(solver.status.len(), 0.0);
@@ -332,16 +371,21 @@ impl Bonds {
         for bond in self.cracks.iter_mut().flatten() {
             let k = bond.contact;
             let status = solver.status[k];
-            bond.stiffest = [stiffest * problem.scale[m + k], stiffest * problem.scale[k]];
+            // One spring for all directions of slip.
+            let across = sideways.scale.get(k).copied().unwrap_or(f64::INFINITY);
+            bond.stiffest = [
+                stiffest * problem.scale[m + k],
+                stiffest * problem.scale[k].min(across),
+            ];
             bond.gap = if status == Status::Open {
                 gaps[k].max(0.0)
             } else {
                 0.0
             };
             let still = if status.slips() { Status::Stick } else { status };
-            bond.follow(still, [0.0; 2], bond.shear);
+            bond.follow(still, [0.0; 3], bond.shear);
             if self.tied {
-                bond.mean = [TIED * bond.strength[0], TIED * bond.strength[1], 0.0];
+                bond.mean = [TIED * bond.strength[0], TIED * bond.strength[1], 0.0, 0.0];
             }
         }
         self.draw(problem, step.dt, 1.0);
@@ -351,15 +395,23 @@ impl Bonds {
     fn draw(&mut self, problem: &mut Problem, dt: f64, far: f64) -> f64 {
         let m = problem.h.len();
         let mut change = 0.0_f64;
-        let Bonds { cracks, shift, .. } = self;
+        let Bonds {
+            cracks,
+            shift,
+            shift_across,
+            ..
+        } = self;
+        let mut go = |shift: &mut f64, to: f64| {
+            let more = far * (to - *shift);
+            change = change.max(more.abs());
+            *shift += more;
+        };
         for bond in cracks.iter().flatten() {
             let k = bond.contact;
-            let [tension, cohesion, shear] = bond.mean.map(|force| dt * force);
-            for (value, component) in [(shear, k), (-tension, m + k)] {
-                let more = far * (value - shift[component]);
-                change = change.max(more.abs());
-                shift[component] += more;
-            }
+            let [tension, cohesion, shear, across] = bond.mean.map(|force| dt * force);
+            go(&mut shift[k], shear);
+            go(&mut shift[m + k], -tension);
+            go(&mut shift_across[k], across);
             if bond.rigid {
                 problem.added[k] = [cohesion; 2];
                 problem.lean[k] = shear;
@@ -368,87 +420,8 @@ impl Bonds {
         change
     }
 
-    /// Look at a solution; whether it meets the law of the bonds.
-    fn met(
-        &mut self,
-        problem: &mut Problem,
-        solver: &Solver,
-        before: &[f64],
-        step: TimeStep,
-        report: &mut Report,
-    ) -> bool {
-        self.passes += 1;
-        let m = solver.status.len();
-        let way = |u: f64, before: f64| step.dt * (step.theta * u + (1.0 - step.theta) * before);
-        let fastest = largest(&problem.b);
-        let largest = largest(&solver.p).max(largest(&self.shift));
-        for bond in self.iter_mut() {
-            let k = bond.contact;
-            let mut ways = [k, m + k].map(|i| way(solver.u[i], before[i]));
-            // What goes on to stick does not move: its bond bears the same to the last bit.
-            if solver.status[k] == Status::Stick && ways[0].abs() <= ROUNDED * fastest * step.dt {
-                ways[0] = 0.0;
-            }
-            bond.follow(solver.status[k], ways, solver.p[k] / step.dt);
-        }
-        let far = if self.passes > HALVED { 0.5 } else { 1.0 };
-        let change = self.draw(problem, step.dt, far);
-        if change <= MISSED * largest || self.passes >= MOST {
-            report.residual = report
-                .residual
-                .max(if largest > 0.0 { change / largest } else { 0.0 });
-            return true;
-        }
-        false
-    }
-
-    /// Solve the contact problem of a step with the bonds; `moved` says that the crack may answer otherwise than before.
-    pub(super) fn solve<W: Lanes>(
-        &mut self,
-        problem: &mut Problem,
-        solver: &mut Solver,
-        crack: &mut impl ContactOperator,
-        before: &[f64],
-        step: TimeStep,
-        moved: &mut bool,
-    ) -> Report {
-        let mut report = Report::default();
-        self.passes = 0;
-        self.own.clone_from(&problem.b);
-        // The last solution is that of contact alone again.
-        let left = solver.p.iter_mut().zip(&self.pushed);
-        left.for_each(|(p, pushed)| *p -= pushed);
-        loop {
-            if *moved || self.pushed != self.shift {
-                self.pushed.clone_from(&self.shift);
-                crack.velocities::<W>(problem, &self.pushed, &mut self.push);
-                self.push.iter_mut().zip(&self.own).for_each(|(u, b)| *u -= b);
-                *moved = false;
-            }
-            for (b, (own, push)) in problem.b.iter_mut().zip(self.own.iter().zip(&self.push)) {
-                *b = own + push;
-            }
-            let mut shifted = Shifted {
-                crack: &mut *crack,
-                sum: std::mem::take(&mut self.sum),
-                shift: &self.pushed,
-            };
-            report.go_on(solver.solve::<W>(problem, &mut shifted));
-            self.sum = shifted.sum;
-            let met = self.met(problem, solver, before, step, &mut report);
-            problem.b.copy_from_slice(&self.own);
-            if met {
-                // What the solution was found with, not what the next pass would have had.
-                self.shift.clone_from(&self.pushed);
-                break;
-            }
-        }
-        let whole = solver.p.iter_mut().zip(&self.pushed);
-        whole.for_each(|(p, pushed)| *p += pushed);
-        report
-    }
-
-    /// The same of a search for the state of rest, where `G` is known and steps follow each other until nothing moves.
+    /// Solve the contact problem in a search for the state of rest, where `G` is known and steps follow each other until
+    /// nothing moves.
     pub(super) fn rest<W: Lanes>(
         &mut self,
         problem: &mut Problem,
@@ -468,10 +441,11 @@ impl Bonds {
         let m = solver.status.len();
         for bond in self.iter_mut() {
             let k = bond.contact;
+            let [along, apart] = [k, m + k].map(|i| step.dt * solver.u[i]);
             bond.follow(
                 solver.status[k],
-                [k, m + k].map(|i| step.dt * solver.u[i]),
-                solver.p[k] / step.dt,
+                [along, apart, 0.0],
+                [solver.p[k] / step.dt, 0.0],
             );
         }
         self.tied = false;
@@ -489,27 +463,36 @@ impl Bonds {
         problem: &Problem,
         solver: &Solver,
         before: &[f64],
+        sideways: Sideways,
         step: TimeStep,
         end: f64,
     ) {
         let m = solver.status.len();
-        let way = |k: usize| step.theta * solver.u[k] + (1.0 - step.theta) * before[k];
+        let mean = |u: f64, before: f64| step.theta * u + (1.0 - step.theta) * before;
+        let way = |k: usize| mean(solver.u[k], before[k]);
         self.taken.fill(0.0);
         self.made = 0.0;
         for (bonds, cracked) in self.cracks.iter_mut().zip(&mut self.cracked) {
             for bond in bonds.iter_mut() {
                 let k = bond.contact;
+                let of = |numbers: &[f64]| numbers.get(k).copied().unwrap_or(0.0);
+                let shear = [solver.p[k], of(sideways.p)];
+                let shift = [self.shift[k], self.shift_across[k]];
                 // Friction is that of pressure. All shear of a node that slips under tension is the bond's; so is the
                 // part that the shift adds to the friction of a node that is pressed.
-                let rubs = problem.mu_slip[k] * self.shift[m + k] * solver.status[k].sign();
-                let bond_share = if solver.p[m + k] < 0.0 {
-                    solver.p[k]
+                let sign = solver.status[k].sign();
+                let [to, to_across] = towards([shear[0] - shift[0], shear[1] - shift[1]], sign);
+                let rubs = problem.mu_slip[k] * self.shift[m + k];
+                let [bond_share, across_share] = if solver.p[m + k] < 0.0 {
+                    shear
                 } else {
-                    self.shift[k] + rubs
+                    [shift[0] + rubs * to, shift[1] + rubs * to_across]
                 };
                 self.taken[k] = -bond_share * way(k);
                 self.taken[m + k] = -self.shift[m + k] * way(m + k);
-                let (taken, held) = (self.taken[k] + self.taken[m + k], bond.may_give_back());
+                self.taken_across[k] = -across_share * mean(of(sideways.u), of(sideways.before));
+                let taken = self.taken[k] + self.taken[m + k] + self.taken_across[k];
+                let held = bond.may_give_back();
                 self.made += (held - bond.held - taken).max(0.0);
                 bond.held = held;
                 cracked.energy += taken;
@@ -550,28 +533,13 @@ impl Bonds {
     }
 }
 
-/// The crack under the impulses of the bonds and those that are looked for.
-struct Shifted<'s, C> {
-    crack: &'s mut C,
-    shift: &'s [f64],
-    sum: Vec<f64>,
-}
-
-impl<C: ContactOperator> ContactOperator for Shifted<'_, C> {
-    fn fill(&mut self, problem: &mut Problem, wanted: impl Fn(usize) -> bool) {
-        self.crack.fill(problem, wanted);
+/// Direction against which friction of these impulses along the crack and across the valley acts, of a node that slips
+/// along the crack with this sign; none of one that does not slip.
+#[inline(always)]
+fn towards(friction: [f64; 2], sign: f64) -> [f64; 2] {
+    if sign == 0.0 || friction[1] == 0.0 {
+        return [sign, 0.0];
     }
-
-    fn fill_row(&mut self, problem: &mut Problem, contact: usize, wanted: impl Fn(usize) -> bool) {
-        self.crack.fill_row(problem, contact, wanted);
-    }
-
-    fn velocities<W: Lanes>(&mut self, problem: &Problem, p: &[f64], u: &mut [f64]) {
-        for (sum, (p, own)) in self.sum.iter_mut().zip(p.iter().zip(self.shift)) {
-            *sum = p + own;
-        }
-        let sum = std::mem::take(&mut self.sum);
-        self.crack.velocities::<W>(problem, &sum, u);
-        self.sum = sum;
-    }
+    let size = size(friction);
+    friction.map(|impulse| -impulse / size)
 }
