@@ -69,7 +69,7 @@ impl<'a> Across<'a> {
             slip: vec![0.0; contacts],
             friction: vec![0.0; contacts],
             moved: true,
-            track: crossing.crest.map(Track::new),
+            track: crossing.crest.map(|row| Track::new(row, crossing.ground.len())),
             crossing,
         })
     }
