@@ -62,7 +62,7 @@ pub fn slice<'a>(numbers: &'a Option<Numbers>) -> PyResult<Option<&'a [f64]>> {
     Ok(numbers.as_ref().map(|n| n.as_slice()).transpose()?)
 }
 
-/// A flag for each of so many, or none at all.
+/// A flag for each of `count` moments, or none at all.
 pub fn flags<'a>(flags: &'a Option<Flags>, count: usize) -> PyResult<&'a [bool]> {
     let Some(flags) = flags else { return Ok(&[]) };
     let flags = flags.as_slice()?;

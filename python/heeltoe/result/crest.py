@@ -99,7 +99,7 @@ class CrestSeries:
 
 
 def even_moments(step: float, count: int) -> Floats:
-    """Return so many moments from zero on, one `step` apart [s]."""
+    """Return `count` moments from zero on, one `step` apart [s]."""
     moments = np.arange(count, dtype=np.float64)
     moments *= step
     return moments

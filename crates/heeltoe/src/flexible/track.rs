@@ -10,7 +10,7 @@ pub(super) struct Track {
 }
 
 impl Track {
-    /// `row` has a number for each mode; there is room for so many `steps`, and the start.
+    /// `row` has a number for each mode; there is room for these `steps` and the start.
     pub(super) fn new(row: &[f64], steps: usize) -> Self {
         let group = |part: &[f64]| -> Group { std::array::from_fn(|l| part.get(l).copied().unwrap_or(0.0)) };
         Track {
