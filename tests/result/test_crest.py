@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import butter, sosfiltfilt
 
 from heeltoe import GroundMotion, flexible, rigid
-from heeltoe.result.crest import ACCELERATION, DISPLACEMENT, crest_series, in_band
+from heeltoe.result.crest import ACCELERATION, DISPLACEMENT, band_weights, crest_series, in_band
 from shared.dams import BASE, COARSE, plane_case
 
 TIME = np.arange(0.0, 3.0 + 1e-9, 0.005)
@@ -39,6 +39,15 @@ def test_a_blow_comes_through_as_scipy_filters_it():
     blow[500] = 1.0
     reference = sosfiltfilt(butter(4, 50.0, fs=1000.0, output="sos"), blow)
     assert in_band(blow, 1e-3) == pytest.approx(reference, abs=1e-5 * reference.max())
+
+
+@pytest.mark.parametrize("size", [1, 100, 1846, 1847, 9000])
+def test_a_record_goes_through_the_band_in_pieces_as_in_one(size):
+    weights = band_weights(1e-3)
+    both = np.concatenate([weights[:0:-1], weights])
+    shakes = np.random.default_rng(size).normal(size=size)
+    held = np.pad(shakes, weights.size - 1, mode="edge")
+    assert in_band(shakes, 1e-3) == pytest.approx(np.convolve(held, both, "valid"), abs=1e-13)
 
 
 @pytest.mark.parametrize("model", [rigid, flexible])

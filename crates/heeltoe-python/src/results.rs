@@ -4,11 +4,12 @@ use heeltoe::flexible::{self as elastic, Frames};
 use heeltoe::inside::Borne;
 use heeltoe::rigid::stack::StackRun as TwoBlocks;
 use heeltoe::rigid::{Crossing as Crossed, Event, EventKind, Mode, Moment, Outcome, Run, Summary};
+use numpy::ndarray::Array2;
 use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::tables::{shaped, table};
+use crate::tables::{kept, shaped, table, wrong};
 
 type Column = Py<PyArray1<f64>>;
 type Table = Py<PyArray2<f64>>;
@@ -131,6 +132,15 @@ fn joined<T: Element + Copy>(
 ) -> PyResult<Py<PyArray1<T>>> {
     let (first, later) = (first.bind(py).readonly(), later.bind(py).readonly());
     Ok(array(py, [first.as_slice()?, later.as_slice()?].concat()))
+}
+
+/// Rows, and later ones below them.
+fn below(py: Python<'_>, first: &Table, later: &Table) -> PyResult<Table> {
+    let (first, later) = (first.bind(py), later.bind(py));
+    let values = [first.readonly().as_slice()?, later.readonly().as_slice()?].concat();
+    let shape = (first.shape()[0] + later.shape()[0], first.shape()[1]);
+    let both = Array2::from_shape_vec(shape, values).map_err(wrong)?;
+    Ok(both.into_pyarray(py).unbind())
 }
 
 /// Columns of rows by their names.
@@ -278,6 +288,7 @@ pub struct BlockRun {
     worn: Option<Py<Worn>>,
     rough: Option<Py<Roughness>>,
     crossing: Option<Py<Crossing>>,
+    places: Table,
 }
 
 impl BlockRun {
@@ -293,14 +304,14 @@ impl BlockRun {
             integrated: wear.integrated,
         });
         let rough = run.rough.map(|rough| Roughness {
-            kept: table(py, rough.kept.into_iter()).unbind(),
+            kept: kept(py, rough.kept).unbind(),
             end: rough.end.into(),
             highest: rough.highest,
         });
         let crossing = match run.crossing {
             Some(crossing) => Some(Crossing {
                 summary: Py::new(py, CrossingSummary::of(crossing.row()))?,
-                kept: table(py, crossing.kept.into_iter()).unbind(),
+                kept: kept(py, crossing.kept).unbind(),
             }),
             None => None,
         };
@@ -313,6 +324,7 @@ impl BlockRun {
             worn: worn.map(|worn| Py::new(py, worn)).transpose()?,
             rough: rough.map(|rough| Py::new(py, rough)).transpose()?,
             crossing: crossing.map(|crossing| Py::new(py, crossing)).transpose()?,
+            places: kept(py, run.places).unbind(),
         })
     }
 }
@@ -383,10 +395,8 @@ impl BlockRun {
         let rough = match (&self.rough, &later.rough) {
             (Some(first), Some(later)) => {
                 let (first, later) = (first.get(), later.get());
-                let (above, below) = (first.kept.bind(py), later.kept.bind(py));
-                let kept = [above.readonly().as_slice()?, below.readonly().as_slice()?].concat();
                 Some(Roughness {
-                    kept: shaped(py, kept, above.shape()[0] + below.shape()[0])?.unbind(),
+                    kept: below(py, &first.kept, &later.kept)?,
                     highest: first.highest.max(later.highest),
                     ..*later
                 })
@@ -396,10 +406,8 @@ impl BlockRun {
         let crossing = match (&self.crossing, &later.crossing) {
             (Some(first), Some(later)) => {
                 let (first, later) = (first.get(), later.get());
-                let (above, below) = (first.kept.bind(py), later.kept.bind(py));
-                let kept = [above.readonly().as_slice()?, below.readonly().as_slice()?].concat();
                 let crossing = Crossing {
-                    kept: shaped(py, kept, above.shape()[0] + below.shape()[0])?.unbind(),
+                    kept: below(py, &first.kept, &later.kept)?,
                     summary: Py::new(py, first.summary.get().then(later.summary.get()))?,
                 };
                 Some(Py::new(py, crossing)?)
@@ -415,6 +423,7 @@ impl BlockRun {
             worn: worn.map(|worn| Py::new(py, worn)).transpose()?,
             rough: rough.map(|rough| Py::new(py, rough)).transpose()?,
             crossing,
+            places: below(py, &self.places, &later.places)?,
         })
     }
 }

@@ -14,7 +14,7 @@ use pyo3::types::PyDict;
 
 use crate::law::FrictionLaw;
 use crate::results::{by_column, BlockRun};
-use crate::tables::{named, pool, row, rows, slice, wrong, Numbers};
+use crate::tables::{flags, named, pool, row, rows, slice, wrong, Flags, Numbers};
 use crate::watch::{prompt, watched};
 
 /// Runs of no more events, samples and moments that are wanted take a few milliseconds: no one interrupts them.
@@ -31,18 +31,19 @@ fn block(numbers: &Numbers) -> PyResult<Block> {
     Ok(Block::new(&BlockNumbers::from_row(&row(numbers, "a block")?)))
 }
 
-/// One run of a motion of so many samples with its events, and with what is seen of it at some moments (s): beside Python,
-/// where it has many events.
+/// One run of a motion of so many samples with its events, and with what is seen of it at some moments (s), some of them
+/// whole: beside Python, where it has many events.
 fn walked(
     py: Python<'_>,
     samples: usize,
-    times: &Numbers,
+    (times, whole): (&Numbers, &Option<Flags>),
     options: Options,
     walk: impl Fn(Options, Wanted<'_>) -> Run + Sync,
 ) -> PyResult<Run> {
     let times = times.as_slice()?;
     let wanted = Wanted {
         times,
+        whole: flags(whole, times.len())?,
         events: true,
         ..Wanted::default()
     };
@@ -61,7 +62,7 @@ fn walked(
 
 /// Run one block; see `_kernel.pyi`.
 #[pyfunction]
-#[pyo3(signature = (block, time, horizontal, vertical, output_times, start, settle, event_limit, jam))]
+#[pyo3(signature = (block, time, horizontal, vertical, output_times, start, settle, event_limit, jam, whole=None))]
 #[allow(clippy::too_many_arguments)]
 pub fn run_rigid<'py>(
     py: Python<'py>,
@@ -74,6 +75,7 @@ pub fn run_rigid<'py>(
     settle: f64,
     event_limit: u64,
     jam: bool,
+    whole: Option<Flags<'py>>,
 ) -> PyResult<BlockRun> {
     let block = self::block(&block)?;
     let shaking = Shaking::new(time.as_slice()?, horizontal.as_slice()?, slice(&vertical)?).map_err(wrong)?;
@@ -84,13 +86,13 @@ pub fn run_rigid<'py>(
     };
     let walk =
         |options: Options, wanted: Wanted<'_>| exact::simulate(&block, &shaking, start, options, wanted);
-    let run = walked(py, time.len()?, &output_times, options, walk)?;
+    let run = walked(py, time.len()?, (&output_times, &whole), options, walk)?;
     BlockRun::of(py, run, true)
 }
 
 /// Run one block whose ground shakes across the valley, too; see `_kernel.pyi`.
 #[pyfunction]
-#[pyo3(signature = (block, across, time, horizontal, vertical, cross, output_times, start, settle, event_limit, jam))]
+#[pyo3(signature = (block, across, time, horizontal, vertical, cross, output_times, start, settle, event_limit, jam, whole=None))]
 #[allow(clippy::too_many_arguments)]
 pub fn run_rigid_plane<'py>(
     py: Python<'py>,
@@ -105,6 +107,7 @@ pub fn run_rigid_plane<'py>(
     settle: f64,
     event_limit: u64,
     jam: bool,
+    whole: Option<Flags<'py>>,
 ) -> PyResult<BlockRun> {
     let block = self::block(&block)?;
     let level = Shaking::new(time.as_slice()?, horizontal.as_slice()?, slice(&vertical)?).map_err(wrong)?;
@@ -122,7 +125,7 @@ pub fn run_rigid_plane<'py>(
     let walk = |options: Options, wanted: Wanted<'_>| {
         plane::simulate(&block, &across, &shaking, start, options, wanted)
     };
-    let run = walked(py, time.len()?, &output_times, options, walk)?;
+    let run = walked(py, time.len()?, (&output_times, &whole), options, walk)?;
     BlockRun::of(py, run, true)
 }
 
@@ -138,7 +141,7 @@ fn across([mass, left, right, place, velocity]: [f64; 5]) -> Across {
 /// Run one block under loads and at rotations that change; see `_kernel.pyi`.
 #[pyfunction]
 #[pyo3(signature = (block, varying, rotation, law, pressure, anchors, friction, asperities, time, horizontal,
-    vertical, turning, output_times, start, worn, rough, settle, event_limit, jam, across=None, cross=None))]
+    vertical, turning, output_times, start, worn, rough, settle, event_limit, jam, across=None, cross=None, whole=None))]
 #[allow(clippy::too_many_arguments)]
 pub fn run_rigid_varying<'py>(
     py: Python<'py>,
@@ -163,6 +166,7 @@ pub fn run_rigid_varying<'py>(
     jam: bool,
     across: Option<[f64; 5]>,
     cross: Option<Numbers<'py>>,
+    whole: Option<Flags<'py>>,
 ) -> PyResult<BlockRun> {
     let block = self::block(&block)?;
     let anchors = rows(anchors.as_slice()?, "anchors")?.iter().map(anchor).collect();
@@ -195,13 +199,13 @@ pub fn run_rigid_varying<'py>(
         let walk = |options: Options, wanted: Wanted<'_>| {
             plane::simulate_varying(&block, &across, &shaking, varying, start, options, wanted)
         };
-        let run = walked(py, time.len()?, &output_times, options, walk)?;
+        let run = walked(py, time.len()?, (&output_times, &whole), options, walk)?;
         return BlockRun::of(py, run, true);
     }
     let walk = |options: Options, wanted: Wanted<'_>| {
         varying::simulate(&block, &body, surface.as_ref(), &shaking, start, options, wanted)
     };
-    let run = walked(py, time.len()?, &output_times, options, walk)?;
+    let run = walked(py, time.len()?, (&output_times, &whole), options, walk)?;
     BlockRun::of(py, run, false)
 }
 

@@ -5,7 +5,7 @@ use heeltoe::rigid::{BlockNumbers, Options, Shaking, Wanted};
 use pyo3::prelude::*;
 
 use crate::results::StackRun;
-use crate::tables::{row, slice, wrong, Numbers};
+use crate::tables::{flags, row, slice, wrong, Flags, Numbers};
 use crate::watch::watched;
 
 /// How far a run has come (s).
@@ -16,7 +16,7 @@ fn reached(run: &stack::StackRun) -> Option<[f64; 2]> {
 
 /// Run two blocks; see `_kernel.pyi`.
 #[pyfunction]
-#[pyo3(signature = (lower, upper, place, time, horizontal, vertical, output_times, settle, event_limit, jam))]
+#[pyo3(signature = (lower, upper, place, time, horizontal, vertical, output_times, settle, event_limit, jam, whole=None))]
 #[allow(clippy::too_many_arguments)]
 pub fn run_rigid_stack<'py>(
     py: Python<'py>,
@@ -30,6 +30,7 @@ pub fn run_rigid_stack<'py>(
     settle: f64,
     event_limit: u64,
     jam: bool,
+    whole: Option<Flags<'py>>,
 ) -> PyResult<StackRun> {
     let block = |numbers: &Numbers| Ok::<_, PyErr>(BlockNumbers::from_row(&row(numbers, "a block")?));
     let place = Place::from_row(&row(&place, "a place")?);
@@ -41,9 +42,11 @@ pub fn run_rigid_stack<'py>(
         jam,
     };
     let times = output_times.as_slice()?;
+    let whole = flags(&whole, times.len())?;
     let run = watched(py, None, reached, |stop| {
         let wanted = Wanted {
             times,
+            whole,
             events: true,
             stop,
         };

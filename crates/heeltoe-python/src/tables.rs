@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 use rayon::ThreadPool;
 
 pub type Numbers<'py> = PyReadonlyArray1<'py, f64>;
+pub type Flags<'py> = PyReadonlyArray1<'py, bool>;
 
 /// A slip of the caller's, who is the Python half: users never see it.
 pub fn wrong(what: impl ToString) -> PyErr {
@@ -21,6 +22,13 @@ pub fn table<const N: usize>(
     let mut values = Vec::with_capacity(N * rows.len());
     rows.for_each(|row| values.extend_from_slice(&row));
     Array2::from_shape_vec((values.len() / N, N), values)
+        .expect("rows of equal length")
+        .into_pyarray(py)
+}
+
+/// The same of rows that are handed over.
+pub fn kept<const N: usize>(py: Python<'_>, rows: Vec<[f64; N]>) -> Bound<'_, PyArray2<f64>> {
+    Array2::from_shape_vec((rows.len(), N), rows.into_flattened())
         .expect("rows of equal length")
         .into_pyarray(py)
 }
@@ -52,6 +60,20 @@ pub fn rows<'a, const N: usize>(values: &'a [f64], what: &str) -> PyResult<&'a [
 /// Numbers that may not be there.
 pub fn slice<'a>(numbers: &'a Option<Numbers>) -> PyResult<Option<&'a [f64]>> {
     Ok(numbers.as_ref().map(|n| n.as_slice()).transpose()?)
+}
+
+/// A flag for each of `count` moments, or none at all.
+pub fn flags<'a>(flags: &'a Option<Flags>, count: usize) -> PyResult<&'a [bool]> {
+    let Some(flags) = flags else { return Ok(&[]) };
+    let flags = flags.as_slice()?;
+    if flags.len() == count {
+        Ok(flags)
+    } else {
+        Err(wrong(format!(
+            "{count} moments need a flag each, not {}",
+            flags.len()
+        )))
+    }
 }
 
 /// What has that name.

@@ -227,6 +227,8 @@ class BlockRun:
         What its asperities have been through, where it is rough.
     crossing
         Motion across the valley, where the ground shakes that way.
+    places
+        (k, 3) slip and gaps at heel and toe at all moments, where not all are wanted whole [m].
     exact
         Whether closed forms carry it from event to event, or the walk was integrated.
     outcome, final_mode
@@ -241,6 +243,7 @@ class BlockRun:
     worn: Final[Worn | None]
     rough: Final[Roughness | None]
     crossing: Final[Crossing | None]
+    places: Final[Floats]
 
     @property
     def exact(self) -> bool: ...
@@ -283,6 +286,7 @@ def run_rigid(
     settle: float,
     event_limit: int,
     jam: bool,
+    whole: NDArray[np.bool_] | None = None,
 ) -> BlockRun:
     """Run one block through one motion.
 
@@ -304,6 +308,9 @@ def run_rigid(
         Most events before the run stops with that outcome.
     jam
         Resolve a Painlevé paradox by a tangential impact instead of stopping there.
+    whole
+        (k,) at which of these moments all of the state is wanted; at the others the place alone. Without it, all of it
+        at all of them, and no places.
     """
 
 def run_rigid_plane(
@@ -318,6 +325,7 @@ def run_rigid_plane(
     settle: float,
     event_limit: int,
     jam: bool,
+    whole: NDArray[np.bool_] | None = None,
 ) -> BlockRun:
     """Run one block on a ground that shakes across the valley, too; friction is one circle.
 
@@ -343,6 +351,7 @@ def run_rigid_stack(
     settle: float,
     event_limit: int,
     jam: bool,
+    whole: NDArray[np.bool_] | None = None,
 ) -> StackRun:
     """Run two blocks, one on the other, exactly from event to event.
 
@@ -379,6 +388,7 @@ def run_rigid_varying(
     jam: bool,
     across: Sequence[float] | None = None,
     cross: Floats | None = None,
+    whole: NDArray[np.bool_] | None = None,
 ) -> BlockRun:
     """Run one block whose loads or geometry change as it moves, by integration between events.
 

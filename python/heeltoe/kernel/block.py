@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.arrays import Bools, Floats, Integers
 from heeltoe.kernel import _kernel
 from heeltoe.kernel.friction import FrictionLaw
 from heeltoe.kernel.shaking import Shaking
@@ -116,6 +116,7 @@ def run_block(
     varying: Varying | None = None,
     worn: tuple[float, bool] | None = None,
     across: tuple[float, float, float, float, float] | None = None,
+    whole: Bools | None = None,
 ) -> BlockRun:
     """Run one block through one motion: exactly from event to event, or by integration where something varies.
 
@@ -140,14 +141,18 @@ def run_block(
         Mass that moves across the valley [kg/m], how far the neighbours to the left and to the right are [m], and place
         and velocity that way at the first moment, where the ground shakes that way. Friction by a law and the uplift
         of an open crack alone vary then.
+    whole
+        (k,) at which of the moments all of the state is wanted, where at the others the place is enough.
     """
     time, horizontal, up = shaking.time, shaking.horizontal, shaking.up
     settle, most, jam = limits.settle, limits.event_limit, limits.jam
     cross = shaking.cross
     if varying is None and across is not None and cross is not None:
-        return _kernel.run_rigid_plane(block, across, time, horizontal, up, cross, moments, start, settle, most, jam)
+        return _kernel.run_rigid_plane(
+            block, across, time, horizontal, up, cross, moments, start, settle, most, jam, whole
+        )
     if varying is None:
-        return _kernel.run_rigid(block, time, horizontal, up, moments, start, settle, most, jam)
+        return _kernel.run_rigid(block, time, horizontal, up, moments, start, settle, most, jam, whole)
     return _kernel.run_rigid_varying(
         block,
         varying.numbers,
@@ -170,6 +175,7 @@ def run_block(
         jam,
         across,
         cross,
+        whole,
     )
 
 
@@ -196,7 +202,13 @@ def run_blocks(
 
 
 def run_stack(
-    blocks: tuple[Floats, Floats], place: Floats, shaking: Shaking, moments: Floats, limits: Limits = USUAL
+    blocks: tuple[Floats, Floats],
+    place: Floats,
+    shaking: Shaking,
+    moments: Floats,
+    limits: Limits = USUAL,
+    *,
+    whole: Bools | None = None,
 ) -> StackRun:
     """Run two blocks, exactly from event to event.
 
@@ -207,9 +219,9 @@ def run_stack(
         what is above the upper one.
     place
         (3,) where the upper block is, see :func:`heeltoe.models.rigid.stack.place_of`.
-    shaking, moments, limits
+    shaking, moments, limits, whole
         As of :func:`run_block`.
     """
     time, horizontal, up = shaking.time, shaking.horizontal, shaking.up
     settle, most, jam = limits.settle, limits.event_limit, limits.jam
-    return _kernel.run_rigid_stack(*blocks, place, time, horizontal, up, moments, settle, most, jam)
+    return _kernel.run_rigid_stack(*blocks, place, time, horizontal, up, moments, settle, most, jam, whole)

@@ -66,15 +66,15 @@ class CrestSeries:
 
     Attributes
     ----------
-    time
-        (n,) moments [s].
+    step
+        Between the moments, the first of which is zero [s].
     displacement
         (n,) from its first place, relative to the ground, positive downstream [m].
     acceleration, ground
         (n,) acceleration with that of the ground, and that of the ground alone, both up to :data:`BAND_HZ` [m/s2].
     """
 
-    time: Floats
+    step: float
     displacement: Floats
     acceleration: Floats
     ground: Floats
@@ -92,9 +92,17 @@ class CrestSeries:
 
     def histories(self, moments: Floats, displacement: Floats | None = None) -> dict[str, Floats]:
         """Return the columns of the histories at some moments [s]; with the `displacement` there, if it is known."""
+        time = even_moments(self.step, self.displacement.size)
         if displacement is None:
-            displacement = np.interp(moments, self.time, self.displacement)
-        return {DISPLACEMENT: displacement, ACCELERATION: np.interp(moments, self.time, self.acceleration)}
+            displacement = np.interp(moments, time, self.displacement)
+        return {DISPLACEMENT: displacement, ACCELERATION: np.interp(moments, time, self.acceleration)}
+
+
+def even_moments(step: float, count: int) -> Floats:
+    """Return `count` moments from zero on, one `step` apart [s]."""
+    moments = np.arange(count, dtype=np.float64)
+    moments *= step
+    return moments
 
 
 def crest_series(step: float, place: Floats, ground: Floats) -> CrestSeries:
@@ -116,12 +124,12 @@ def crest_series(step: float, place: Floats, ground: Floats) -> CrestSeries:
         the mean, and none at both ends.
     """
     displacement: Floats = place - place[0]
-    own: Floats = np.zeros(place.size)
+    both: Floats = np.zeros(place.size)
     if place.size > 2:
-        own[1:-1] = np.diff(displacement, 2) / step**2
-    return CrestSeries(
-        step * np.arange(place.size, dtype=np.float64), displacement, in_band(own + ground, step), in_band(ground, step)
-    )
+        both[1:-1] = np.diff(displacement, 2)
+    both /= step**2
+    both += ground
+    return CrestSeries(step, displacement, in_band(both, step), in_band(ground, step))
 
 
 def in_band(acceleration: Floats, step: float) -> Floats:
@@ -130,11 +138,16 @@ def in_band(acceleration: Floats, step: float) -> Floats:
     reach = band_weights(step).size - 1
     if not reach or not acceleration.size:
         return acceleration
-    # By Fourier's transform; SciPy has a function for it, which takes longer to load than a block to run.
+    # By Fourier's transform; SciPy has a function for it, which takes longer to load than a block to run. It goes piece
+    # by piece, as a transform of a long record takes a multiple of its memory.
     padded = np.pad(acceleration, reach, mode="edge")
-    size = padded.size + 2 * reach
-    passed: Floats = np.fft.irfft(np.fft.rfft(padded, size) * _transformed_weights(step, size), size)
-    return passed[2 * reach : padded.size]
+    size = 1 << (16 * reach).bit_length()
+    weights, passed = _transformed_weights(step, size), np.empty(acceleration.size)
+    for first in range(0, passed.size, size - 2 * reach):
+        here = passed[first : first + size - 2 * reach]
+        piece = np.fft.irfft(np.fft.rfft(padded[first : first + size], size) * weights, size)
+        here[:] = piece[2 * reach : 2 * reach + here.size]
+    return passed
 
 
 @lru_cache(maxsize=2)

@@ -78,7 +78,7 @@ impl<'a> Across<'a> {
             bonds: vec![0.0; contacts],
             dowels: Dowels::new(&dam.cracks),
             moved: true,
-            track: crossing.crest.map(Track::new),
+            track: crossing.crest.map(|row| Track::new(row, crossing.ground.len())),
             crossing,
         })
     }

@@ -48,7 +48,7 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, penalty: &Penalty, wanted: 
     let Shaking {
         ground, dt, scale, ..
     } = shaking;
-    let mut newmark = Newmark::new(dam, *dt, penalty, wanted);
+    let mut newmark = Newmark::new(dam, shaking, penalty, wanted);
     if newmark.walk.observed() {
         newmark.keep();
     }
@@ -97,7 +97,8 @@ struct Newmark<'a> {
 }
 
 impl<'a> Newmark<'a> {
-    fn new(dam: &'a Dam, dt: f64, penalty: &'a Penalty, wanted: Wanted<'a>) -> Self {
+    fn new(dam: &'a Dam, shaking: &Shaking, penalty: &'a Penalty, wanted: Wanted<'a>) -> Self {
+        let dt = shaking.dt;
         let bodies: Vec<_> = dam
             .bodies
             .iter()
@@ -105,7 +106,7 @@ impl<'a> Newmark<'a> {
             .collect();
         let start = energy(&bodies);
         Newmark {
-            walk: Walk::new(dam, dt, wanted, |crack| {
+            walk: Walk::new(dam, shaking, wanted, |crack| {
                 Faces::around(crack, &dam.bodies, |body| &body.position)
             }),
             bodies,

@@ -136,7 +136,7 @@ impl<'a> Moreau<'a> {
         let linear = LinearDam::new(&dam.bodies, dam.reservoir.as_ref(), still, step);
         let start = linear.energy();
         let start_at = |crack| linear.position(crack);
-        let mut walk = Walk::new(dam, dt, wanted, start_at);
+        let mut walk = Walk::new(dam, shaking, wanted, start_at);
         if let Some(still) = still {
             walk.crack.solver.status.copy_from_slice(&still.status);
             if let Some(laws) = &mut walk.crack.laws {

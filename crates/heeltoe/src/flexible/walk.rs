@@ -11,7 +11,7 @@ use super::bond::Cracked;
 use super::contact::Contactor;
 use super::coupling::Crack;
 use super::crack_line::Line;
-use super::dam::{Dam, Wanted};
+use super::dam::{Dam, Shaking, Wanted};
 use super::dampers::Dampers;
 use super::envelope::Envelope;
 use super::faces::{mean_along, Faces, Meeting};
@@ -143,7 +143,7 @@ impl<'a> Walk<'a> {
     /// `start` is where the nodes around each crack are.
     pub(super) fn new<'f>(
         dam: &'a Dam,
-        dt: f64,
+        shaking: &Shaking,
         wanted: Wanted<'a>,
         start: impl Fn(usize) -> Faces<'f>,
     ) -> Self {
@@ -166,12 +166,12 @@ impl<'a> Walk<'a> {
             cracks: cracks.map(watch).collect(),
             crack,
             steps: Summary::default(),
-            dt,
+            dt: shaking.dt,
             wanted,
             since: Since::new(dam),
             frames: Frames::new(dam),
             envelope: wanted.stresses.map(Envelope::new),
-            track: wanted.crest.map(Track::new),
+            track: wanted.crest.map(|row| Track::new(row, shaking.ground.len())),
         }
     }
 
@@ -205,6 +205,10 @@ impl<'a> Walk<'a> {
                 watch.summary.cracked = *cracked;
             }
         }
+    }
+
+    /// Sum up what cracks with a law have been through.
+    fn sum_up(&mut self) {
         if let Some(laws) = &self.crack.laws {
             for (k, watch) in self.cracks.iter_mut().enumerate() {
                 (watch.summary.slip_path, watch.summary.bond_energy) = (laws.path(k), laws.sums[k][0]);
@@ -244,6 +248,7 @@ impl<'a> Walk<'a> {
         water: &[f64],
         ledger: &Ledger,
     ) {
+        self.sum_up();
         let (since, status) = (&self.since, &self.crack.solver.status);
         let cracks = self.cracks.iter().enumerate().map(|(k, watch)| {
             let now = Snapshot {
@@ -315,11 +320,12 @@ impl<'a> Walk<'a> {
     /// Hand over what there is to tell; `anchors` has what those of a crack bore, `crest_cross` the way of its crest across
     /// the valley.
     pub(super) fn end(
-        self,
+        mut self,
         ledger: Ledger,
         crest_cross: Vec<f64>,
         anchors: impl Fn(usize) -> Vec<Borne>,
     ) -> Run {
+        self.sum_up();
         let steps = &self.steps;
         let summary = |(crack, watch): (usize, Watch)| Summary {
             ledger,

@@ -135,6 +135,8 @@ pub struct Run {
     pub summary: Summary,
     /// The block at the moments asked for, up to where the run stopped.
     pub moments: Vec<Moment>,
+    /// Slip and gaps (m) at these and at those at which no more was asked for.
+    pub places: Vec<Vector>,
     /// What happened, if that was asked for.
     pub events: Vec<Event>,
     /// What each anchor has borne (N/m, s); the exact walk knows none.

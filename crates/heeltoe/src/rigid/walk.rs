@@ -43,6 +43,8 @@ pub struct Options {
 pub struct Wanted<'a> {
     /// Moments, ascending, at which the block is to be seen; at an event, after it.
     pub times: &'a [f64],
+    /// Which of them are wanted whole, with the place at each; all of them, and no places, where this is empty.
+    pub whole: &'a [bool],
     /// Whether events are to be told.
     pub events: bool,
     /// What ends the run before its time.
@@ -80,7 +82,10 @@ pub(super) struct Walk<'a> {
     pub mode: Mode,
     pub summary: Summary,
     wanted: Wanted<'a>,
+    /// How many of the moments that are wanted are over.
+    over: usize,
     moments: Vec<Moment>,
+    places: Vec<Vector>,
     events: Vec<Event>,
     /// All events of the run, and those since time last moved; of several cracks the first one has them.
     count: u64,
@@ -103,7 +108,12 @@ impl<'a> Walk<'a> {
             mode: Mode::Rest,
             summary: Summary::at_start(block, time, start),
             wanted,
-            moments: Vec::with_capacity(wanted.times.len()),
+            over: 0,
+            moments: Vec::with_capacity(match wanted.whole {
+                [] => wanted.times.len(),
+                whole => whole.iter().filter(|whole| **whole).count(),
+            }),
+            places: Vec::with_capacity(wanted.whole.len()),
             events: Vec::new(),
             count: 0,
             standing: 0,
@@ -124,6 +134,7 @@ impl<'a> Walk<'a> {
         Run {
             summary,
             moments: self.moments,
+            places: self.places,
             events: self.events,
             anchors,
             worn: None,
@@ -160,12 +171,24 @@ impl<'a> Walk<'a> {
 
     /// The next moment that is wanted, if it comes before `until`.
     pub(super) fn next_moment(&self, until: f64) -> Option<f64> {
-        let next = self.wanted.times.get(self.moments.len()).copied();
+        let next = self.wanted.times.get(self.over).copied();
         next.filter(|time| *time < until)
     }
 
+    /// Whether it is wanted whole.
+    pub(super) fn whole(&self) -> bool {
+        self.wanted.whole.get(self.over).is_none_or(|whole| *whole)
+    }
+
+    /// Keep what is wanted of it.
     pub(super) fn keep(&mut self, moment: Moment) {
-        self.moments.push(moment);
+        if self.whole() {
+            self.moments.push(moment);
+        }
+        if !self.wanted.whole.is_empty() {
+            self.places.push(moment.position);
+        }
+        self.over += 1;
     }
 
     /// Tell of an event, where they are wanted.

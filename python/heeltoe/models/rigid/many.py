@@ -187,7 +187,9 @@ def _integrated(
         vertical = None if shaking.up is None else up * shaking.up
         cross = None if shaking.cross is None else across * shaking.cross
         shaken = replace(shaking, horizontal=across * shaking.horizontal, up=vertical, cross=cross)
-        walked = walk(block.case, block, shaken, moments, limits)
+        # No more than the place is wanted of any.
+        whole = None if moments is None else np.zeros(moments.size, dtype=bool)
+        walked = walk(block.case, block, shaken, moments, limits, whole)
         crest = () if moments is None else crest_of_run(block, shaken, walked)
         return [*walked.summary.by_name().values(), *crest]
 

@@ -51,19 +51,22 @@ def run_rigid(
     shaking = earthquake.shaking
     seen = moments_of(earthquake, output_step)
     moments = with_looks(seen, shaking.time[-1]) if crest else seen
-    run, drainage = walk_with_drainage(case, block, shaking, moments)
-    moments = moments[: run.mode.size]
+    shown = among(moments, seen)
+    run, drainage = walk_with_drainage(case, block, shaking, moments, whole=shown)
+    moments, shown = moments[: len(run.places)], shown[: len(run.places)]
     end = run.summary.end_time
     if run.outcome == Outcome.OVERTURNED and moments[-1] < end:
         # Where it lies is between two moments: the last one is that just before, which a walk still passes.
-        run, drainage = walk_with_drainage(case, block, shaking, np.append(moments, np.nextafter(end, 0.0)))
+        moments, shown = np.append(moments, np.nextafter(end, 0.0)), np.append(shown, True)
+        run, drainage = walk_with_drainage(case, block, shaking, moments, whole=shown)
         # A walk that ends there all the same has no state at the last moment.
-        moments, seen = np.append(moments, end)[: run.mode.size], np.append(seen, end)
+        moments[-1] = end
+        moments, shown = moments[: len(run.places)], shown[: len(run.places)]
     row = run.summary.by_name()
     rotation, off = float(largest_rotation(row)), bool(leaves([row], [block.width]))
     outcome = decide(run.outcome, rotation=rotation, finite=case.analysis.rotation == "finite", off=off)
-    started, shown = outcome is not Outcome.UNSTABLE, among(moments, seen)
-    crack = crack_response(case, block, shaking, moments, run, shown=shown, started=started, drainage=drainage)
+    started = outcome is not Outcome.UNSTABLE
+    crack = crack_response(case, block, shaking, moments[shown], run, started=started, drainage=drainage)
     cracks, top = with_crest([crack], [block], [run], shaking, moments, shown) if crest else ([crack], None)
     return Response(
         model="rigid",

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from heeltoe.base.arrays import Floats, among
+from heeltoe.base.arrays import Bools, Floats, among
 from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import StackRun, run_stack
@@ -66,9 +66,10 @@ def run_two_blocks(
     asked = case.asked
     seen = moments_of(earthquake, output_step)
     moments = with_looks(seen, earthquake.shaking.time[-1]) if crest else seen
-    blocks, run = walk_two_blocks(case, earthquake.shaking, moments)
-    moments = moments[: run.cracks[0].mode.size]
     shown = among(moments, seen)
+    blocks, run = walk_two_blocks(case, earthquake.shaking, moments, shown)
+    reached = len(run.cracks[0].places)
+    moments, shown = moments[:reached], shown[:reached]
     # Neither may turn far from the ground.
     turned = max(float(largest_rotation(run.cracks[0].summary.by_name())), float(np.abs(run.tilts).max()))
     off = bool(leaves([crack.summary.by_name() for crack in run.cracks[::-1]], [block.width for block in blocks]))
@@ -78,7 +79,7 @@ def run_two_blocks(
     cracks = [
         _with_losses(
             crack_response(
-                block.case, block, earthquake.shaking, moments, run.cracks[1 - place], shown=shown, started=started
+                block.case, block, earthquake.shaking, moments[shown], run.cracks[1 - place], started=started
             ),
             block.case.crack.mu_kinetic,
             run.lost[1 - place].tolist(),
@@ -107,13 +108,15 @@ def run_two_blocks(
     )
 
 
-def walk_two_blocks(case: Case, shaking: Shaking, moments: Floats | None = None) -> tuple[list[Block], StackRun]:
+def walk_two_blocks(
+    case: Case, shaking: Shaking, moments: Floats | None = None, whole: Bools | None = None
+) -> tuple[list[Block], StackRun]:
     """Return the block above each crack, from the crest down, and what the kernel makes of them, which counts from the
-    ground up. `moments` are those of the histories [s]; none without them."""
+    ground up. `moments` are those of the histories [s], or those of them that are `whole`; none without them."""
     blocks = [build_block(alone) for alone in case.single_crack_cases]
     upper, lower = blocks
     numbers, wanted = (lower.parameters(), upper.parameters()), np.empty(0) if moments is None else moments
-    return blocks, run_stack(numbers, place_of(lower, upper), shaking, wanted, limits_of(case))
+    return blocks, run_stack(numbers, place_of(lower, upper), shaking, wanted, limits_of(case), whole=whole)
 
 
 def _with_losses(crack: CrackResponse, friction: float, lost: Sequence[float]) -> CrackResponse:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import reduce
 
 import numpy as np
+from numpy.typing import NDArray
 
-from heeltoe.base.arrays import Floats
+from heeltoe.base.arrays import Bools, Floats
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import BlockRun
 from heeltoe.kernel.shaking import Shaking
@@ -16,8 +17,9 @@ from heeltoe.mechanics.block import Block, build_block
 from heeltoe.mechanics.drains import close_by_slip, drainage_left, with_drainage
 from heeltoe.result.outcome import Outcome
 
-#: A block of a case, run through a motion, with the moments wanted, from where the run before has left it.
-Walk = Callable[[Case, Block, Shaking, Floats, "BlockRun | None"], BlockRun]
+#: A block of a case, run through a motion, with the moments wanted and which of them are wanted whole, from where the
+#: run before has left it.
+Walk = Callable[[Case, Block, Shaking, Floats, "Bools | None", "BlockRun | None"], BlockRun]
 
 
 def in_stages(case: Case, shaking: Shaking) -> bool:
@@ -26,21 +28,25 @@ def in_stages(case: Case, shaking: Shaking) -> bool:
 
 
 def walk_in_stages(
-    case: Case, block: Block, shaking: Shaking, moments: Floats, walk: Walk
+    case: Case, block: Block, shaking: Shaking, moments: Floats, whole: Bools | None, walk: Walk
 ) -> tuple[BlockRun, list[float]]:
     """Run a block motion by motion, each from the state that the one before has left it in, with the uplift of the
     drains that are left; in one run where no drains close. Return how much of its drainage each motion met, too."""
     runs: list[BlockRun] = []
     shares: list[float] = []
-    for part, own in zip(_parts(shaking), _wanted(shaking, moments), strict=True):
+    places = _wanted(shaking, moments)
+    owns = np.split(moments, places)
+    wholes = [None] * len(owns) if whole is None else np.split(whole, places)
+    for part, own, own_whole in zip(_parts(shaking), owns, wholes, strict=True):
         share = drainage_left(case, runs[-1].summary.slip) if runs else 1.0
         shares.append(share)
         now = case if share == 1.0 else with_drainage(case, share)
-        runs.append(walk(now, block if now is case else build_block(now), part, own, runs[-1] if runs else None))
+        staged = block if now is case else build_block(now)
+        runs.append(walk(now, staged, part, own, own_whole, runs[-1] if runs else None))
         if runs[-1].outcome != Outcome.OK:
             break
     if min(shares) == 1.0:
-        return walk(case, block, shaking, moments, None), shares
+        return walk(case, block, shaking, moments, whole, None), shares
     return reduce(BlockRun.then, runs), shares
 
 
@@ -75,7 +81,8 @@ def _parts(shaking: Shaking) -> Iterator[Shaking]:
         yield Shaking(shaking.time[here], shaking.horizontal[here], up, turning, cross)
 
 
-def _wanted(shaking: Shaking, moments: Floats) -> Sequence[Floats]:
-    """Return the requested moments of each stage; those at the begin of a motion lie after the changes then."""
+def _wanted(shaking: Shaking, moments: Floats) -> NDArray[np.intp]:
+    """Return where the requested moments of each stage but the first begin; those at the begin of a motion lie after
+    the changes then."""
     places = list(_Cut.of(shaking).places)
-    return np.split(moments, np.searchsorted(moments, shaking.time[places], side="left"))
+    return np.searchsorted(moments, shaking.time[places], side="left")

@@ -26,7 +26,7 @@ from heeltoe.result.contract import (
     slip_by_mode,
     time_by_mode,
 )
-from heeltoe.result.crest import LOOKS_S, CrestMotion, CrestSeries, crest_series
+from heeltoe.result.crest import LOOKS_S, CrestMotion, CrestSeries, crest_series, even_moments
 from heeltoe.result.histories import ROTATION, EventLog, Histories, computed_columns
 from heeltoe.result.numbers import AnchorForce, BlockNumbers, CrossValley, Energy
 from heeltoe.result.outcome import Outcome
@@ -148,21 +148,19 @@ def crack_response(
     moments: Floats,
     run: BlockRun,
     *,
-    shown: Bools,
     started: bool = True,
     drainage: Sequence[float] = (),
 ) -> CrackResponse:
     """Return the results of the crack below a block; a run that never started has events and static state alone. The
-    `moments` of the run that are `shown` (n,) are moments of the histories. `drainage` is the share that each motion of
-    a sequence meets."""
+    `moments` are those of the histories that the run has reached. `drainage` is the share that each motion of a
+    sequence meets."""
     bonded = bonded_block(block, shaking)
-    every = histories_of(case, block, shaking, moments, run, bonded) if started else {}
-    histories = Histories({name: values[shown] for name, values in every.items()})
+    histories = Histories(histories_of(case, block, shaking, moments, run, bonded) if started else {})
     return CrackResponse(
         elevation=block.section.heel[1] - block.section.base_elevation,
         of_crack=numbers_of(case, block, run, histories, drainage, bonded) if started else None,
         histories=histories,
-        mode=tuple(MODE_NAMES.take(run.mode[shown]).tolist()) if started else (),
+        mode=tuple(MODE_NAMES.take(run.mode).tolist()) if started else (),
         event_log=EventLog(events_of(run)),
         static=static_state(block),
     )
@@ -184,7 +182,7 @@ def with_crest(
     place = np.sum([_crest_place(block, run) for block, run in zip(blocks, runs, strict=True)], axis=0)
     looks = crest_looks(float(moments[-1]))
     series = _series(place[np.searchsorted(moments, looks)], shaking)
-    displacement = (place - place[0])[shown]
+    displacement = place[shown] - place[0]
     seen = series.histories(moments[shown], displacement)
     # The block stays where it is beyond its last look.
     crest = series.motion(blocks[0].gravity, float(displacement[-1]))
@@ -197,18 +195,19 @@ def crest_looks(end: float) -> Floats:
 
 
 def _series(place: Floats, shaking: Shaking) -> CrestSeries:
-    moments = np.arange(place.size) * LOOKS_S
-    return crest_series(LOOKS_S, place, np.interp(moments, shaking.time, shaking.horizontal))
+    ground = np.interp(even_moments(LOOKS_S, place.size), shaking.time, shaking.horizontal)
+    return crest_series(LOOKS_S, place, ground)
 
 
 def _crest_place(block: Block, run: BlockRun) -> Floats:
     """Return how far one crack moves the upstream edge of the crest downstream [m]: a turn counter-clockwise, about the
     heel, moves it upstream."""
-    column, section = run.histories, block.section
-    place = crest_moves(block.case) @ np.array([column.slip, column.gap_heel, column.gap_toe])
+    slip, heel, toe = run.places.T
+    by_slip, by_heel, by_toe = crest_moves(block.case)
+    place = by_slip * slip + by_heel * heel + by_toe * toe
     if block.case.analysis.rotation == "finite":
         ahead, above = _to_crest(block.case)
-        small = (column.gap_toe - column.gap_heel) / section.crack_width
+        small = (toe - heel) / block.section.crack_width
         turn = np.arcsin(np.clip(small, -1.0, 1.0))
         place += (np.cos(turn) - 1.0) * ahead - (np.sin(turn) - small) * above
     return np.asarray(place)

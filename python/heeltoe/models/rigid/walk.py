@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from heeltoe.base.arrays import Floats
+from heeltoe.base.arrays import Bools, Floats
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import BlockRun, Limits, run_block
 from heeltoe.kernel.shaking import Shaking
@@ -25,10 +25,15 @@ def limits_of(case: Case) -> Limits:
 
 
 def walk(
-    case: Case, block: Block, shaking: Shaking, moments: Floats | None = None, limits: Limits | None = None
+    case: Case,
+    block: Block,
+    shaking: Shaking,
+    moments: Floats | None = None,
+    limits: Limits | None = None,
+    whole: Bools | None = None,
 ) -> BlockRun:
     """Run a block as :func:`walk_with_drainage` does; return the run alone."""
-    return walk_with_drainage(case, block, shaking, moments, limits)[0]
+    return walk_with_drainage(case, block, shaking, moments, limits, whole=whole)[0]
 
 
 def across_of(case: Case, block: Block, before: BlockRun | None) -> tuple[float, float, float, float, float]:
@@ -46,13 +51,20 @@ def _loose(block: Block) -> list[list[float]] | None:
 
 
 def walk_with_drainage(
-    case: Case, block: Block, shaking: Shaking, moments: Floats | None = None, limits: Limits | None = None
+    case: Case,
+    block: Block,
+    shaking: Shaking,
+    moments: Floats | None = None,
+    limits: Limits | None = None,
+    *,
+    whole: Bools | None = None,
 ) -> tuple[BlockRun, list[float]]:
     """Run the block of a case as the case asks: exactly, or by integration where something varies; motion by motion
     where slip closes drains between those of a sequence.
 
-    `moments` are those of the histories [s]; none without them. `limits` stand in place of those of the case. Return
-    how much of its drainage each motion of a sequence met, too; empty where no drains close.
+    `moments` are those of the histories [s], none without them, or those of them that are `whole`: at the others the
+    place alone is kept, see :func:`heeltoe.kernel.block.run_block`. `limits` stand in place of those of the case.
+    Return how much of its drainage each motion of a sequence met, too; empty where no drains close.
     """
     wanted = np.empty(0) if moments is None else moments
     ends = limits or limits_of(case)
@@ -61,7 +73,9 @@ def walk_with_drainage(
     if bonded is not None:
         block, shaking = bonded.block, bonded.shaking
 
-    def run(now: Case, block: Block, shaking: Shaking, moments: Floats, before: BlockRun | None) -> BlockRun:
+    def run(
+        now: Case, block: Block, shaking: Shaking, moments: Floats, whole: Bools | None, before: BlockRun | None
+    ) -> BlockRun:
         # Nothing varies below a block that does not move.
         what = varying(now, block) if not holds and (varies(now) or shaking.turning is not None) else None
         across = None if shaking.cross is None else across_of(now, block, before)
@@ -70,8 +84,10 @@ def walk_with_drainage(
             dilation, _, work = before.rough.end
             what = replace(what, dilated=(dilation, work))
         numbers = block.parameters()
-        return run_block(numbers, shaking, moments, ends, start=start, varying=what, worn=worn, across=across)
+        return run_block(
+            numbers, shaking, moments, ends, start=start, varying=what, worn=worn, across=across, whole=whole
+        )
 
     if in_stages(case, shaking):
-        return walk_in_stages(case, block, shaking, wanted, run)
-    return run(case, block, shaking, wanted, None), []
+        return walk_in_stages(case, block, shaking, wanted, whole, run)
+    return run(case, block, shaking, wanted, whole, None), []

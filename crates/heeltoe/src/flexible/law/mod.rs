@@ -20,12 +20,10 @@ pub(super) mod sideways;
 pub(super) mod spots;
 pub(super) mod worked;
 
-use self::sideways::Sideways;
 use self::spots::spots;
 use self::worked::Worked;
 use super::contact::Contacts;
 use super::dam::Dam;
-use super::scheme::TimeStep;
 use super::status::Status;
 use crate::friction::{Law, Strength, Worn};
 
@@ -40,6 +38,8 @@ pub(super) struct Laws {
     passes: u32,
     /// Whether they go carefully by now.
     careful: bool,
+    /// Contacts of which the line sliding has turned.
+    turned: Vec<bool>,
 }
 
 impl Laws {
@@ -68,8 +68,10 @@ impl Laws {
                         pressed: 0.0,
                         speed: 0.0,
                         slipped: false,
+                        moved: 0.0,
                         bears: Strength::default(),
                         bond: [0.0; 2],
+                        settled: false,
                         slope: 0.0,
                         steady: false,
                     }
@@ -83,6 +85,7 @@ impl Laws {
             sums: vec![[0.0; 2]; dam.cracks.len()],
             passes: 0,
             careful: false,
+            turned: vec![false; first],
         })
     }
 
@@ -95,25 +98,18 @@ impl Laws {
             (worked.pressed, worked.pressed_before) = (pressed, pressed);
         }
         for worked in &mut self.contacts {
+            worked.settled = false;
             worked.look(&self.of_cracks, 0.0);
         }
         self.add_up();
     }
 
     /// Book a step: what the contacts have slipped, and which of them have opened.
-    pub(super) fn book(
-        &mut self,
-        status: &[Status],
-        (u, before): (&[f64], &[f64]),
-        sideways: Sideways,
-        step: TimeStep,
-    ) {
+    fn book(&mut self, status: &[Status]) {
         for worked in &mut self.contacts {
             let k = worked.contact;
-            let moved = worked.way(status[k], (u[k], before[k]), sideways, step);
-            worked.look(&self.of_cracks, moved);
-            self.sums[worked.crack][0] += worked.bond[1] * moved;
-            worked.worn.path += moved;
+            self.sums[worked.crack][0] += worked.bond[1] * worked.moved;
+            worked.worn.path += worked.moved;
             worked.worn.bonded &= status[k].closed();
             worked.slipped = status[k].slips();
         }

@@ -46,8 +46,7 @@ impl Laws {
         (self.passes, self.careful) = (0, false);
         for worked in &mut self.contacts {
             let k = worked.contact;
-            let [along, across] = Sideways::beside(before[k], sideways.before, k);
-            worked.speed = along.hypot(across);
+            worked.speed = Sideways::size(before[k], sideways.before.get(k).copied());
             worked.look(&self.of_cracks, 0.0);
             let slope = worked.bears.coefficient[1];
             worked.steady = worked.slope == slope;
@@ -81,7 +80,13 @@ impl Laws {
             return false;
         }
         report.residual = report.residual.max(missed);
-        self.book(&solver.status, (&solver.u, before), sideways, step);
+        if none {
+            // A bond has broken since.
+            for worked in &mut self.contacts {
+                worked.look(&self.of_cracks, worked.moved);
+            }
+        }
+        self.book(&solver.status);
         true
     }
 
@@ -102,15 +107,17 @@ impl Laws {
             let k = worked.contact;
             let status = solver.status[k];
             let p_n = solver.p[m + k];
-            let [along, across] = Sideways::beside(solver.p[k], sideways.p, k);
             worked.pressed = p_n / step.dt;
-            let moved = worked.way(status, (solver.u[k], before[k]), sideways, step);
-            worked.look(&self.of_cracks, moved);
+            worked.moved = worked.way(status, (solver.u[k], before[k]), sideways, step);
+            worked.look(&self.of_cracks, worked.moved);
             let bears = |slides: usize| step.dt * worked.borne(slides);
             missed = missed.max(match status {
                 Status::Absent | Status::Open => 0.0,
                 // The line of a contact that sticks need not meet the law, if it sticks by both.
-                Status::Stick => along.hypot(across) - bears(usize::from(worked.slipped)),
+                Status::Stick => {
+                    let along_and_across = Sideways::size(solver.p[k], sideways.p.get(k).copied());
+                    along_and_across - bears(usize::from(worked.slipped))
+                }
                 _ => (problem.mu_slip[k] * p_n + problem.added[k][1] - bears(1)).abs(),
             });
         }
@@ -137,9 +144,10 @@ impl Laws {
     }
 
     /// Draw the lines through what contacts bear where they are.
-    fn draw(&self, problem: &mut Problem, solver: &mut Solver, dt: f64) {
+    fn draw(&mut self, problem: &mut Problem, solver: &mut Solver, dt: f64) {
         let far = if self.passes > HALVED { 0.5 } else { 1.0 };
-        let mut turned = vec![false; solver.status.len()];
+        self.turned.fill(false);
+        let mut any = false;
         for worked in &self.contacts {
             let k = worked.contact;
             let slides = usize::from(worked.slipped);
@@ -151,14 +159,14 @@ impl Laws {
             if self.careful || off > if worked.steady { 0.0 } else { NEAR } {
                 problem.mu_slip[k] = steep[1];
                 problem.added[k][1] = through(1, steep[1]);
-                turned[k] = true;
+                (self.turned[k], any) = (true, true);
             } else {
                 let added = &mut problem.added[k][1];
                 *added += far * (through(1, problem.mu_slip[k]) - *added);
             }
         }
-        if turned.contains(&true) {
-            solver.forget(&turned);
+        if any {
+            solver.forget(&self.turned);
         }
     }
 }

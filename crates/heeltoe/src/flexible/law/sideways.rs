@@ -12,9 +12,9 @@ pub(in super::super) struct Sideways<'a> {
 }
 
 impl Sideways<'_> {
-    /// A number of a contact along its crack as a vector in the plane of the crack.
+    /// Size of the vector in the plane of the crack that a number of a contact along it belongs to.
     #[inline(always)]
-    pub(super) fn beside(along: f64, across: &[f64], contact: usize) -> [f64; 2] {
-        [along, across.get(contact).copied().unwrap_or(0.0)]
+    pub(super) fn size(along: f64, across: Option<f64>) -> f64 {
+        across.map_or(along.abs(), |across| along.hypot(across))
     }
 }

@@ -28,9 +28,13 @@ pub struct Worked {
     /// Speed of its slip as the step begins, and whether it slipped in the step before.
     pub(super) speed: f64,
     pub(super) slipped: bool,
+    /// Way that it slips in the step, by what is known of it (m).
+    pub(super) moved: f64,
     /// What it bears at rest and sliding in this step (N), and what of it the bond does.
     pub(super) bears: Strength,
     pub(super) bond: [f64; 2],
+    /// Whether nothing changes that any more.
+    pub(super) settled: bool,
     /// Slope of what it bears sliding as the step begins, and whether it was that in the step before.
     pub(super) slope: f64,
     pub(super) steady: bool,
@@ -57,10 +61,12 @@ impl Worked {
         step: TimeStep,
     ) -> f64 {
         if status.slips() || (self.slipped && status.closed()) {
-            let u = Sideways::beside(u, sideways.u, self.contact);
-            let before = Sideways::beside(before, sideways.before, self.contact);
-            let [along, across] = [0, 1].map(|k| step.theta * u[k] + (1.0 - step.theta) * before[k]);
-            step.dt * along.hypot(across)
+            let mean = |u: f64, before: f64| step.theta * u + (1.0 - step.theta) * before;
+            let across = sideways
+                .u
+                .get(self.contact)
+                .zip(sideways.before.get(self.contact));
+            step.dt * Sideways::size(mean(u, before), across.map(|(u, before)| mean(*u, *before)))
         } else {
             0.0
         }
@@ -75,10 +81,14 @@ impl Worked {
 
     /// Find what it bears about the force that presses it, in the middle of this way.
     pub(super) fn look(&mut self, laws: &[Option<Law>], moved: f64) {
+        if self.settled {
+            return;
+        }
         if let Some(law) = &laws[self.crack] {
             let worn = self.midway(moved);
             self.bears = law.strength(self.length, self.pressed, self.speed, worn);
             self.bond = law.bond(worn).map(|bond| self.length * bond);
+            self.settled = law.settled(self.worn);
         }
     }
 

@@ -154,7 +154,7 @@ impl Exact<'_> {
             let (w, v) = (&self.walk.summary.position, &self.walk.summary.velocity);
             let t = (time - since).clamp(0.0, course.piece.left);
             let moment = course.moment(self.walk.mode, w, v, t);
-            if let Some(wear) = &mut self.wear {
+            if let Some(wear) = self.wear.as_mut().filter(|_| self.walk.whole()) {
                 let slipped = match self.walk.mode.slip() {
                     Some(_) => (moment.position[SLIP] - w[SLIP]).abs(),
                     None => 0.0,

@@ -212,8 +212,10 @@ impl Plane<'_> {
         while let Some(time) = self.walk.next_moment(until) {
             let t = time - since;
             let (moment, crossing) = self.moment(here, going, t.max(0.0));
-            self.crossing.kept.push(crossing);
-            if let Some(rubbing) = &self.rubbing {
+            if self.walk.whole() {
+                self.crossing.kept.push(crossing);
+            }
+            if let Some(rubbing) = self.rubbing.as_ref().filter(|_| self.walk.whole()) {
                 let more = match going {
                     Going::Rests { .. } | Going::Lifted(_) => 0.0,
                     Going::Moves { flight, .. } => flight.ways(t.clamp(0.0, flight.length)).way[2],

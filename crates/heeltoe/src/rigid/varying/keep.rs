@@ -203,8 +203,10 @@ impl Varying<'_> {
                     *acceleration = 0.0;
                 }
             }
-            self.keep_worn(&state);
-            self.keep_rough(start, &state);
+            if self.walk.whole() {
+                self.keep_worn(&state);
+                self.keep_rough(start, &state);
+            }
             reaction[SLIP] -= self.slope(&state).slope * (reaction[HEEL] + reaction[TOE]);
             let [position, velocity] = self.contact(&state);
             self.walk.keep(Moment {
