@@ -177,7 +177,7 @@ def _with_band(case: Case, model: str, response: Response, shaking: Earthquake, 
 
 
 def _with_friction_effect(case: Case, response: Response, shaking: Earthquake, output_step: float | None) -> Response:
-    """Add what the sign of the motion that governs does with a little less friction; two quick runs of an elastic dam,
+    """Add what the sign of the motion that governs does with a little less friction; a quick run of an elastic dam or two,
     none where no evidence is wanted, or where single runs scatter and two of them say nothing."""
     elastic = response.elastic and not follows_drains(case, shaking)
     evidence = getattr(response, "evidence", None)
@@ -190,11 +190,14 @@ def _with_friction_effect(case: Case, response: Response, shaking: Earthquake, o
     through = {governing: shaking.reversed() if governing == "reversed" else shaking}
     own: float | None = response.residual_slip_m
     if elastic:
-        from heeltoe.models.flexible.model import rest_each
+        from heeltoe.models.flexible.model import rest_each, runs_as_beside
 
-        both = {"own": case.without_evidence(), "less": less.without_evidence()}
+        both = {"less": less.without_evidence()}
+        # The difference has one mesh and one step.
+        if evidence is None or not runs_as_beside(case, through[governing], evidence):
+            both["own"] = case.without_evidence()
         each = rest_each(both, through, output_step)
-        own, (numbers,) = each["own"][0].residual_slip_m, each["less"]
+        own, (numbers,) = each["own"][0].residual_slip_m if "own" in each else own, each["less"]
     else:
         ran = MODELS[response.model](less.without_evidence(), through[governing], output_step)
         numbers = numbers_of_sign(governing, ran, (), governs=True)

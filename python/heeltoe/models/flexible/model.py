@@ -38,7 +38,7 @@ from heeltoe.result.contract import CRACKED, WIDTH, headlines
 from heeltoe.result.crest import CrestMotion, crest_peaks
 from heeltoe.result.judge import CREST_LIMITS, Judgement, judge, leading_crack
 from heeltoe.result.limits import allowances
-from heeltoe.result.numbers import AssumedRock, RockTrial, SelfExcitation, SignNumbers
+from heeltoe.result.numbers import AssumedRock, EvidenceNumbers, RockTrial, SelfExcitation, SignNumbers
 from heeltoe.result.outcome import Outcome
 from heeltoe.result.rest import LAST_S, last_change, still_since
 from heeltoe.units.sentences import Sentence
@@ -364,6 +364,12 @@ def rest_both_ways(case: Case, earthquake: Earthquake, output_step: float | None
             pool.shutdown()
             pass_notes(ways, error)
             raise
+
+
+def runs_as_beside(case: Case, earthquake: Earthquake, evidence: EvidenceNumbers) -> bool:
+    """Return whether the run with this evidence has mesh and step of those that stand beside it."""
+    step = _step_beside(ShakenDam(case, build_flexible_dam(case), earthquake.shaking))
+    return evidence.elements_across == case.flexible.elements_across and evidence.time_step_s == step
 
 
 def rest_each(
