@@ -125,7 +125,7 @@ impl<'a> Across<'a> {
             *touches = [slip + TOUCHES > left, TOUCHES - slip > right];
         }
         for contact in 1..m {
-            if stopped_by_another(contacts, rows, contact) {
+            if stopped_by_another(|k| contacts.pairs[k].is_some(), rows, contact) {
                 rows.touches[contact] = [false; 2];
             }
         }
@@ -226,12 +226,30 @@ impl<'a> Across<'a> {
     }
 }
 
-/// Whether a contact that touches a neighbour is of the same two nodes as one before it that does, too: where the ends of
-/// both faces meet, each has one, and what stops one of them stops the other.
-fn stopped_by_another(contacts: &Contacts, rows: &Rows, contact: usize) -> bool {
-    let touches = |k: usize| contacts.pairs[k].is_some() && rows.touches[k] != [false; 2];
-    let g = |i: usize, j: usize| rows.g[i * contacts.len() + j];
-    let alike =
-        |other: usize| g(contact, other).powi(2) > (1.0 - ALIKE) * g(contact, contact) * g(other, other);
+/// Whether a contact that touches a neighbour is of the same two nodes as one before it that does, too, and that moves the
+/// same way: where the ends of both faces meet, each has one, and what stops one of them stops the other.
+fn stopped_by_another(meets: impl Fn(usize) -> bool, rows: &Rows, contact: usize) -> bool {
+    let touches = |k: usize| meets(k) && rows.touches[k] != [false; 2];
+    let g = |i: usize, j: usize| rows.g[i * rows.b.len() + j];
+    let alike = |other: usize| {
+        let both = g(contact, other);
+        both > 0.0 && both.powi(2) > (1.0 - ALIKE) * g(contact, contact) * g(other, other)
+    };
     touches(contact) && (0..contact).any(|other| touches(other) && alike(other))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{stopped_by_another, Rows};
+
+    #[test]
+    fn only_contacts_of_the_same_nodes_that_move_alike_are_stopped_once() {
+        let mut rows = Rows::new(2);
+        rows.touches = vec![[true, false]; 2];
+        for (between, alike) in [(2.0, true), (-2.0, false), (1.9, false)] {
+            rows.g = vec![2.0, between, between, 2.0];
+            assert_eq!(stopped_by_another(|_| true, &rows, 1), alike, "{between}");
+            assert!(!stopped_by_another(|k| k != 0, &rows, 1), "{between}");
+        }
+    }
 }
