@@ -104,9 +104,10 @@ impl<'a> Across<'a> {
         let held = &self.held[linear.damping()];
         let all = self.moved;
         self.moved |= contacts.moved.contains(&true);
-        for (i, one) in contacts.pairs.iter().enumerate() {
+        let pairs = if self.moved { &contacts.pairs[..] } else { &[] };
+        for (i, one) in pairs.iter().enumerate() {
             let Some(one) = one else { continue };
-            for (j, other) in contacts.pairs[..=i].iter().enumerate() {
+            for (j, other) in pairs[..=i].iter().enumerate() {
                 let (Some(other), true) = (other, all || contacts.moved[i] || contacts.moved[j]) else {
                     continue;
                 };
@@ -124,7 +125,8 @@ impl<'a> Across<'a> {
             let [left, right] = self.crossing.gap;
             *touches = [slip + TOUCHES > left, TOUCHES - slip > right];
         }
-        for contact in 1..m {
+        let touched = rows.touches.iter().any(|touches| *touches != [false; 2]);
+        for contact in if touched { 1..m } else { 0..0 } {
             if stopped_by_another(|k| contacts.pairs[k].is_some(), rows, contact) {
                 rows.touches[contact] = [false; 2];
             }
