@@ -358,6 +358,20 @@ def test_what_a_crack_may_have_besides_keeps_ledger_mirror_and_bits(name):
     assert all((frames.slip_cross[before] == 0.0).all() for frames in quiet.all_frames)
 
 
+@pytest.mark.parametrize(
+    ("elevation", "law", "seed", "along", "across", "step", "rock"),
+    # Ends of both faces that meet are held once; friction that has been nothing has no direction to go on in.
+    [("20 m", WEAKENING, 641, 1.1, 0.8, 5e-4, True), ("60 m", SPEED, 452, 0.6, 0.7, 2e-3, False)],
+)
+def test_neighbours_without_a_gap_leave_nothing_unsolved(elevation, law, seed, along, across, step, rock):
+    crack = {"elevation": elevation, "law": law, "side_gap": "0 mm"}
+    more = {"rock": {"modulus": "20 GPa"}} if rock else {}
+    case = case_of(None, crack=crack, flexible={"elements_across": 2}, **more)
+    summary = shaken(case, made(1.5, seed, along, across)).run(step).summary
+    assert all(math.isfinite(value) for value in summary.by_name().values())
+    assert summary.contact_residual < 1e-8
+
+
 def test_a_law_that_does_not_weaken_is_constant_friction():
     constant = shaken(case_of(0.9), made(3.0)).run(STEP).summary
     for law in (WEAKENING, SPEED):

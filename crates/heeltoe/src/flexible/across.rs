@@ -119,9 +119,10 @@ impl<'a> Across<'a> {
         let held = &self.held[linear.damping()];
         let all = self.moved;
         self.moved |= contacts.moved.contains(&true);
-        for (i, one) in contacts.pairs.iter().enumerate() {
+        let pairs = if self.moved { &contacts.pairs[..] } else { &[] };
+        for (i, one) in pairs.iter().enumerate() {
             let Some(one) = one else { continue };
-            for (j, other) in contacts.pairs[..=i].iter().enumerate() {
+            for (j, other) in pairs[..=i].iter().enumerate() {
                 let (Some(other), true) = (other, all || contacts.moved[i] || contacts.moved[j]) else {
                     continue;
                 };
@@ -140,8 +141,9 @@ impl<'a> Across<'a> {
             let [left, right] = self.crossing.gap;
             *touches = [slip + TOUCHES > left, TOUCHES - slip > right];
         }
-        for contact in 1..m {
-            if stopped_by_another(contacts, rows, self.softness, contact) {
+        let touched = rows.touches.iter().any(|touches| *touches != [false; 2]);
+        for contact in if touched { 1..m } else { 0..0 } {
+            if stopped_by_another(|k| contacts.pairs[k].is_some(), rows, self.softness, contact) {
                 rows.touches[contact] = [false; 2];
             }
         }
@@ -304,12 +306,31 @@ impl<'a> Across<'a> {
     }
 }
 
-/// Whether a contact that touches a neighbour is of the same two nodes as one before it that does, too: where the ends of
-/// both faces meet, each has one, and what stops one of them stops the other.
-fn stopped_by_another(contacts: &Contacts, rows: &Rows, softness: f64, contact: usize) -> bool {
-    let touches = |k: usize| contacts.pairs[k].is_some() && rows.touches[k] != [false; 2];
-    let g = |i: usize, j: usize| rows.g[i * contacts.len() + j];
+/// Whether a contact that touches a neighbour is of the same two nodes as one before it that does, too, and that moves the
+/// same way: where the ends of both faces meet, each has one, and what stops one of them stops the other.
+fn stopped_by_another(meets: impl Fn(usize) -> bool, rows: &Rows, softness: f64, contact: usize) -> bool {
+    let touches = |k: usize| meets(k) && rows.touches[k] != [false; 2];
+    let g = |i: usize, j: usize| rows.g[i * rows.b.len() + j];
     let own = |k: usize| g(k, k) / (1.0 + softness);
-    let alike = |other: usize| g(contact, other).powi(2) > (1.0 - ALIKE) * own(contact) * own(other);
+    let alike = |other: usize| {
+        let both = g(contact, other);
+        both > 0.0 && both.powi(2) > (1.0 - ALIKE) * own(contact) * own(other)
+    };
     touches(contact) && (0..contact).any(|other| touches(other) && alike(other))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{stopped_by_another, Rows};
+
+    #[test]
+    fn only_contacts_of_the_same_nodes_that_move_alike_are_stopped_once() {
+        let mut rows = Rows::new(2);
+        rows.touches = vec![[true, false]; 2];
+        for (between, alike) in [(2.0, true), (-2.0, false), (1.9, false)] {
+            rows.g = vec![2.0, between, between, 2.0];
+            assert_eq!(stopped_by_another(|_| true, &rows, 0.0, 1), alike, "{between}");
+            assert!(!stopped_by_another(|k| k != 0, &rows, 0.0, 1), "{between}");
+        }
+    }
 }

@@ -15,18 +15,20 @@
 //! p_e = mu p_n,      s u_q + (1 - s) / rho p_q = 0,      s = mu p_n / |z|
 //! ```
 //!
-//! The states and shares of the last step are tried first, with the impulses and directions to which the last two lead. From
-//! step to step they change little: the inverse of the matrix goes along, three of its rows for each node that changes, and
-//! with it
+//! The states of the last step are tried first. In a set of states velocities are given where nodes stick, are closed or
+//! are held, impulses elsewhere; a [`Tableau`] says what answers, and follows the states by one exchange for each component
+//! that changes sides. So all is linear but friction where nodes slip, and of these alone
 //!
 //! ```text
-//! p_T = mu p_n e(phi),      u_n + h = 0,      u_q = 0      and, where it sticks,      u_T = 0
+//! p_T = mu p_n e(phi),      u_q = 0
 //! ```
 //!
-//! are solved by corrections of p and phi, as long as each leaves little of what was amiss; where one does not, the inverse
-//! gets the directions and shares that they have come to. Whatever the corrections before have shown of the matrix is used
-//! (Broyden; Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, chapter 7). Where sets of states come round
-//! in a circle, sweeps help: each node by itself, the others held, has a solution by one number `lambda >= 0` with
+//! is solved by corrections of p_n and phi, which start from where the last steps lead by their differences (see
+//! [`super::past`]), as long as each leaves little of what was amiss; where one does not, their matrix is renewed with the
+//! directions and shares that they have come to. Whatever the corrections before have shown of the matrix is used
+//! (Broyden; Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, chapter 7). The last word has
+//! `G` itself: a tableau may be off by rounding, and by how far `G` has moved since. Where sets of states come round in a
+//! circle, sweeps help: each node by itself, the others held, has a solution by one number `lambda >= 0` with
 //! `u_T = -lambda p_T`. A law adds a constant to `mu p_n`.
 //!
 //! A neighbour that a node touches is a plastic stop: where it pushes, `u_y = 0`, it takes all that acts across the valley,
@@ -35,7 +37,9 @@
 
 use super::super::simd::{add_times, apart, dot, fill, in_groups, inlined, largest, Group, Lanes, LANES};
 use super::super::status::Status;
+use super::past::{next, Course, ORDER};
 use super::problem::Problem;
+use super::tableau::Tableau;
 use super::triangles::{eliminate, inverse};
 use super::Report;
 
@@ -48,22 +52,17 @@ const SWEEPS: u32 = 4000;
 /// Relative to the largest impulse or velocity: what counts as a violation, and by how much friction may be off.
 const SLACK: f64 = 1e-11;
 const RIGHT: f64 = 1e-10;
-/// Corrections at most, and what each may leave of what was amiss.
+/// Corrections at most, what each may leave of what was amiss, and what they leave to rounding and to the tableaux.
 const CORRECTIONS: usize = 12;
 const CLOSER: f64 = 0.5;
-/// How often the inverse may follow in one set of corrections.
+const LEFT: f64 = 0.5;
+/// How often its matrix may be renewed in one set of corrections.
 const RENEWALS: u32 = 3;
-/// Part of the usual differences that it then may leave.
-const RENEWED: f64 = 0.2;
-/// Cosine of the most that a direction may have turned in the last step if it is to go on turning.
+/// Looks at the velocities of a set of states at most, and how many of them say that the tableaux are worn.
+const LOOKS: usize = 8;
+const WORN: usize = 2;
+/// Cosine of the most that a direction may turn from one step to where it goes on.
 const NEAR: f64 = 0.9;
-/// By how much the direction of a slip (as a sine) and its share may be others than those in the inverse.
-const TURNED: f64 = 0.05;
-const SHARED: f64 = 0.05;
-/// The same of coefficients of friction.
-const RUBBED: f64 = 0.02;
-/// A pivot, against rows of about 1, of a change that is not to be made.
-const VANISHES: f64 = 1e-7;
 /// Halvings in the search for a node's lambda, which are more than a double holds.
 const HALVINGS: u32 = 200;
 
@@ -126,52 +125,87 @@ impl State {
     }
 }
 
-/// An equation of a contact: what it takes of the velocities there, what of the impulses, and its right-hand side.
-#[derive(Clone, Copy, Default)]
-struct Row {
-    felt: [f64; 3],
-    own: [f64; 3],
-    right: f64,
-}
-
 /// The solver, with the states of the last step.
 pub(in super::super) struct Disc {
     states: Vec<State>,
-    /// States and impulses of the step before it, and whether a step begins.
-    before: Vec<(State, [f64; 3])>,
+    /// Where contacts were, how many differences of that are known, and whether a step begins.
+    past: Vec<Past>,
+    known: usize,
     begins: bool,
-    /// The inverse of the equations, column by column, each filled up to whole groups; impulses and equations stand in
-    /// the order along, normal, across, each of all contacts.
+    /// Along the crack and across its faces, and across the valley: what answers where in the states as they are, and
+    /// whether `G` has moved since.
+    tableaux: [Tableau; 2],
+    stale: bool,
+    /// Contacts that met something when the tableaux were written.
+    met: Vec<bool>,
+    /// Contacts that slip; to a change of their friction, along the crack and then across the valley, what answers there,
+    /// column by column: velocities along the crack, normal impulses, velocities across the valley.
+    slips: Vec<usize>,
+    answers: Vec<Group>,
+    /// How far the solution for them has come.
+    sliding: Vec<Sliding>,
+    /// The inverse of Newton's matrix, column by column, each filled up to whole groups; empty where there is none.
     inverse: Vec<Group>,
-    /// The set it belongs to, with the coefficients of friction; empty where it is good for nothing.
-    of: Vec<(State, Side, f64)>,
-    /// Right-hand sides, and room for a solution, for rows and columns, and for the corrections of a set.
+    /// Right-hand sides, and room for answers, for a solution, for factors, and for the corrections of a set.
     x: Vec<f64>,
+    sums: [Vec<Group>; 2],
+    near: Vec<Group>,
     sum: Vec<Group>,
-    room: Vec<Group>,
     lu: Vec<f64>,
     pivots: Vec<usize>,
     steps: Vec<Group>,
 }
 
+/// A contact that slips on the way to its solution: friction, velocities, the normal impulse that friction is of and the
+/// one that it leads to.
+#[derive(Clone, Copy, Default)]
+struct Sliding {
+    p: [f64; 2],
+    u: [f64; 2],
+    normal: f64,
+    pressed: f64,
+    /// Velocity of an impulse, to measure by.
+    per: f64,
+}
+
+/// Where a contact was at the last step: its state, its neighbour, and its impulses with their differences until there.
+#[derive(Clone, Copy)]
+struct Past {
+    state: State,
+    side: Side,
+    courses: [Course; 3],
+}
+
 impl Disc {
     pub(in super::super) fn new(contacts: usize) -> Self {
+        let past = Past {
+            state: State::Absent,
+            side: Side::None,
+            courses: [[0.0; ORDER]; 3],
+        };
         Disc {
             states: vec![State::Stick; contacts],
-            before: vec![(State::Absent, [0.0; 3]); contacts],
+            past: vec![past; contacts],
+            known: 0,
             begins: false,
+            tableaux: Default::default(),
+            stale: true,
+            met: Vec::new(),
+            slips: Vec::new(),
+            answers: Vec::new(),
+            sliding: Vec::new(),
             inverse: Vec::new(),
-            of: Vec::new(),
             x: vec![0.0; 3 * contacts],
-            sum: vec![[0.0; LANES]; (3 * contacts).div_ceil(LANES)],
-            room: Vec::new(),
+            sums: [2 * contacts, contacts].map(|size| vec![[0.0; LANES]; size.div_ceil(LANES)]),
+            near: Vec::new(),
+            sum: Vec::new(),
             lu: Vec::new(),
             pivots: Vec::new(),
             steps: Vec::new(),
         }
     }
 
-    /// Begin a step, which starts from where the last two steps lead.
+    /// Begin a step, which starts from where the last ones lead.
     pub(in super::super) fn begin(&mut self) {
         self.begins = true;
     }
@@ -186,10 +220,17 @@ impl Disc {
         (p, u): (&mut [f64], &mut [f64]),
         moved: bool,
     ) -> Report {
-        if moved || rows.wide[0].is_empty() {
+        if rows.wide[0].is_empty() {
             let m = self.states.len();
             rows.wide = [in_groups(&problem.g, 2 * m), in_groups(&rows.g, m)];
             rows.room_for = [2 * m, m].map(|size| vec![[0.0; LANES]; size.div_ceil(LANES)]);
+        } else if moved {
+            let m = self.states.len();
+            let [plane, across] = &mut rows.wide;
+            self.stale |= refill(plane, &problem.g, 2 * m) | refill(across, &rows.g, m);
+        } else if self.stale {
+            // It stays as it is: tableaux of it are worth their while.
+            self.met.clear();
         }
         for ((state, side), status) in self.states.iter_mut().zip(&mut rows.side).zip(&*status) {
             *state = match (*status, *state) {
@@ -250,31 +291,42 @@ impl Disc {
         report
     }
 
-    /// Let impulses and directions of contacts whose state has lasted go on as in the last step.
+    /// Let impulses and directions go on by their differences, as long as no contact changes its state.
     fn go_ahead(&mut self, way: &mut Way) {
         let m = self.states.len();
-        for (contact, (state, before)) in self.states.iter_mut().zip(&mut self.before).enumerate() {
-            let now = [way.p[contact], way.p[m + contact], way.rows.p[contact]];
-            let (was, from) = std::mem::replace(before, (*state, now));
-            let lasts = match (&mut *state, was) {
-                // Where a neighbour pushes, friction acts along the crack.
-                (State::Slip(..), _) if way.rows.side[contact] != Side::None => *state == was,
-                (State::Slip(to, _), State::Slip(of, _)) => {
-                    let turned = [2.0 * to[0] - of[0], 2.0 * to[1] - of[1]];
-                    let size = length(turned[0], turned[1]);
-                    let near = to[0] * of[0] + to[1] * of[1] > NEAR;
-                    if near {
-                        *to = [turned[0] / size, turned[1] / size];
-                    }
-                    near
+        let same = |(k, past): (usize, &Past)| {
+            way.rows.side[k] == past.side
+                && match (self.states[k], past.state) {
+                    (State::Slip(..), State::Slip(..)) => true,
+                    (state, was) => state == was,
                 }
-                (state, was) => *state == was,
-            };
-            if lasts {
-                let [along, normal, across] = [0, 1, 2].map(|k| 2.0 * now[k] - from[k]);
-                (way.p[contact], way.p[m + contact], way.rows.p[contact]) = (along, normal, across);
+        };
+        let lasts = self.past.iter().enumerate().all(same);
+        self.known = if lasts { self.known } else { 0 };
+        for (k, (state, past)) in self.states.iter_mut().zip(&mut self.past).enumerate() {
+            (past.state, past.side) = (*state, way.rows.side[k]);
+            let now = [way.p[k], way.p[m + k], way.rows.p[k]];
+            let mut ahead = now;
+            for (ahead, course) in ahead.iter_mut().zip(&mut past.courses) {
+                *ahead = next(*ahead, course, self.known);
             }
+            if !state.closed() && past.side == Side::None {
+                continue;
+            }
+            if let State::Slip(to, _) = state {
+                if past.side == Side::None {
+                    let size = length(ahead[0], ahead[2]);
+                    // Nothing has no direction.
+                    let near = to[0] * ahead[0] + to[1] * ahead[2] > NEAR * size;
+                    if !near {
+                        continue;
+                    }
+                    *to = [ahead[0] / size, ahead[2] / size];
+                }
+            }
+            (way.p[k], way.p[m + k], way.rows.p[k]) = (ahead[0], ahead[1], ahead[2]);
         }
+        self.known = (self.known + 1).min(ORDER);
     }
 
     /// Go from set to set; false where none is right of so many.
@@ -282,11 +334,8 @@ impl Disc {
     fn go_on<W: Lanes>(&mut self, way: &mut Way, most: u32, report: &mut Report) -> bool {
         for _ in 0..most {
             report.iterations += 1;
-            if !(self.follow::<W>(way) && self.correct::<W>(way)) {
-                if !self.impulses::<W>(way) {
-                    return false;
-                }
-                way.velocities::<W>();
+            if !self.correct::<W>(way) && !self.bend::<W>(way) {
+                return false;
             }
             if self.turn(way) {
                 return true;
@@ -295,190 +344,379 @@ impl Disc {
         false
     }
 
-    /// Let the inverse follow the states, contact by contact; false where there is none, or too much has changed.
+    /// Let be given in the tableaux what the states say.
     #[inline(always)]
-    fn follow<W: Lanes>(&mut self, way: &Way) -> bool {
-        if self.of.is_empty() {
-            return false;
-        }
-        let far = |contact: &usize| self.off(way, *contact, 1.0);
-        let changed = (0..self.states.len()).filter(far).count();
-        if changed > self.states.len() / 3 + 1 {
-            return false;
-        }
-        if changed == 0 {
-            return true;
-        }
-        let changed: Vec<usize> = (0..self.states.len()).filter(far).collect();
-        for contact in changed {
-            if !self.replace::<W>(way, contact) {
-                self.of.clear();
-                return false;
-            }
-            self.of[contact] = self.set_of(way, contact);
-        }
-        true
-    }
-
-    /// Whether the inverse has other equations of a contact, or directions and shares that are off by more than this part
-    /// of what they may be.
-    #[inline(always)]
-    fn off(&self, way: &Way, contact: usize, part: f64) -> bool {
-        let (of, of_side, mu) = self.of[contact];
-        way.rows.side[contact] != of_side
-            || match (self.states[contact], of) {
-                (State::Slip(to, share), State::Slip(other, of_share)) => {
-                    to[0] * other[0] + to[1] * other[1] < 0.0
-                        || (to[0] * other[1] - to[1] * other[0]).abs() > part * TURNED
-                        || (share - of_share).abs() > part * SHARED
-                        || (way.problem.mu_slip[contact] - mu).abs() > RUBBED
-                }
-                (state, of) => state != of,
-            }
-    }
-
-    fn set_of(&self, way: &Way, contact: usize) -> (State, Side, f64) {
-        (
-            self.states[contact],
-            way.rows.side[contact],
-            way.problem.mu_slip[contact],
-        )
-    }
-
-    /// Replace the equations of a contact in the inverse; false where they have no solution. With the new rows `r` and the
-    /// columns `A_c` of the inverse `A` that stand for the old ones, columns become `A - A_c (r A_c)^-1 r A`.
-    #[inline(always)]
-    fn replace<W: Lanes>(&mut self, way: &Way, contact: usize) -> bool {
+    fn follow<W: Lanes>(&mut self, way: &Way) {
         let m = self.states.len();
-        let (n, stride) = (3 * m, (3 * m).div_ceil(LANES));
-        self.room.clear();
-        self.room.resize(6 * stride, [0.0; LANES]);
-        let (rows, old) = self.room.split_at_mut(3 * stride);
-        let equations = way.equations(contact, self.states[contact]);
-        for (k, equation) in equations.iter().enumerate() {
-            way.write(contact, equation, rows[k * stride..][..stride].as_flattened_mut());
-            let column = &self.inverse[(contact + k * m) * stride..][..stride];
-            old[k * stride..][..stride].copy_from_slice(column);
-        }
-        let mut inner = [[0.0; 6]; 3];
-        for (r, inner) in inner.iter_mut().enumerate() {
-            for c in 0..3 {
-                let (row, column) = (&rows[r * stride..][..stride], &old[c * stride..][..stride]);
-                inner[c] = dot(row.as_flattened(), column.as_flattened());
+        let absent = |state: &State| *state == State::Absent;
+        let new = self.met.is_empty()
+            || self
+                .states
+                .iter()
+                .zip(&self.met)
+                .any(|(state, met)| !absent(state) && !met);
+        if new {
+            self.met.clear();
+            self.met.extend(self.states.iter().map(|state| !absent(state)));
+            for (tableau, (g, size)) in self.tableaux.iter_mut().zip(way.rows.wide.iter().zip([2 * m, m])) {
+                tableau.begin(g, size);
             }
-            inner[3 + r] = 1.0;
+            self.stale = false;
+            self.answers.clear();
         }
-        let Some(inner) = inverse_of_three(inner) else {
-            return false;
-        };
-        let own = [contact, m + contact, 2 * m + contact];
-        for j in (0..n).filter(|j| !own.contains(j)) {
-            let column = &mut self.inverse[j * stride..][..stride];
-            let mut felt = [W::all(0.0); 3];
-            for (g, group) in column.iter().enumerate() {
-                let group = W::load(group);
-                for (r, felt) in felt.iter_mut().enumerate() {
-                    *felt = W::load(&rows[r * stride + g]).fma(group, *felt);
+        let [plane, across] = &mut self.tableaux;
+        let mut changed = self.answers.is_empty();
+        for (k, state) in self.states.iter().enumerate() {
+            let (sticks, stopped) = (*state == State::Stick, way.rows.side[k] != Side::None);
+            if plane.given(k) != sticks {
+                changed |= plane.exchange::<W>(k);
+            }
+            if plane.given(m + k) != state.closed() {
+                changed |= plane.exchange::<W>(m + k);
+            }
+            if across.given(k) != (sticks || stopped) {
+                changed |= across.exchange::<W>(k);
+            }
+        }
+        let slips = |k: &usize| matches!(self.states[*k], State::Slip(..));
+        changed |= (0..m).filter(slips).ne(self.slips.iter().copied());
+        if changed {
+            self.slips.clear();
+            self.slips
+                .extend((0..m).filter(|k| matches!(self.states[*k], State::Slip(..))));
+            self.gather(way);
+            self.inverse.clear();
+        }
+    }
+
+    /// Write how the contacts that slip answer to their friction.
+    #[inline(always)]
+    fn gather(&mut self, way: &Way) {
+        let (m, count) = (self.states.len(), self.slips.len());
+        let [plane, across] = &self.tableaux;
+        let stride = (3 * count).div_ceil(LANES);
+        self.answers.clear();
+        self.answers.resize((2 * count * stride).max(1), [0.0; LANES]);
+        self.near.resize(stride, [0.0; LANES]);
+        for (c, &to) in self.slips.iter().enumerate() {
+            let column = self.answers[c * stride..][..stride].as_flattened_mut();
+            for (r, &k) in self.slips.iter().enumerate() {
+                column[r] = plane.answer(k, to);
+                if plane.given(m + k) {
+                    column[count + r] = plane.answer(m + k, to);
                 }
             }
-            let mut groups = [[0.0; LANES]; LANES];
-            for r in 0..3 {
-                felt[r].store(&mut groups[r]);
+            if way.rows.side[to] == Side::None {
+                let column = self.answers[(count + c) * stride..][..stride].as_flattened_mut();
+                for (r, &k) in self.slips.iter().enumerate() {
+                    if way.rows.side[k] == Side::None {
+                        column[2 * count + r] = across.answer(k, to);
+                    }
+                }
             }
-            let felt = W::sums(&groups);
-            let mut by = [W::all(0.0); 3];
-            for (by, inner) in by.iter_mut().zip(&inner) {
-                *by = W::all(-(inner[0] * felt[0] + inner[1] * felt[1] + inner[2] * felt[2]));
-            }
-            add_three::<W>(by, old, column);
         }
-        for (k, j) in own.into_iter().enumerate() {
-            let column = &mut self.inverse[j * stride..][..stride];
-            column.fill([0.0; LANES]);
-            add_three::<W>(
-                [W::all(inner[0][k]), W::all(inner[1][k]), W::all(inner[2][k])],
-                old,
-                column,
-            );
-        }
-        true
     }
 
-    /// Correct the impulses of the last step by the inverse; false where they do not come closer fast.
+    /// Let impulses and velocities answer to what is given now, as `x` has it.
     #[inline(always)]
-    fn correct<W: Lanes>(&mut self, way: &mut Way) -> bool {
+    fn respond<W: Lanes>(&mut self, way: &mut Way) {
         let m = self.states.len();
-        for (contact, state) in self.states.iter().enumerate() {
+        let (x, x_y) = self.x.split_at(2 * m);
+        let [sums, sums_y] = &mut self.sums;
+        let [plane, across] = &self.tableaux;
+        plane.answers::<W>(x, sums);
+        across.answers::<W>(x_y, sums_y);
+        let rows = &mut *way.rows;
+        for (tableau, x, y, p, u) in [
+            (plane, x, sums, &mut *way.p, &mut *way.u),
+            (across, x_y, sums_y, &mut rows.p[..], &mut rows.u[..]),
+        ] {
+            let y = y.as_flattened();
+            for k in 0..x.len() {
+                if tableau.given(k) {
+                    p[k] += y[k];
+                    u[k] += x[k];
+                } else {
+                    u[k] += y[k];
+                }
+            }
+        }
+    }
+
+    /// Ask by `x` for the velocities that are given.
+    #[inline(always)]
+    fn ask(&mut self, way: &Way) {
+        let m = self.states.len();
+        let [plane, across] = &self.tableaux;
+        let (x, x_y) = self.x.split_at_mut(2 * m);
+        let (x_t, x_n) = x.split_at_mut(m);
+        for k in 0..m {
+            x_t[k] = if plane.given(k) { -way.u[k] } else { 0.0 };
+            x_n[k] = if plane.given(m + k) {
+                -(way.u[m + k] + way.problem.h[k])
+            } else {
+                0.0
+            };
+            x_y[k] = if across.given(k) { -way.rows.u[k] } else { 0.0 };
+        }
+    }
+
+    /// Start with friction alone of what slips, in its directions, and all that is given right by the tableaux.
+    #[inline(always)]
+    fn start<W: Lanes>(&mut self, way: &mut Way) {
+        let m = self.states.len();
+        for (k, state) in self.states.iter().enumerate() {
             if !state.closed() {
-                (way.p[contact], way.p[m + contact]) = (0.0, 0.0);
+                (way.p[k], way.p[m + k]) = (0.0, 0.0);
             }
             match *state {
-                State::Slip(to, _) => way.lean(contact, to, 0.0),
+                State::Slip(to, _) => way.lean(k, to, 0.0),
                 State::Stick => {}
-                State::Absent | State::Open if way.rows.side[contact] != Side::None => {}
-                State::Absent | State::Open => way.rows.p[contact] = 0.0,
+                State::Absent | State::Open if way.rows.side[k] != Side::None => {}
+                State::Absent | State::Open => way.rows.p[k] = 0.0,
             }
         }
+        if self.stale {
+            way.velocities::<W>();
+            self.ask(way);
+        } else {
+            way.u.copy_from_slice(&way.problem.b);
+            way.rows.u.copy_from_slice(&way.rows.b);
+            self.ask(way);
+            let [plane, across] = &self.tableaux;
+            let (x, x_y) = self.x.split_at_mut(2 * m);
+            let rows = &mut *way.rows;
+            for (tableau, x, p) in [(plane, x, &mut *way.p), (across, x_y, &mut rows.p[..])] {
+                for k in 0..x.len() {
+                    if tableau.given(k) {
+                        p[k] = 0.0;
+                    } else {
+                        x[k] = p[k];
+                    }
+                }
+            }
+        }
+        self.respond::<W>(way);
+    }
+
+    /// Find the impulses of the states by corrections; false where they do not come closer fast.
+    #[inline(always)]
+    fn correct<W: Lanes>(&mut self, way: &mut Way) -> bool {
+        self.follow::<W>(way);
         let enough = RIGHT * largest(&way.problem.b).max(largest(&way.rows.b));
-        let (mut before, mut renewals) = (f64::INFINITY, 0);
-        self.steps.clear();
-        for _ in 0..CORRECTIONS {
+        self.start::<W>(way);
+        let (mut before, mut anew) = (f64::INFINITY, false);
+        for look in 1..=LOOKS {
+            if !self.slide::<W>(way, enough) {
+                return false;
+            }
             way.velocities::<W>();
             let now = self.amiss(way);
             if now <= enough {
+                if look > WORN {
+                    self.met.clear();
+                }
                 return true;
             }
             if now > CLOSER * before || now.is_nan() {
-                if renewals == RENEWALS || now.is_nan() || !self.renew::<W>(way) {
+                if anew || now.is_nan() {
+                    break;
+                }
+                self.met.clear();
+                self.follow::<W>(way);
+                anew = true;
+            }
+            before = now;
+            self.ask(way);
+            self.respond::<W>(way);
+        }
+        self.met.clear();
+        false
+    }
+
+    /// Solve for friction where the contacts slip, the others as they are given; false where that does not come closer
+    /// fast.
+    #[inline(always)]
+    fn slide<W: Lanes>(&mut self, way: &mut Way, enough: f64) -> bool {
+        if self.slips.is_empty() {
+            return true;
+        }
+        self.look(way);
+        self.move_on::<W>(way);
+        let (mut before, mut renewals) = (f64::INFINITY, 0);
+        self.steps.clear();
+        for _ in 0..CORRECTIONS {
+            let known = !self.inverse.is_empty();
+            let now = if known { self.missing(way) } else { f64::INFINITY };
+            if now <= LEFT * enough {
+                self.pass_on(way);
+                self.respond::<W>(way);
+                return true;
+            }
+            if now.is_nan() {
+                break;
+            }
+            if !known || now > CLOSER * before {
+                self.see(way);
+                if renewals == RENEWALS || !self.renew::<W>(way) {
                     break;
                 }
                 renewals += 1;
+                before = f64::INFINITY;
                 self.steps.clear();
-                self.amiss(way);
+                continue;
             }
             before = now;
             self.find::<W>();
             self.learn::<W>();
-            if !self.apply(way) {
+            if !self.apply::<W>(way) {
                 break;
             }
         }
-        self.of.clear();
+        self.inverse.clear();
         false
     }
 
-    /// Let the inverse have the directions and shares of all that slips where the corrections are; false where it cannot.
+    /// Take the contacts that slip as they are.
     #[inline(always)]
-    fn renew<W: Lanes>(&mut self, way: &Way) -> bool {
+    fn look(&mut self, way: &Way) {
         let m = self.states.len();
-        for contact in 0..m {
-            let State::Slip(to, _) = self.states[contact] else {
+        self.sliding.clear();
+        self.sliding.extend(self.slips.iter().map(|&k| Sliding {
+            p: [way.p[k], way.rows.p[k]],
+            u: [way.u[k], way.rows.u[k]],
+            normal: way.p[m + k],
+            pressed: way.p[m + k],
+            per: 1.0 / way.rho(k),
+        }));
+    }
+
+    /// Let friction be that of normal impulses and directions, and all answer to its change.
+    #[inline(always)]
+    fn move_on<W: Lanes>(&mut self, way: &Way) {
+        let count = self.slips.len();
+        for (c, (sliding, &k)) in self.sliding.iter_mut().zip(&self.slips).enumerate() {
+            let State::Slip([t, y], _) = self.states[k] else {
                 continue;
             };
-            if way.rows.side[contact] == Side::None {
-                let rho = way.rho(contact);
-                let size = length(
-                    way.p[contact] - rho * way.u[contact],
-                    way.rows.p[contact] - rho * way.rows.u[contact],
-                );
-                let limit = way.limit(contact, true, way.p[m + contact]);
-                self.states[contact] = State::Slip(to, (limit / size.max(f64::MIN_POSITIVE)).min(1.0));
-            }
-            if self.off(way, contact, RENEWED) {
-                if !self.replace::<W>(way, contact) {
-                    return false;
+            let limit = way.limit(k, true, sliding.normal);
+            let p = [
+                limit * t,
+                if way.rows.side[k] == Side::None {
+                    limit * y
+                } else {
+                    sliding.p[1]
+                },
+            ];
+            (self.x[c], self.x[count + c]) = (p[0] - sliding.p[0], p[1] - sliding.p[1]);
+            sliding.p = p;
+        }
+        self.feel::<W>();
+    }
+
+    /// Let contacts that slip answer to a change of their friction.
+    #[inline(always)]
+    fn feel<W: Lanes>(&mut self) {
+        let count = self.slips.len();
+        self.near.fill([0.0; LANES]);
+        inlined::combine::<W>(
+            &self.answers,
+            self.near.len(),
+            &self.x[..2 * count],
+            &mut self.near,
+        );
+        let near = self.near.as_flattened();
+        for (c, sliding) in self.sliding.iter_mut().enumerate() {
+            sliding.u[0] += near[c];
+            sliding.pressed += near[count + c];
+            sliding.u[1] += near[2 * count + c];
+        }
+    }
+
+    /// Write what is missing as right-hand sides, and return the most of it, as a velocity.
+    #[inline(always)]
+    fn missing(&mut self, way: &Way) -> f64 {
+        let count = self.slips.len();
+        for (c, (sliding, &k)) in self.sliding.iter().zip(&self.slips).enumerate() {
+            let State::Slip([t, y], share) = self.states[k] else {
+                continue;
+            };
+            self.x[c] = (sliding.pressed - sliding.normal) * sliding.per;
+            self.x[count + c] = if way.rows.side[k] == Side::None {
+                share * (y * sliding.u[0] - t * sliding.u[1])
+            } else {
+                0.0
+            };
+        }
+        largest(&self.x[..2 * count])
+    }
+
+    /// Let the shares be those of impulses and velocities as they are.
+    #[inline(always)]
+    fn see(&mut self, way: &Way) {
+        for (sliding, &k) in self.sliding.iter().zip(&self.slips) {
+            if way.rows.side[k] == Side::None {
+                if let State::Slip(to, _) = self.states[k] {
+                    let (_, share) = way.slide_of(k, sliding.p, sliding.u, sliding.normal);
+                    self.states[k] = State::Slip(to, share.min(1.0));
                 }
-                self.of[contact] = self.set_of(way, contact);
             }
         }
+    }
+
+    /// Find the inverse of Newton's matrix of directions and shares as they are; false where it has none.
+    #[inline(always)]
+    fn renew<W: Lanes>(&mut self, way: &Way) -> bool {
+        let (count, stride) = (self.slips.len(), self.near.len());
+        let n = 2 * count;
+        self.lu.clear();
+        self.lu.resize(n * n, 0.0);
+        for (c, &to) in self.slips.iter().enumerate() {
+            let State::Slip([t, y], share) = self.states[to] else {
+                continue;
+            };
+            let stopped = way.rows.side[to] != Side::None;
+            let (per, mu) = (self.sliding[c].per, way.problem.mu_slip[to]);
+            let along = self.answers[c * stride..][..stride].as_flattened();
+            let across = self.answers[(count + c) * stride..][..stride].as_flattened();
+            // To a change of the normal impulse, and of friction at right angles to its direction.
+            for (column, [by_t, by_y]) in [(c, [mu * t, mu * y]), (count + c, [-y, t])] {
+                let [by_t, by_y] = match (stopped, column == c) {
+                    (false, _) => [by_t, by_y],
+                    (true, true) => [by_t, 0.0],
+                    (true, false) => [0.0; 2],
+                };
+                let column = &mut self.lu[column * n..][..n];
+                for (r, (sliding, &k)) in self.sliding.iter().zip(&self.slips).enumerate() {
+                    let State::Slip([t, y], share) = self.states[k] else {
+                        continue;
+                    };
+                    column[r] = -by_t * along[count + r] * sliding.per;
+                    if way.rows.side[k] == Side::None {
+                        let u = [by_t * along[r], by_y * across[2 * count + r]];
+                        column[count + r] = share * (t * u[1] - y * u[0]);
+                    }
+                }
+            }
+            self.lu[c * n + c] += per;
+            let own = if stopped { 1.0 } else { 1.0 - share };
+            self.lu[(count + c) * n + count + c] += own * per;
+        }
+        self.sum.resize(n.div_ceil(LANES), [0.0; LANES]);
+        if !eliminate::<W>(&mut self.lu, n, &mut self.pivots) {
+            self.inverse.clear();
+            return false;
+        }
+        inverse::<W>(&self.lu, &self.pivots, n, &mut self.inverse);
         true
     }
 
     /// Turn the right-hand sides into the solution by the inverse.
     #[inline(always)]
     fn find<W: Lanes>(&mut self) {
+        let n = 2 * self.slips.len();
         self.sum.fill([0.0; LANES]);
-        inlined::combine::<W>(&self.inverse, self.sum.len(), &self.x, &mut self.sum);
+        inlined::combine::<W>(&self.inverse, self.sum.len(), &self.x[..n], &mut self.sum);
     }
 
     /// Change a correction by what those before it have shown, and keep it.
@@ -499,93 +737,107 @@ impl Disc {
         self.steps.extend_from_slice(&self.sum);
     }
 
-    /// Write by what the velocities are amiss, as right-hand sides, and return the most of it.
+    /// Change normal impulses and directions by the solution; false where a node that slips is not pressed any more.
     #[inline(always)]
-    fn amiss(&mut self, way: &Way) -> f64 {
-        let (m, rows, x) = (self.states.len(), &*way.rows, &mut self.x);
-        for (contact, state) in self.states.iter().enumerate() {
-            let stopped = rows.side[contact] != Side::None;
-            let (u_t, u_y) = (way.u[contact], rows.u[contact]);
-            let u_n = way.u[m + contact] + way.problem.h[contact];
-            let across = if stopped { -u_y } else { 0.0 };
-            let [t, n, y] = match *state {
-                State::Stick => [-u_t, -u_n, -u_y],
-                State::Slip([t, y], _) if !stopped => {
-                    let share = match self.of[contact].0 {
-                        State::Slip(_, share) => share,
-                        _ => 1.0,
-                    };
-                    [0.0, -u_n, share * (y * u_t - t * u_y)]
+    fn apply<W: Lanes>(&mut self, way: &Way) -> bool {
+        let (count, x) = (self.slips.len(), self.sum.as_flattened());
+        for (c, (sliding, &k)) in self.sliding.iter_mut().zip(&self.slips).enumerate() {
+            sliding.normal += x[c];
+            if let (State::Slip(to, _), Side::None) = (&mut self.states[k], way.rows.side[k]) {
+                let limit = way.limit(k, true, sliding.normal);
+                if limit <= 0.0 {
+                    return false;
                 }
-                State::Slip(..) => [0.0, -u_n, across],
-                State::Absent | State::Open => [0.0, 0.0, across],
-            };
-            (x[contact], x[m + contact], x[2 * m + contact]) = (t, n, y);
-        }
-        largest(x)
-    }
-
-    /// Change impulses and directions by the solution; false where a node that slips is not pressed any more.
-    #[inline(always)]
-    fn apply(&mut self, way: &mut Way) -> bool {
-        let (m, x) = (self.states.len(), self.sum.as_flattened());
-        for (contact, state) in self.states.iter_mut().enumerate() {
-            let stopped = way.rows.side[contact] != Side::None;
-            let [along, normal, across] = [x[contact], x[m + contact], x[2 * m + contact]];
-            match state {
-                State::Stick => {
-                    way.p[contact] += along;
-                    way.p[m + contact] += normal;
-                }
-                State::Slip(to, _) => {
-                    if !stopped {
-                        let limit = way.limit(contact, true, way.p[m + contact] + normal);
-                        if limit <= 0.0 {
-                            return false;
-                        }
-                        let turn = (to[0] * across - to[1] * along) / limit;
-                        let turned = [to[0] - to[1] * turn, to[1] + to[0] * turn];
-                        let size = length(turned[0], turned[1]);
-                        *to = [turned[0] / size, turned[1] / size];
-                    }
-                    way.lean(contact, *to, normal);
-                }
-                State::Absent | State::Open => {}
-            }
-            if stopped || *state == State::Stick {
-                way.rows.p[contact] += across;
+                let turn = x[count + c] / limit;
+                let turned = [to[0] - to[1] * turn, to[1] + to[0] * turn];
+                let size = length(turned[0], turned[1]);
+                *to = [turned[0] / size, turned[1] / size];
             }
         }
+        self.move_on::<W>(way);
         true
     }
 
-    /// Find the inverse of the states as they are, and their impulses; false where they have none.
+    /// Hand the friction that has been found over as what is given.
     #[inline(always)]
-    fn impulses<W: Lanes>(&mut self, way: &mut Way) -> bool {
+    fn pass_on(&mut self, way: &mut Way) {
         let m = self.states.len();
-        let n = 3 * m;
-        self.of.clear();
-        self.lu.resize(n * n, 0.0);
-        let mut row = vec![0.0; n];
-        for (contact, state) in self.states.iter().enumerate() {
-            for (k, equation) in way.equations(contact, *state).iter().enumerate() {
-                let r = contact + k * m;
-                self.x[r] = equation.right;
-                way.write(contact, equation, &mut row);
-                for (c, value) in row.iter().enumerate() {
-                    self.lu[c * n + r] = *value;
-                }
+        self.x.fill(0.0);
+        for (sliding, &k) in self.sliding.iter().zip(&self.slips) {
+            self.x[k] = sliding.p[0] - way.p[k];
+            way.p[k] = sliding.p[0];
+            if way.rows.side[k] == Side::None {
+                self.x[2 * m + k] = sliding.p[1] - way.rows.p[k];
+                way.rows.p[k] = sliding.p[1];
             }
         }
-        if !eliminate::<W>(&mut self.lu, n, &mut self.pivots) {
-            return false;
+    }
+
+    /// By how much velocities and friction are amiss.
+    #[inline(always)]
+    fn amiss(&self, way: &Way) -> f64 {
+        let (m, rows) = (self.states.len(), &*way.rows);
+        let mut worst = 0.0_f64;
+        let mut note = |x: f64| {
+            if x.is_nan() || x.abs() > worst {
+                worst = x.abs();
+            }
+        };
+        for (k, state) in self.states.iter().enumerate() {
+            let stopped = rows.side[k] != Side::None;
+            let (u_t, u_y) = (way.u[k], rows.u[k]);
+            if state.closed() {
+                note(way.u[m + k] + way.problem.h[k]);
+            }
+            if stopped || *state == State::Stick {
+                note(u_y);
+            }
+            match *state {
+                State::Stick => note(u_t),
+                State::Slip([t, y], share) => {
+                    let limit = way.limit(k, true, way.p[m + k]);
+                    note((way.p[k] - limit * t) / way.rho(k));
+                    if !stopped {
+                        note((rows.p[k] - limit * y) / way.rho(k));
+                        note(share * (y * u_t - t * u_y));
+                    }
+                }
+                State::Absent | State::Open => {}
+            }
         }
-        inverse::<W>(&self.lu, &self.pivots, n, &mut self.inverse);
-        self.of = (0..m).map(|contact| self.set_of(way, contact)).collect();
-        self.find::<W>();
-        let x = self.sum.as_flattened();
-        way.p.copy_from_slice(&x[..2 * m]);
-        way.rows.p.copy_from_slice(&x[2 * m..n]);
+        worst
+    }
+
+    /// Take one step of Newton's method with directions and shares as the states have them, wherever it leads; false where
+    /// there is none.
+    #[inline(always)]
+    fn bend<W: Lanes>(&mut self, way: &mut Way) -> bool {
+        self.follow::<W>(way);
+        self.start::<W>(way);
+        if !self.slips.is_empty() {
+            self.look(way);
+            self.move_on::<W>(way);
+            if !self.renew::<W>(way) {
+                return false;
+            }
+            self.missing(way);
+            self.find::<W>();
+            let (count, x) = (self.slips.len(), self.sum.as_flattened());
+            for (c, (sliding, &k)) in self.sliding.iter_mut().zip(&self.slips).enumerate() {
+                let State::Slip([t, y], _) = self.states[k] else {
+                    continue;
+                };
+                let (problem, normal, turn) = (way.problem, sliding.normal + x[c], x[count + c]);
+                let limit = problem.mu_slip[k] * normal + problem.added(k, true, 0.0);
+                sliding.p[0] = limit * t;
+                if way.rows.side[k] == Side::None {
+                    sliding.p = [limit * t - turn * y, limit * y + turn * t];
+                }
+            }
+            self.pass_on(way);
+            self.respond::<W>(way);
+        }
+        way.velocities::<W>();
         true
     }
 
@@ -629,16 +881,14 @@ impl Disc {
                     }
                 }
                 State::Slip(..) => {
-                    let rho = way.rho(contact);
-                    let z = [p_t - rho * u_t, p_y - rho * u_y];
-                    let (size, limit) = (length(z[0], z[1]), way.limit(contact, true, p_n.max(0.0)));
-                    if size <= limit || size == 0.0 {
+                    let (z, share) = way.slide_of(contact, [p_t, p_y], [u_t, u_y], p_n.max(0.0));
+                    if share >= 1.0 {
                         next = State::Stick;
                     } else {
-                        let way = [z[0] / size, z[1] / size];
-                        let off = length(p_t - limit * way[0], p_y - limit * way[1]);
+                        let limit = way.limit(contact, true, p_n.max(0.0));
+                        let off = length(p_t - limit * z[0], p_y - limit * z[1]);
                         moved |= off > RIGHT * most;
-                        next = State::Slip(way, limit / size);
+                        next = State::Slip(z, share);
                     }
                 }
                 State::Absent | State::Open => {}
@@ -769,70 +1019,17 @@ impl Way<'_> {
         (mu[contact] * normal + problem.added(contact, slips, 0.0)).max(0.0)
     }
 
-    /// The equations of a contact in this state.
+    /// Direction of `z` where a contact has these friction, velocities and normal impulse, and the share of it that friction
+    /// can be, without a bound.
     #[inline(always)]
-    fn equations(&self, contact: usize, state: State) -> [Row; 3] {
-        let (problem, rows, m) = (self.problem, &*self.rows, self.rows.p.len());
-        let b = [
-            problem.b[contact],
-            problem.b[m + contact] + problem.h[contact],
-            rows.b[contact],
-        ];
-        // Impulses as large as the velocities that they make; one that has met nothing yet has no scale.
-        let (rho, stopped) = (self.rho(contact), rows.side[contact] != Side::None);
-        let rho = if rho > 0.0 { rho } else { 1.0 };
-        let still = |k: usize| {
-            let mut row = Row {
-                right: -b[k],
-                ..Row::default()
-            };
-            row.felt[k] = 1.0;
-            row
-        };
-        let none = |k: usize| {
-            let mut row = Row::default();
-            row.own[k] = 1.0 / rho;
-            row
-        };
-        let across = if stopped { still(2) } else { none(2) };
-        match state {
-            State::Stick => [still(0), still(1), still(2)],
-            State::Slip([t, y], share) => {
-                let y = if stopped { 0.0 } else { y };
-                let rubs = Row {
-                    own: [t / rho, -problem.mu_slip[contact] / rho, y / rho],
-                    right: problem.added(contact, true, 0.0) / rho,
-                    ..Row::default()
-                };
-                let own = (1.0 - share) / rho;
-                let turns = Row {
-                    felt: [-share * y, 0.0, share * t],
-                    own: [-own * y, 0.0, own * t],
-                    right: share * (y * b[0] - t * b[2]),
-                };
-                [rubs, still(1), if stopped { across } else { turns }]
-            }
-            State::Absent | State::Open => [none(0), none(1), across],
+    fn slide_of(&self, contact: usize, p: [f64; 2], u: [f64; 2], normal: f64) -> ([f64; 2], f64) {
+        let rho = self.rho(contact);
+        let z = [p[0] - rho * u[0], p[1] - rho * u[1]];
+        let (size, limit) = (length(z[0], z[1]), self.limit(contact, true, normal));
+        if size == 0.0 {
+            return ([1.0, 0.0], f64::INFINITY);
         }
-    }
-
-    /// Write an equation of a contact in terms of all impulses.
-    #[inline(always)]
-    fn write(&self, contact: usize, equation: &Row, to: &mut [f64]) {
-        let m = self.rows.p.len();
-        let [t, n, y] = equation.felt;
-        let along = &self.problem.g[contact * 2 * m..][..2 * m];
-        let normal = &self.problem.g[(m + contact) * 2 * m..][..2 * m];
-        let across = &self.rows.g[contact * m..][..m];
-        for ((to, along), normal) in to.iter_mut().zip(along).zip(normal) {
-            *to = t * along + n * normal;
-        }
-        for (to, across) in to[2 * m..].iter_mut().zip(across) {
-            *to = y * across;
-        }
-        for (k, own) in equation.own.iter().enumerate() {
-            to[contact + k * m] += own;
-        }
+        ([z[0] / size, z[1] / size], limit / size)
     }
 
     /// Let friction lean this way, with a change of the normal impulse.
@@ -894,23 +1091,18 @@ impl Way<'_> {
     }
 }
 
-/// The inverse of three rows, each with those of the unit matrix beside it; none where it has none.
-#[inline(always)]
-fn inverse_of_three(mut rows: [[f64; 6]; 3]) -> Option<[[f64; 3]; 3]> {
-    for k in 0..3 {
-        let pivot = (k..3).max_by(|a, b| rows[*a][k].abs().total_cmp(&rows[*b][k].abs()))?;
-        rows.swap(k, pivot);
-        if rows[k][k].is_nan() || rows[k][k].abs() < VANISHES {
-            return None;
-        }
-        let own = rows[k].map(|x| x / rows[k][k]);
-        rows[k] = own;
-        for r in (0..3).filter(|r| *r != k) {
-            let by = rows[r][k];
-            rows[r].iter_mut().zip(&own).for_each(|(x, own)| *x -= by * own);
-        }
+/// Fill groups with a matrix again; whether it is another one.
+fn refill(groups: &mut [Group], matrix: &[f64], count: usize) -> bool {
+    let mut other = false;
+    for (full, row) in groups
+        .chunks_exact_mut(count.div_ceil(LANES))
+        .zip(matrix.chunks_exact(count))
+    {
+        let full = &mut full.as_flattened_mut()[..count];
+        other |= full != row;
+        full.copy_from_slice(row);
     }
-    Some(rows.map(|row| [row[3], row[4], row[5]]))
+    other
 }
 
 /// How much of a correction another one has.
@@ -918,17 +1110,6 @@ fn inverse_of_three(mut rows: [[f64; 6]; 3]) -> Option<[[f64; 3]; 3]> {
 fn share(step: &[Group], sum: &[Group]) -> f64 {
     let (step, sum) = (step.as_flattened(), sum.as_flattened());
     dot(step, sum) / dot(step, step)
-}
-
-/// Add three columns, one after the other, times these numbers to another one.
-#[inline(always)]
-fn add_three<W: Lanes>([a, b, c]: [W; 3], columns: &[Group], to: &mut [Group]) {
-    let (one, rest) = columns.split_at(to.len());
-    let (two, three) = rest.split_at(to.len());
-    for (((to, one), two), three) in to.iter_mut().zip(one).zip(two).zip(three) {
-        let sum = a.fma(W::load(one), W::load(to));
-        c.fma(W::load(three), b.fma(W::load(two), sum)).store(to);
-    }
 }
 
 /// Length of a vector; unlike `hypot` it costs next to nothing.
@@ -1144,9 +1325,29 @@ mod tests {
         }
     }
 
+    /// Where two contacts are of the same two nodes the other way round, each stops what the other one lets go.
+    #[test]
+    fn contacts_that_move_against_each_other_hold_what_is_between_them() {
+        for seed in 0..30 {
+            let (problem, mut rows) = problem(97 * seed, 0.8);
+            let m = CONTACTS;
+            for k in 0..m {
+                rows.g[m + k] = -rows.g[k];
+            }
+            for k in 0..m {
+                rows.g[k * m + 1] = -rows.g[k * m];
+            }
+            (rows.b[1], rows.scale[1]) = (-rows.b[0], rows.scale[0]);
+            (rows.touches[0], rows.touches[1]) = ([true, false], [true, false]);
+            let (_, residual) = solved(&problem, &mut rows);
+            assert!(residual < 1e-8, "{seed}: {residual}");
+            assert!(rows.u[0].abs() < 1e-9 && rows.u[1].abs() < 1e-9, "{seed}");
+        }
+    }
+
     /// Problems that drift from one to another, as those of steps do.
     #[test]
-    fn the_inverse_that_goes_along_finds_what_a_new_one_does() {
+    fn tableaux_that_go_along_find_what_new_ones_do() {
         for seed in 0..40 {
             let ((mut problem, mut rows), (_, other)) =
                 (problem(97 * seed, 0.8), problem(97 * seed + 50, 0.8));

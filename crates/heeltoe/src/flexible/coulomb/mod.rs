@@ -20,6 +20,7 @@ mod linear;
 mod past;
 mod problem;
 mod sweep;
+mod tableau;
 mod triangles;
 
 pub(super) use self::problem::{ContactOperator, Known, Problem};

@@ -7,10 +7,10 @@
 //! as far as these are known, and `G p` by the same. What that misses is corrected, see [`super::linear`].
 
 /// How many differences are kept.
-const ORDER: usize = 3;
+pub(super) const ORDER: usize = 3;
 
 /// A number at the last step, and its differences there but for the last.
-type Course = [f64; ORDER];
+pub(super) type Course = [f64; ORDER];
 
 /// The last solutions with the same set.
 #[derive(Default)]
@@ -58,7 +58,7 @@ impl Past {
 
 /// What comes after a number, of which so many differences are known.
 #[inline(always)]
-fn next(now: f64, past: &mut Course, known: usize) -> f64 {
+pub(super) fn next(now: f64, past: &mut Course, known: usize) -> f64 {
     let (mut sum, mut difference) = (now, now);
     for (k, past) in past.iter_mut().enumerate() {
         let before = std::mem::replace(past, difference);
