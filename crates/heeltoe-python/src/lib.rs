@@ -1,5 +1,6 @@
 //! Kernels of heeltoe, bound to Python as `heeltoe.kernel._kernel`.
 
+mod elimination;
 mod flexible;
 mod law;
 mod memory;
@@ -29,6 +30,8 @@ static MEMORY: memory::WholeLines = memory::WholeLines;
 mod _kernel {
     use super::*;
 
+    #[pymodule_export]
+    use crate::elimination::{SymmetricFactors, SymmetricPattern};
     #[pymodule_export]
     use crate::flexible::CrackedDam;
     #[pymodule_export]

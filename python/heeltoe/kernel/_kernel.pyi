@@ -798,6 +798,31 @@ class AtRest:
     forces: Final[tuple[Floats, ...]]
 
 @final
+class SymmetricPattern:
+    """The pattern of a symmetric matrix of N unknowns, in the order in which it is eliminated.
+
+    Parameters
+    ----------
+    starts, rows
+        The entries of column j, on both sides of the diagonal, are in the rows from starts[j] to starts[j + 1].
+    order
+        (N,) the unknowns in that order.
+    """
+
+    def __init__(self, starts: NDArray[np.int32], rows: NDArray[np.int32], order: NDArray[np.int32]) -> None: ...
+    def factors(self, entries: Floats) -> SymmetricFactors:
+        """Return the factors of the matrix with these entries, a real and an imaginary part each, found without
+        pivoting: its imaginary part is positive definite, or it is real and so itself."""
+
+@final
+class SymmetricFactors:
+    """Factors of a symmetric matrix."""
+
+    def solve(self, sides: Floats, count: int) -> Floats:
+        """Return the solutions for `count` right sides: of each unknown these one after the other, a real and an
+        imaginary part each, (2 N count,)."""
+
+@final
 class CrackedDam:
     """Elastic parts with frictional cracks between them; immutable, so that many runs may share one.
 

@@ -13,7 +13,7 @@ rational Krylov space; Antoulas, Approximation of Large-Scale Dynamical Systems,
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
@@ -23,9 +23,10 @@ import numpy as np
 import scipy.linalg
 import scipy.sparse as sparse
 from scipy.linalg import block_diag
-from scipy.sparse.linalg import splu
+from scipy.sparse.linalg import spilu
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.kernel.elimination import Pattern
 
 Sparse = Any
 """A matrix of scipy.sparse, which has no types of its own."""
@@ -36,6 +37,8 @@ Complexes = Any
 _THREADS = 4
 # Directions with less than this part of the energy of others are rounding.
 _NOTHING = 1e-12
+# Beside a diagonal of one, and from where on such entries are dropped.
+_LITTLE, _DROPPED = 1e-30, 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,46 +56,59 @@ class LinearBody:
     def moments(self, rate: complex, forces: Floats, count: int) -> list[Complexes]:
         """Return the response at a rate and `count` further terms of its series in powers of the distance from that
         rate: they cost no further factors (Bai and Su, SIAM Journal on Matrix Analysis 2005)."""
-        options = {"SymmetricMode": True}
-        factors = splu(self.operator(rate), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options=options)
-        terms = [factors.solve(forces.astype(complex))]
-        if not count:
-            return terms
-        slope = self.damping + 2.0 * rate * self.mass
-        for place in range(count):
-            pushed = slope @ terms[-1] + (self.mass @ terms[-2] if place else 0.0)
-            terms.append(factors.solve(-pushed))
+        pattern, (stiffness, damping, mass) = self._eliminated
+        factors = pattern.factors(stiffness + rate * damping + rate**2 * mass)
+        terms, pushed_before = [factors.solve(forces)], None
+        for _ in range(count):
+            inert = _times(self._rows[1], terms[-1])
+            pushed = _times(self._rows[0], terms[-1]) + 2.0 * rate * inert
+            terms.append(factors.solve(-pushed if pushed_before is None else -(pushed + pushed_before)))
+            pushed_before = inert
         return terms
 
-    def operator(self, rate: complex) -> Sparse:
-        """Return ``K + s C + s^2 M`` at a rate s."""
-        together, (stiffness, damping, mass) = self._entries
-        result = together.astype(complex)
-        result.data = stiffness + rate * damping + rate**2 * mass
-        return result
+    def at_rest(self, forces: Floats) -> Floats:
+        """Return the amplitudes (N, k) under forces (N, k) that do not change."""
+        pattern, (stiffness, _, _) = self._eliminated
+        amplitudes: Floats = pattern.factors(stiffness.astype(complex)).solve(forces).real
+        return amplitudes
 
     @cached_property
-    def _entries(self) -> tuple[Sparse, tuple[Floats, ...]]:
-        """A matrix with an entry wherever stiffness, damping or mass has one, and the entries there of each: sums of
-        sparse matrices take half as long as factors."""
+    def _rows(self) -> tuple[Sparse, Sparse]:
+        """Damping and mass by rows."""
+        return sparse.csr_matrix(self.damping), sparse.csr_matrix(self.mass)
+
+    @cached_property
+    def _eliminated(self) -> tuple[Pattern, tuple[Floats, ...]]:
+        """The pattern of all entries of stiffness, damping or mass, and the entries there of each."""
         matrices = [sparse.csc_matrix(matrix) for matrix in (self.stiffness, self.damping, self.mass)]
-        # A sum leaves out what is zero in all of them.
+        # A sum leaves out what is zero in all of them; rounding may leave something on one side of the diagonal alone.
         together = abs(matrices[0]) + abs(matrices[1]) + abs(matrices[2])
+        together = together + sparse.csc_matrix(together.T)
         together.sort_indices()
 
-        def order(matrix: Sparse) -> Integers:
-            columns = np.repeat(np.arange(matrix.shape[1]), np.diff(matrix.indptr))
-            places: Integers = columns * matrix.shape[0] + matrix.indices
-            return places
-
-        every = order(together)
+        # Beside an imaginary one at each place a matrix keeps those where it has none.
+        every = sparse.csc_matrix((np.full(together.nnz, 1j), together.indices, together.indptr), together.shape)
 
         def entries(matrix: Sparse) -> Floats:
-            some, values = matrix.data != 0.0, np.zeros(every.size)
-            values[np.searchsorted(every, order(matrix)[some])] = matrix.data[some]
-            return values
+            return np.ascontiguousarray((every + matrix).data.real)
 
-        return together, tuple(map(entries, matrices))
+        return Pattern(together, _elimination_order(together)), tuple(map(entries, matrices))
+
+
+def _times(matrix: Sparse, columns: Complexes) -> Complexes:
+    """Return the products of a real matrix with complex columns: those with their real and imaginary parts."""
+    return (matrix @ columns.view(np.float64)).view(np.complex128)
+
+
+def _elimination_order(matrix: Sparse) -> Integers:
+    """Return an order of elimination that fills little, by minimum degree. With next to nothing beside its diagonal,
+    a matrix of the same pattern has its order found, and no factors."""
+    pattern = sparse.csc_matrix((np.full(matrix.nnz, _LITTLE), matrix.indices, matrix.indptr), matrix.shape)
+    pattern.setdiag(1.0)
+    options = {"SymmetricMode": True}
+    found = spilu(pattern, drop_tol=_DROPPED, fill_factor=1.0, permc_spec="MMD_AT_PLUS_A", options=options)
+    order: Integers = np.argsort(found.perm_c)
+    return order
 
 
 @dataclass(frozen=True)
@@ -250,19 +266,29 @@ def enough_shapes(
         How many shapes stay at least.
     """
     driven = projected.shapes.T @ inputs
+    scales = {rate: np.outer(sizes(answer), sizes(answer)) for rate, answer in exact.items()}
+    # The fastest first, which most often need the most.
+    rates = sorted(exact, key=abs, reverse=True)
 
-    def errors(count: int) -> Iterator[float]:
-        fewer, pushed = projected.first(count), driven[:count]
-        for rate, answer in exact.items():
-            off = pushed.T @ fewer.response(rate, pushed) - answer
-            size = sizes(answer)
-            yield float(np.max(np.abs(off) / np.outer(size, size)))
+    def error_at(rate: complex, count: int) -> float:
+        pushed = driven[:count]
+        off = pushed.T @ projected.first(count).response(rate, pushed) - exact[rate]
+        return float(np.max(np.abs(off) / scales[rate]))
 
-    low, high = least, projected.shapes.shape[1]
-    while low < high:
-        count = (low + high) // 2
-        low, high = (low, count) if all(error <= enough for error in errors(count)) else (count + 1, high)
-    return projected.first(high), max(errors(high), default=0.0)
+    # More shapes leave a smaller error at each rate, so that as many as one needs are tried at the others.
+    high, most, errors = least, projected.shapes.shape[1], dict[complex, float]()
+    while untried := [rate for rate in rates if rate not in errors]:
+        rate = untried[0]
+        error = error_at(rate, high)
+        if error <= enough or high == most:
+            errors[rate] = error
+            continue
+        low, high, errors = high + 1, most, {}
+        while low < high:
+            count = (low + high) // 2
+            error = error_at(rate, count)
+            low, high, errors = (low, count, {rate: error}) if error <= enough else (count + 1, high, errors)
+    return projected.first(high), max(errors.values(), default=0.0)
 
 
 def sizes(answers: Complexes) -> Floats:
