@@ -15,7 +15,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -163,34 +163,43 @@ def reduced_modes(
     with ThreadPoolExecutor(min(_THREADS, os.cpu_count() or 1)) as pool:
         answers = pool.map(lambda rate: body.moments(rate, inputs, rates.moments), rates.sampled)
         seen = pool.map(lambda rate: inputs.T @ body.response(rate, inputs), rates.checked)
-        columns = [real_columns(term) for terms in answers for term in terms]
+        first = np.empty((inputs.shape[0], 0)) if static is None else static
+        together = np.column_stack(
+            [first, *(part for terms in answers for one in terms for part in (one.real, one.imag))]
+        )
         exact = dict(zip(rates.checked, seen, strict=True))
-    first = np.empty((inputs.shape[0], 0)) if static is None else static
-    rich = Projected.of(body, spanning_shapes(norm, first, np.column_stack([first[:, :0], *columns])))
-    driven = rich.shapes.T @ inputs
+    shapes = spanning_shapes(norm, together, first.shape[1])
+    # From here on in combinations of these shapes.
+    rich = replace(Projected.of(body, shapes), shapes=np.eye(shapes.shape[1]))
+    driven = shapes.T @ inputs
     answered = [rich.response(rate, driven) for rate in rates.chosen]
     seen_in_rich = [driven.T @ answer for answer in answered]
     columns = [real_columns(answer / sizes(own)) for answer, own in zip(answered, seen_in_rich, strict=True)]
     ordered = rich.within(main_directions(np.column_stack([driven[:, :0], *columns]), first.shape[1], most))
     exact |= dict(zip(rates.chosen, seen_in_rich, strict=True))
-    kept, error = enough_shapes(ordered, inputs, exact, enough, max(first.shape[1], 1))
-    return kept.modes(), error
+    kept, error = enough_shapes(ordered, driven, exact, enough, max(first.shape[1], 1))
+    squares, mixed = kept.modes()
+    return (squares, shapes @ mixed), error
 
 
-def spanning_shapes(norm: Sparse, first: Floats, columns: Floats) -> Floats:
-    """Return directions, orthonormal in a norm, that span the `first` shapes (N, j), and then what else there is of
-    `columns` (N, k)."""
-    together = np.column_stack([first, columns])
-    gram = together.T @ (norm @ together)
-    some = np.diag(gram) > 0.0
-    together, gram = together[:, some], gram[np.ix_(some, some)]
-    lengths = np.sqrt(np.diag(gram))
-    together, gram = together / lengths, gram / np.outer(lengths, lengths)
-    head, rest = slice(0, first.shape[1]), slice(first.shape[1], None)
+def spanning_shapes(norm: Sparse, columns: Floats, first: int) -> Floats:
+    """Return directions, orthonormal in a norm, that span the `first` columns (N, k), and then what else there is of
+    the others."""
+    gram = columns.T @ (norm @ columns)
+    some = np.flatnonzero(np.diag(gram) > 0.0)
+    lengths = np.sqrt(np.diag(gram)[some])
+    gram = gram[np.ix_(some, some)] / np.outer(lengths, lengths)
+    count = int(np.searchsorted(some, first))
+    head, rest = slice(0, count), slice(count, None)
     own = _directions(gram[head, head], 1e-15)
     shared = own @ (own.T @ gram[head, rest])
     left = _directions(gram[rest, rest] - gram[rest, head] @ shared, _NOTHING)
-    return np.column_stack([together[:, head] @ own, together @ np.vstack([-shared @ left, left])])
+    mixed = np.zeros((columns.shape[1], own.shape[1] + left.shape[1]))
+    mixed[some[head], : own.shape[1]], mixed[some[head], own.shape[1] :] = own, -shared @ left
+    mixed[some[rest], own.shape[1] :] = left
+    mixed[some] /= lengths[:, None]
+    spanning: Floats = columns @ mixed
+    return spanning
 
 
 def main_directions(columns: Floats, first: int, most: int) -> Floats:
