@@ -378,8 +378,8 @@ fn places(order: &[u32]) -> Option<Vec<u32>> {
 fn elimination_tree(starts: &[usize], rows: &[u32], order: &[u32], place: &[u32]) -> Vec<usize> {
     let size = order.len();
     let (mut parents, mut oldest) = (vec![size; size], vec![size; size]);
-    for k in 0..size {
-        let unknown = order[k] as usize;
+    for (k, unknown) in order.iter().enumerate() {
+        let unknown = *unknown as usize;
         for row in &rows[starts[unknown]..starts[unknown + 1]] {
             let mut at = place[*row as usize] as usize;
             while at < k {

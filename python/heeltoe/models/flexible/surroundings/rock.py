@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
@@ -153,7 +154,7 @@ class FullRock:
     axis: Integers
     mirror: tuple[float, ...] = _IN_PLANE
 
-    @property
+    @cached_property
     def body(self) -> LinearBody:
         """Mass, damping, stiffness."""
         return LinearBody(self.mass, self.damping_material + self.damping_radiation, self.stiffness)
