@@ -177,8 +177,8 @@ def _with_band(case: Case, model: str, response: Response, shaking: Earthquake, 
 
 
 def _with_friction_effect(case: Case, response: Response, shaking: Earthquake, output_step: float | None) -> Response:
-    """Add what the sign of the motion that governs does with a little less friction; one or two quick runs of an elastic
-    dam, none where no evidence is wanted, or where single runs scatter and two of them say nothing."""
+    """Add what the sign of the motion that governs does with a little less friction; one or two quick runs of an
+    elastic dam, none where no evidence is wanted, or where single runs scatter and two of them say nothing."""
     elastic = response.elastic and not follows_drains(case, shaking)
     evidence = getattr(response, "evidence", None)
     scatters = evidence is not None and evidence.scatters

@@ -170,7 +170,8 @@ def test_memory_of_water_with_sound(depth):
         example("typical-base", "reservoir.compressible=true", f"reservoir.depth={z} m") for z in (depth, depth - 1)
     )
     bodies = bonded.bonded_dam(case).bodies
-    water._KEPT.clear()
+    for kept in (water._KEPT, water._FLUIDS):
+        kept.clear()
     tracemalloc.start()
     water_body(case, bodies, band_of(case))
     _, measured = tracemalloc.get_traced_memory()
@@ -214,7 +215,7 @@ def test_water_with_sound_rock_and_bonds_are_counted(changes, across):
     """A step takes up to five times as long with them; other work on the machine is in the factor."""
     bare = example("typical-base", f"flexible.elements_across={across}", "motion.duration=3s", "flexible.evidence=none")
     case = bare.with_(changes)
-    for kept in (bonded._KEPT, rock._KEPT, water._KEPT):
+    for kept in (bonded._KEPT, rock._KEPT, water._KEPT, water._FLUIDS):
         kept.clear()
     begun = time.process_time()
     shaken = ShakenDam(case, _build(case), earthquake(case).shaking)

@@ -27,7 +27,7 @@ _SET_UP, _SOLVED, _RESTED = 0.15, 8e-7, 2e-6
 # Seconds and bytes of the modes of water with sound on one side, and bytes for each period of the highest frequency
 # that sound takes through its depth: the deeper, the more of its resonances are below it, and each has samples of its
 # own.
-_WATER, _WATER_BY_DEPTH = (0.35, 1.9e7), 2.7e7
+_WATER, _WATER_BY_DEPTH = (0.35, 1.3e7), 1.6e7
 # The same of rock with n elements along its base, of n^2.5 and of n^2: measured with 8 to 24, for waves as for a fine
 # mesh. Each step takes as long as with so many bodies of water.
 _ROCK, _ROCK_ACROSS, _ROCK_STEPS = (0.4, 2.3e7), (1.8e-3, 3.6e5), 4

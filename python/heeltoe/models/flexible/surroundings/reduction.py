@@ -13,9 +13,9 @@ rational Krylov space; Antoulas, Approximation of Large-Scale Dynamical Systems,
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -53,8 +53,7 @@ class LinearBody:
     def moments(self, rate: complex, forces: Floats, count: int) -> list[Complexes]:
         """Return the response at a rate and `count` further terms of its series in powers of the distance from that
         rate: they cost no further factors (Bai and Su, SIAM Journal on Matrix Analysis 2005)."""
-        options = {"SymmetricMode": True}
-        factors = splu(self.operator(rate), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options=options)
+        factors = _factors(self.operator(rate), diag_pivot_thresh=0.01)
         terms = [factors.solve(forces.astype(complex))]
         if not count:
             return terms
@@ -63,6 +62,11 @@ class LinearBody:
             pushed = slope @ terms[-1] + (self.mass @ terms[-2] if place else 0.0)
             terms.append(factors.solve(-pushed))
         return terms
+
+    def at_rest(self, forces: Floats) -> Floats:
+        """Return the amplitudes (N, k) under forces (N, k) that do not change."""
+        amplitudes: Floats = _factors(sparse.csc_matrix(self.stiffness)).solve(forces)
+        return amplitudes
 
     def operator(self, rate: complex) -> Sparse:
         """Return ``K + s C + s^2 M`` at a rate s."""
@@ -93,6 +97,10 @@ class LinearBody:
             return values
 
         return together, tuple(map(entries, matrices))
+
+
+def _factors(matrix: Sparse, **options: float) -> Any:
+    return splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}, **options)
 
 
 @dataclass(frozen=True)
@@ -147,34 +155,43 @@ def reduced_modes(
     with ThreadPoolExecutor(min(_THREADS, os.cpu_count() or 1)) as pool:
         answers = pool.map(lambda rate: body.moments(rate, inputs, rates.moments), rates.sampled)
         seen = pool.map(lambda rate: inputs.T @ body.response(rate, inputs), rates.checked)
-        columns = [real_columns(term) for terms in answers for term in terms]
+        first = np.empty((inputs.shape[0], 0)) if static is None else static
+        together = np.column_stack(
+            [first, *(part for terms in answers for one in terms for part in (one.real, one.imag))]
+        )
         exact = dict(zip(rates.checked, seen, strict=True))
-    first = np.empty((inputs.shape[0], 0)) if static is None else static
-    rich = Projected.of(body, spanning_shapes(norm, first, np.column_stack([first[:, :0], *columns])))
-    driven = rich.shapes.T @ inputs
+    shapes = spanning_shapes(norm, together, first.shape[1])
+    # From here on in combinations of these shapes.
+    rich = replace(Projected.of(body, shapes), shapes=np.eye(shapes.shape[1]))
+    driven = shapes.T @ inputs
     answered = [rich.response(rate, driven) for rate in rates.chosen]
     seen_in_rich = [driven.T @ answer for answer in answered]
     columns = [real_columns(answer / sizes(own)) for answer, own in zip(answered, seen_in_rich, strict=True)]
     ordered = rich.within(main_directions(np.column_stack([driven[:, :0], *columns]), first.shape[1], most))
     exact |= dict(zip(rates.chosen, seen_in_rich, strict=True))
-    kept, error = enough_shapes(ordered, inputs, exact, enough, max(first.shape[1], 1))
-    return kept.modes(), error
+    kept, error = enough_shapes(ordered, driven, exact, enough, max(first.shape[1], 1))
+    squares, mixed = kept.modes()
+    return (squares, shapes @ mixed), error
 
 
-def spanning_shapes(norm: Sparse, first: Floats, columns: Floats) -> Floats:
-    """Return directions, orthonormal in a norm, that span the `first` shapes (N, j), and then what else there is of
-    `columns` (N, k)."""
-    together = np.column_stack([first, columns])
-    gram = together.T @ (norm @ together)
-    some = np.diag(gram) > 0.0
-    together, gram = together[:, some], gram[np.ix_(some, some)]
-    lengths = np.sqrt(np.diag(gram))
-    together, gram = together / lengths, gram / np.outer(lengths, lengths)
-    head, rest = slice(0, first.shape[1]), slice(first.shape[1], None)
+def spanning_shapes(norm: Sparse, columns: Floats, first: int) -> Floats:
+    """Return directions, orthonormal in a norm, that span the `first` columns (N, k), and then what else there is of
+    the others."""
+    gram = columns.T @ (norm @ columns)
+    some = np.flatnonzero(np.diag(gram) > 0.0)
+    lengths = np.sqrt(np.diag(gram)[some])
+    gram = gram[np.ix_(some, some)] / np.outer(lengths, lengths)
+    count = int(np.searchsorted(some, first))
+    head, rest = slice(0, count), slice(count, None)
     own = _directions(gram[head, head], 1e-15)
     shared = own @ (own.T @ gram[head, rest])
     left = _directions(gram[rest, rest] - gram[rest, head] @ shared, _NOTHING)
-    return np.column_stack([together[:, head] @ own, together @ np.vstack([-shared @ left, left])])
+    mixed = np.zeros((columns.shape[1], own.shape[1] + left.shape[1]))
+    mixed[some[head], : own.shape[1]], mixed[some[head], own.shape[1] :] = own, -shared @ left
+    mixed[some[rest], own.shape[1] :] = left
+    mixed[some] /= lengths[:, None]
+    spanning: Floats = columns @ mixed
+    return spanning
 
 
 def main_directions(columns: Floats, first: int, most: int) -> Floats:
@@ -250,19 +267,29 @@ def enough_shapes(
         How many shapes stay at least.
     """
     driven = projected.shapes.T @ inputs
+    scales = {rate: np.outer(sizes(answer), sizes(answer)) for rate, answer in exact.items()}
+    # The fastest first, which most often need the most.
+    rates = sorted(exact, key=abs, reverse=True)
 
-    def errors(count: int) -> Iterator[float]:
-        fewer, pushed = projected.first(count), driven[:count]
-        for rate, answer in exact.items():
-            off = pushed.T @ fewer.response(rate, pushed) - answer
-            size = sizes(answer)
-            yield float(np.max(np.abs(off) / np.outer(size, size)))
+    def error_at(rate: complex, count: int) -> float:
+        pushed = driven[:count]
+        off = pushed.T @ projected.first(count).response(rate, pushed) - exact[rate]
+        return float(np.max(np.abs(off) / scales[rate]))
 
-    low, high = least, projected.shapes.shape[1]
-    while low < high:
-        count = (low + high) // 2
-        low, high = (low, count) if all(error <= enough for error in errors(count)) else (count + 1, high)
-    return projected.first(high), max(errors(high), default=0.0)
+    # More shapes leave a smaller error at each rate, so that as many as one needs are tried at the others.
+    high, most, errors = least, projected.shapes.shape[1], dict[complex, float]()
+    while untried := [rate for rate in rates if rate not in errors]:
+        rate = untried[0]
+        error = error_at(rate, high)
+        if error <= enough or high == most:
+            errors[rate] = error
+            continue
+        low, high, errors = high + 1, most, {}
+        while low < high:
+            count = (low + high) // 2
+            error = error_at(rate, count)
+            low, high, errors = (low, count, {rate: error}) if error <= enough else (count + 1, high, errors)
+    return projected.first(high), max(errors.values(), default=0.0)
 
 
 def sizes(answers: Complexes) -> Floats:

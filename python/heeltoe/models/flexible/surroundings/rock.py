@@ -22,13 +22,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sparse
-from scipy.sparse.linalg import splu
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.models.flexible.surroundings.edges import (
@@ -154,7 +154,7 @@ class FullRock:
     axis: Integers
     mirror: tuple[float, ...] = _IN_PLANE
 
-    @property
+    @cached_property
     def body(self) -> LinearBody:
         """Mass, damping, stiffness."""
         return LinearBody(self.mass, self.damping_material + self.damping_radiation, self.stiffness)
@@ -306,7 +306,6 @@ def full_rock(
 ) -> FullRock:
     """Return the rock below a base in all its finite elements; parameters as in :func:`reduced_rock`."""
     import skfem
-    from skfem.helpers import dot
 
     count = base_elements(len(base) // 2, float(np.ptp(base[:, 0])), material, highest)
     refined = _refined(base[:, 0], count)
@@ -327,20 +326,6 @@ def full_rock(
         intorder=4,
     )
 
-    def parted(u: Any, v: Any, w: Any) -> tuple[Any, Any]:
-        if across:
-            return 0.0, u * v
-        normal, along = dot(u, w.n) * dot(v, w.n), dot(u, v)
-        return normal, along - normal
-
-    def springs(u: Any, v: Any, w: Any) -> Any:
-        normal, along = parted(u, v, w)
-        return shear / np.hypot(*w.x) * (normal + along / 2.0)
-
-    def dashpots(u: Any, v: Any, w: Any) -> Any:
-        normal, along = parted(u, v, w)
-        return material.density * (material.pressure_speed * normal + material.shear_speed * along)
-
     tie, places, axis = _tie(basis, base, middle, half, len(mirror))
 
     def tied(matrix: Any) -> Sparse:
@@ -351,12 +336,16 @@ def full_rock(
     moved = _motions(basis, len(mirror))
     stiffness = tied(_products(basis, strains, basis.dx))
     mass = tied(_products(basis, (moved, moved), material.density * basis.dx))
+    at_end, away = _end_motions(far, len(mirror)), np.hypot(*far.global_coordinates())
     # The springs stand for rock, too.
-    stiffness = stiffness + tied(skfem.BilinearForm(springs).assemble(far))
+    stiffness = stiffness + tied(_products(far, (at_end, shear / 2.0 * at_end), far.dx / away))
     own = material.damping / (np.pi * material.damping_frequency) * stiffness
     leaving = none
     if material.radiation and not material.massless:
-        leaving = tied(_products(basis, strains, rise * basis.dx) + skfem.BilinearForm(dashpots).assemble(far))
+        speeds = np.full(at_end.shape[2], material.shear_speed)
+        speeds[len(mirror) :] = material.pressure_speed - material.shear_speed
+        taken = _products(far, (at_end, material.density * speeds[:, None] * at_end), far.dx)
+        leaving = tied(_products(basis, strains, rise * basis.dx) + taken)
     return FullRock(
         (_MASSLESS if material.massless else 1.0) * mass,
         stiffness,
@@ -394,6 +383,16 @@ def _motions(basis: Any, components: int) -> Floats:
     shape = (components, *basis.dx.shape)
     values = np.stack([np.broadcast_to(np.asarray(field[0]), shape) for field in basis.basis])
     return np.ascontiguousarray(values.transpose(2, 3, 1, 0))
+
+
+def _end_motions(basis: Any, components: int) -> Floats:
+    """Return the motion of each shape along the last ring, as :func:`_motions` does, and in the section that at right
+    angles to the ring beside x and z, (e, q, 3, s)."""
+    moved = _motions(basis, components)
+    if components == 1:
+        return moved
+    normal = np.einsum("ceq,eqcs->eqs", basis.normals, moved)
+    return np.concatenate([moved, normal[:, :, None]], axis=2)
 
 
 def _products(basis: Any, fields: tuple[Floats, Floats], weights: Floats) -> Sparse:
@@ -537,8 +536,7 @@ def _part(
     base = np.unique(spread.tocsr()[full.base].nonzero()[1])
     unit = np.zeros((mass.shape[0], base.size))
     unit[base, np.arange(base.size)] = 1.0
-    static = splu(sparse.csc_matrix(stiffness), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve(unit)
-    modes, error = reduced_modes(body, inputs, spread.T @ norm @ spread, rates, most, enough, static)
+    modes, error = reduced_modes(body, inputs, spread.T @ norm @ spread, rates, most, enough, body.at_rest(unit))
     squares, shapes = modes
     return squares, spread @ shapes, error
 

@@ -226,9 +226,15 @@ def full_water(
     surface = bottom + depth
     longest = wave_speed / highest / _PER_WAVE
     line = _wet_line(turned, bottom, surface, min(longest, depth / _ROWS))
-    mesh = _near_mesh(line, bottom, depth, longest, near)
-    far = channel(mesh.heights, wave_speed, floor_admittance(wave_speed, reflection), 2.0 * np.pi * highest)
-    return _assembled(turned, mesh, far, (wave_speed, density, floor_admittance(wave_speed, reflection)), surface, side)
+    admittance = floor_admittance(wave_speed, reflection)
+
+    def fluid() -> _Fluid:
+        mesh = _near_mesh(line, bottom, depth, longest, near)
+        far = channel(mesh.heights, wave_speed, admittance, 2.0 * np.pi * highest)
+        return _fluid(mesh, far, (wave_speed, density, admittance), surface, side)
+
+    key = (line.tobytes(), bottom, depth, wave_speed, reflection, density, highest, near, side)
+    return _before(turned, _FLUIDS.get(key, fluid), density, surface, side)
 
 
 @dataclass(frozen=True, eq=False)
@@ -307,14 +313,27 @@ def _near_mesh(line: Floats, bottom: float, depth: float, longest: float, near: 
     )
 
 
-def _assembled(
-    paths: Sequence[Floats],
-    near: _Near,
-    far: Channel,
-    constants: tuple[float, float, float],
-    surface: float,
-    side: float,
-) -> FullWater:
+@dataclass(frozen=True, eq=False)
+class _Fluid:
+    """Water without a dam: as :class:`FullWater`, with the near field and its nodes by the unknowns."""
+
+    near: _Near
+    tie: Sparse
+    mass: Sparse
+    stiffness: Sparse
+    damping_floor: Sparse
+    damping_far: Sparse
+    ground: Floats
+    patterns: Floats
+    first: float
+    distance: Floats
+
+
+# All meshes of a dam have the same water before them, and its evidence a larger one.
+_FLUIDS: Kept[_Fluid] = Kept(2)
+
+
+def _fluid(near: _Near, far: Channel, constants: tuple[float, float, float], surface: float, side: float) -> _Fluid:
     wave_speed, density, admittance = constants
     depth = float(near.heights[-1] - near.heights[0])
     tie, beyond = _tie(near, far)
@@ -323,30 +342,46 @@ def _assembled(
         total = tie.T @ matrix @ tie
         if other is not None:
             total = total + beyond @ other @ beyond.T
-        return density * sparse.csc_matrix(total)
+        # In order, so that no later use puts it in order, and all of them see the same.
+        result = density * sparse.csc_matrix(total)
+        result.sort_indices()
+        return result
 
-    flow, interpolated = _face_matrices(paths, near, surface)
-    unit = np.zeros((flow.shape[1], 2))
-    unit[::2, 0] = unit[1::2, 1] = 1.0
     # All of the wall moves with the ground, also what is below the lowest node.
     wall = _wall(near)
     # Out of the water is down: a floor that rises pushes the other way.
     ground = np.column_stack([wall[:, 0], wall[:, 1] - near.lift])
     ground = density * (tie.T @ ground)
     ground[:, 1] -= density * (beyond @ far.lift)
-    coupling = density * sparse.csr_matrix(tie.T @ flow)
-    mirror = sparse.diags(np.tile([side, 1.0], flow.shape[1] // 2))
-    return FullWater(
+    return _Fluid(
+        near,
+        tie,
         joined(near.mass / wave_speed**2, far.mass),
         joined(near.stiffness, far.stiffness),
         joined(admittance * near.floor_mass, far.damping_floor),
         joined(sparse.csr_matrix(near.mass.shape), far.damping_far),
-        coupling @ mirror,
         ground * [side, 1.0],
-        -density * (interpolated @ tie),
         density * (tie.T @ _patterns(near, surface)),
         np.pi * wave_speed / (2.0 * depth),
         np.concatenate([np.zeros(tie.shape[1] - far.lift.size), far.distance / depth]),
+    )
+
+
+def _before(paths: Sequence[Floats], fluid: _Fluid, density: float, surface: float, side: float) -> FullWater:
+    """Return water before the faces of a dam."""
+    flow, interpolated = _face_matrices(paths, fluid.near, surface)
+    mirror = sparse.diags(np.tile([side, 1.0], flow.shape[1] // 2))
+    return FullWater(
+        fluid.mass,
+        fluid.stiffness,
+        fluid.damping_floor,
+        fluid.damping_far,
+        density * sparse.csr_matrix(fluid.tie.T @ flow) @ mirror,
+        fluid.ground,
+        -density * (interpolated @ fluid.tie),
+        fluid.patterns,
+        fluid.first,
+        fluid.distance,
     )
 
 
