@@ -51,9 +51,6 @@ def serve(host: str, port: int | None, *, public: bool, browser: bool, say: Call
             raise InputError("package-missing", "heeltoe app", package, install='install heeltoe with the extra "app"')
     if not is_loopback(host) and not public:
         raise InputError("app-public", "--host", host)
-    # Matrices that follow a slider are small: further threads win nothing there, and keep a core busy with waiting that
-    # the browser needs. Heard when NumPy is loaded, here and in the processes beside.
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     with contextlib.closing(_listen(host, port)) as listening, folder_of_app() as folder:
         settings = Settings(host, listening.getsockname()[1], folder)
         address = _address(settings)

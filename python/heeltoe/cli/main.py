@@ -110,6 +110,9 @@ def _options(
     ] = False,
 ) -> None:
     share_heaps()
+    # Runs and meshes have threads of their own, beside which those of small matrices keep a core busy with waiting.
+    # Heard when NumPy is loaded, here and in the processes beside.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # The app looks after Ctrl-C itself.
     if context.invoked_subcommand != "app":
         end_if_deaf()
