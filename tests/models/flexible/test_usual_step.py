@@ -32,8 +32,8 @@ BOND = ({"crack.friction": None, "crack.law": features.BOND},)
         ("typical-base", ('crack.side_gap="3 mm"',), LONG, 2e-4),
         ("typical-base", ('uplift.during_shaking="full while open"',), LONG, 2e-4),
         # Rock through which waves leave.
-        ("typical-base", ROCK, LONG, 0.005 / 3),
-        ("typical-base", ROCK, SHORT, 0.005 / 42),
+        ("typical-base", ROCK, LONG, 8e-4),
+        ("typical-base", ROCK, SHORT, SHORT / 100),
         ("typical-height", ROCK, LONG, 8e-4),
         ("two-cracks", ROCK, LONG, 8e-4),
     ],

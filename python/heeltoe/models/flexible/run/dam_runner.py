@@ -34,9 +34,9 @@ _PART = FRAME_STEP / 2.0
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
 #: The longest steps [s] of one crack where single runs do not scatter (docs/flexible.md): at the base on a rigid plane,
-#: where a dam slides, and among waves; above it, where it strikes, at this part of that vibration; at the base on rock
-#: through which waves leave. By these laws of friction they are at most so many times those of runs that scatter.
-_LONGEST_AT_BASE, _LONGEST_ABOVE_BASE, _STEPS_ABOVE_BASE, _LONGEST_ON_ROCK = _PART / 6, _PART / 12, 50.0, _PART / 3
+#: where a dam slides, and among waves; above it, where it strikes, at this part of that vibration. By these laws of
+#: friction they are at most so many times those of runs that scatter.
+_LONGEST_AT_BASE, _LONGEST_ABOVE_BASE, _STEPS_ABOVE_BASE = _PART / 6, _PART / 12, 50.0
 _SMOOTH_LAWS, _TIMES_BY_LAW = ("slip weakening", "speed weakening"), 2.0
 #: Where waves surround the dam the step goes with the dam, and is this part of that vibration, at most the longest step
 #: times the first of them over it: a small dam swings as fast as its waves, and similar dams have similar answers.
@@ -63,13 +63,11 @@ def usual_step(case: Case, period: float) -> float:
     # A neighbour is passed by the way of a step.
     if case.further_cracks or case.crack.kinks or case.crack.side_gap or not _is_plain(case, _SMOOTH_LAWS):
         return step
-    at_base, waves = case.crack.elevation <= 0.0, bool(wave_bodies(case))
+    # Waves that leave through damped rock have longer ones already.
+    if _is_smooth(case):
+        return step
     steps, longest = _STEPS_PER_PERIOD, _LONGEST_AT_BASE
-    if waves and _is_smooth(case):
-        if not at_base:
-            return step
-        longest = _LONGEST_ON_ROCK
-    elif not (waves or at_base):
+    if case.crack.elevation > 0.0 and not wave_bodies(case):
         steps, longest = _STEPS_ABOVE_BASE, _LONGEST_ABOVE_BASE
     wanted = min(period / steps, longest)
     if case.crack.law is not None:
@@ -160,7 +158,7 @@ class ShakenDam:
     def step_beside(self, step: float) -> float:
         """Return the step [s] of a run that is compared with one at `step`, and has no uncertainty of its own: twice of
         it where that moves slips little (docs/flexible.md)."""
-        smooth = self.case.flexible.time_step is None and _is_smooth(self.case) and not self.halvings
+        smooth = self.case.flexible.time_step is None and _is_smooth(self.case)
         return 2.0 * step if smooth and self.may_step(2.0 * step) else step
 
     def run(
