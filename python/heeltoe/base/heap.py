@@ -26,14 +26,14 @@ def share_heaps() -> None:
 
 
 def give_back() -> None:
-    """Give all that is free back to the system."""
+    """Give free memory back to the system."""
     trim = _function("malloc_trim")
     if trim is not None:
         trim(ctypes.c_size_t(0))
 
 
 def _function(name: str) -> Any:
-    """Return a function of the C library; None where it has none of this name."""
+    """Return a function of the C library by its name; None without one."""
     try:
         return getattr(ctypes.CDLL(None), name)
     except (AttributeError, OSError, TypeError):

@@ -1,7 +1,7 @@
 //! How velocities answer to impulses, `r = G p`, where at some components the impulse answers to the velocity instead.
 //!
 //! With `x` the given and `y` the answering one of `p_k` and `r_k`, `y = T x`, where `T = G` as long as all impulses are
-//! given. What is given at `k` and what answers change places by
+//! given. The given one at `k` and its answer change places by
 //!
 //! ```text
 //! T'_kk = 1 / T_kk,     T'_ik = T_ik / T_kk,     T'_kj = -T_kj / T_kk,     T'_ij = T_ij - T_ik T_kj / T_kk

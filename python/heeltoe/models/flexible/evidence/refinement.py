@@ -238,10 +238,10 @@ class _Sample:
         return self.error(RESIDUAL_SLIP.key) <= ERROR_OF_MEAN / LIMIT * allowed(mean)
 
     def moved(self, key: str, other: _Sample, left: float = 0.0) -> float | None:
-        """Return by how much the mean may be off by its difference from that of runs with some of the same factors at
-        another level, at which this part of the error is `left`: the difference, what is known of it over what remains
-        once that part is taken off, and at least its standard error. By pairs where both levels scatter alike, by the
-        two means where each scatters by itself. None without enough runs, which bound nothing."""
+        """Return how far the mean may be off, by its difference from the mean of runs with some of the same factors at
+        another level, where the part `left` of its error is left: the difference; the part of it that exceeds its
+        standard error, over 1 - left; and at least that standard error. By pairs where both levels scatter alike, by
+        the two means where each scatters by itself. None without enough runs, which bound nothing."""
         place = {scale: row for row, scale in enumerate(self.scales)}
         rows = np.array([place[scale] for scale in other.scales])
         both = self.good[rows] & other.good
@@ -322,9 +322,8 @@ class _Stand:
         return self._own if self.mesh is None else min(self.mesh, self._own)
 
     def _pairs(self, scales: tuple[float, ...]) -> dict[str, tuple[Level, tuple[float, ...]]]:
-        """Return the levels, and the factors, that a sample is compared with, by their difference: half the step and
-        the other mesh, that one with the third; and for rock and water that reach farther the cheapest mesh as it is,
-        beside which they are."""
+        """Return the levels and the factors with which a sample is compared by their difference: half the step and the
+        other mesh, which is compared with the third; larger rock and water are compared with the cheapest mesh."""
         some = _paired(scales)
         pairs = {"step": (replace(self._own, halvings=self._halvings + 1), some)}
         if self.mesh is not None:
@@ -344,7 +343,7 @@ class _Stand:
         return wanted + self._of_sample(scales_of(0)) if means else wanted
 
     def _of_sample(self, scales: tuple[float, ...]) -> _Wanted:
-        """Return the runs of a sample and of what it is compared with."""
+        """Return the runs of a sample and of all that it is compared with."""
         return [(self._own, scales), *self._pairs(scales).values()]
 
     def _sample(self, level: Level, scales: tuple[float, ...], crack: int) -> _Sample:
