@@ -17,10 +17,9 @@ DAMS = ("typical-base", "triangular", "stepped-crack", "koyna-top", "typical-hei
 #: Steps over the period of the part that vibrates fastest, and the longest one at a four-hundredth [s].
 PARTS, LONGEST = (400, 200, 100, 50), 2e-4
 LAW = {"name": "slip weakening", "form": "exponential", "peak_friction": 1.1, "residual_friction": 0.8, "slip": "30 mm"}
-#: On a rigid plane, where the last but two strikes, and the steps there [ms].
+#: On a rigid plane, where the last but one strikes, and the steps there [ms].
 ON_PLANE: dict[str, tuple[str, dict[str, object]]] = {
     **{name: (name, {}) for name in ("typical-base", "triangular", "pine-flat", "typical-height")},
-    "typical-base before water with sound": ("typical-base", {"reservoir.compressible": True}),
     "typical-base, friction 1.1 to 0.8 over 30 mm": ("typical-base", {"crack.friction": None, "crack.law": LAW}),
 }
 STEPS_MS = (0.2, 0.4, 0.8)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -44,6 +45,22 @@ VALUES = {
     "energy_residual": lambda response: response.energy.residual,
     "cracked_length_m": lambda response: cracked_length_of(response),
 }
+
+
+@pytest.mark.parametrize(
+    ("first", "ended", "scatters", "step"),
+    [
+        # A longer step that is kept, and halved; runs that scatter, and halved once more.
+        (8e-4, 8e-4, False, 4e-4),
+        (8e-4, 4e-4, False, 2e-4),
+        (2e-4, 2e-4, True, 1e-4),
+        (2e-4, 1e-4, True, 5e-5),
+    ],
+)
+def test_other_dams_of_a_study_take_the_step_of_its_first_run(first, ended, scatters, step):
+    pilot = Pilot(8, None, first, ended, 0.0, 0, None, scatters=scatters)
+    other = SimpleNamespace(first_step=lambda: 4e-4, halvings=2)
+    assert pilot.step_of(other) == pytest.approx(step)
 
 
 def cracked_length_of(response):

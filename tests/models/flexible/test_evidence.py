@@ -153,6 +153,16 @@ def test_a_longer_step_that_moves_the_slip_is_taken_back(monkeypatch, scatters, 
     assert ShakenDam(stated, shaken.dam, shaken.shaking).halvings == 0
 
 
+def test_a_shorter_step_that_costs_too_much_is_left_out(monkeypatch):
+    monkeypatch.setattr(refinement, "_scatter", lambda slips, step: True)
+    monkeypatch.setattr(refinement, "BUDGET", 2.0)
+    case = dam(elements_across=4)
+    shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(MOTION, None, 1.0).shaking)
+    evidence = answer(shaken, 0.01, "full").evidence
+    assert (evidence.time_step_s, evidence.budget_spent) == (shaken.first_step(), True)
+    assert evidence.work <= 2.0
+
+
 @pytest.mark.parametrize("finest", [4, 8])
 def test_where_runs_scatter_the_numbers_are_means(monkeypatch, finest):
     monkeypatch.setattr(refinement, "_scatter", lambda slips, step: True)
@@ -421,19 +431,22 @@ def test_runs_without_a_result_enter_no_number_and_exceed_every_limit(monkeypatc
     assert not limit.met
 
 
-def test_a_coarser_mesh_without_results_bounds_nothing(monkeypatch):
+@pytest.mark.parametrize(("across", "finest"), [(4, -1), (8, -2)])
+def test_a_coarser_mesh_without_results_bounds_nothing(monkeypatch, across, finest):
     monkeypatch.setattr(refinement, "_scatter", lambda slips, step: True)
     monkeypatch.setattr(refinement, "scales_of", lambda doublings: NINE)
     real = Trials.have_results
     monkeypatch.setattr(
-        Trials, "have_results", lambda self, level, scales: real(self, level, scales) & (level.mesh >= 0)
+        Trials, "have_results", lambda self, level, scales: real(self, level, scales) & (level.mesh > finest)
     )
     case = plane_case(
-        FIELDS | {"reservoir": {"depth": "24 m", "compressible": True}, "flexible": {"elements_across": 4}}
+        FIELDS | {"reservoir": {"depth": "24 m", "compressible": True}, "flexible": {"elements_across": across}}
     )
     evidence = flexible(case, MOTION).evidence
     worth = evidence["residual_slip_m"]
-    assert worth["mesh"] == worth["surroundings"] == pytest.approx(abs(worth["value"]))
+    assert worth["mesh"] == pytest.approx(abs(worth["value"]))
+    # Those with larger surroundings are of the second mesh.
+    assert (worth["surroundings"] == worth["mesh"]) == (finest == -1)
     assert not evidence["converged"]
 
 

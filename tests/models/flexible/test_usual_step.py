@@ -22,10 +22,11 @@ BOND = ({"crack.friction": None, "crack.law": features.BOND},)
         ("typical-base", PLANE, SHORT, 0.005 / 42),
         ("typical-height", PLANE, LONG, 0.005 / 12),
         ("typical-height", PLANE, SHORT, 0.005 / 21),
-        ("typical-base", (*PLANE, "reservoir.compressible=true"), LONG, 0.005 / 6),
-        ("typical-height", (*PLANE, "reservoir.compressible=true"), SHORT, 0.005 / 42),
         ("typical-base", LAW, LONG, 0.005 / 13),
         # Shorter steps.
+        ("typical-base", ("reservoir.compressible=true",), LONG, 2e-4),
+        ("typical-base", (*ROCK, "rock.damping=0"), LONG, 2e-4),
+        ("typical-base", (*ROCK, *LAW), LONG, 2e-4),
         ("typical-base", BOND, LONG, 2e-4),
         ("two-cracks", PLANE, LONG, 2e-4),
         ("stepped-crack", PLANE, LONG, 2e-4),

@@ -107,7 +107,10 @@ class Pilot:
     elements_across, elements_across_below
         Along the crack; the second None where it is as the first.
     first_step_s, time_step_s
-        What the step would be without evidence, and what it is: the steps of other dams are in the same proportion.
+        What the step would be without evidence, or where runs scatter, and what it is: the steps of other dams are in
+        the same proportion.
+    scatters
+        Whether its runs scatter or a longer step moves them, so that all dams have that of runs that scatter.
     silence_s, motion
         How long that run went on after its motion, and the place of that in :attr:`Plan.shakes`.
     evidence
@@ -130,6 +133,7 @@ class Pilot:
     means: Sequence[Mapping[str, float]] = ()
     other_sign: Pilot | None = None
     elements_away: int | None = None
+    scatters: bool = False
 
     def to_json(self) -> dict[str, Any]:
         """Return it as it is kept."""
@@ -149,7 +153,7 @@ class Pilot:
 
     def step_of(self, shaken: ShakenDam) -> float:
         """Return the time step of a run [s]."""
-        first = shaken.first_step()
+        first = shaken.first_step() / 2.0 ** (shaken.halvings if self.scatters else 0)
         return self.time_step_s if first == self.first_step_s else first * (self.time_step_s / self.first_step_s)
 
     def refined(self, case: Case) -> Case:

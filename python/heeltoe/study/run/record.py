@@ -78,6 +78,7 @@ class _Pilot(_Model):
     means: list[dict[str, Finite | None]]
     other_sign: _Pilot | None
     elements_away: Annotated[int, Field(ge=1)] | None
+    scatters: bool = False
 
 
 class _Joint(_Model):

@@ -347,10 +347,13 @@ def _pilot(motion: int, response: Answer, ground: Earthquake, other_sign: Pilot 
     leads = leading_crack(response.slips)
     evidence = response.evidences[leads] if response.evidences else None
     options, first_step = response.shaken.case.flexible, response.shaken.first_step()
+    shortest = first_step / 2.0**response.shaken.halvings
+    taken_back = evidence is not None and evidence.time_step_s <= shortest < first_step
+    scatters = taken_back or any(crack.scatters for crack in response.evidences)
     return Pilot(
         options.elements_across,
         options.elements_across_below,
-        first_step,
+        shortest if scatters else first_step,
         first_step if evidence is None else evidence.time_step_s,
         ground.silence,
         motion,
@@ -358,4 +361,5 @@ def _pilot(motion: int, response: Answer, ground: Earthquake, other_sign: Pilot 
         [trusted(crack) if crack.scatters else {} for crack in response.evidences],
         other_sign,
         options.elements_away,
+        scatters,
     )

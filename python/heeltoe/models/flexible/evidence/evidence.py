@@ -19,7 +19,7 @@ LIMIT, LEAST_M = 0.10, 10.0 * JOINT_METER_M
 FLOOR, FLOOR_M = 0.03, 0.5 * JOINT_METER_M
 #: The standard error of a mean that needs no further runs is at most this part of it.
 ERROR_OF_MEAN = 0.03
-#: So much all runs of a result may cost, in single ones with the elements of the case at the first step.
+#: So much all runs of a result may cost, in single ones with the elements of the case at the step of runs that scatter.
 BUDGET = 40.0
 
 

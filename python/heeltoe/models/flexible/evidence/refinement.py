@@ -103,7 +103,11 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
     while True:
         stand = _Stand(trials, level, full=full)
         if full and level.halvings < 0 and stand.scatters:
-            level = Level(level.mesh, 0)
+            shorter = Level(level.mesh, 0)
+            if not _affordable(trials, shorter, full=True, means=False):
+                evidence = stand.evidences(spent=True)
+                break
+            level = shorter
             continue
         evidence = stand.evidences()
         finer = _finer(_worst(evidence), level, options, lowered=full and stand.lowers_strength)
@@ -421,7 +425,7 @@ class _Stand:
         run, other = trials.numbers(self._level, _AS_IT_IS, crack), trials.numbers(self._step, _AS_IT_IS, crack)
         varied = self._sample(self._cheap, SCALES, crack) if self._full else None
         mean = self._full and self._scatters(crack)
-        pairs, coarser = dict[str, _Sample](), None
+        pairs = dict[str, _Sample]()
         if mean:
             drawn, stopped = self._drawn(crack)
             spent = spent or stopped
@@ -429,7 +433,6 @@ class _Stand:
             mean = drawn is not None and bool(np.sum(drawn.good) >= _FEWEST)
         if mean and varied is not None:
             pairs = {name: self._sample(*pair, crack) for name, pair in self._pairs(varied.scales).items()}
-            coarser = pairs.pop("third mesh", None)
         own, beside, third, farther, near = (
             None if level is None or mean else trials.numbers(level, _AS_IT_IS, crack)
             for level in (self._own, self.mesh, self._third, self._larger, self._larger and self._cheap)
@@ -451,14 +454,15 @@ class _Stand:
                 moved["step"] = abs(single)
             if mean and varied is not None:
                 value = float(varied.known(key).mean())
-                for name, pair in pairs.items():
+                coarser = pairs.get("third mesh")
+                for name, pair in ((name, pair) for name, pair in pairs.items() if pair is not coarser):
                     beside_mesh = name == "surroundings" and self._cheap == self.mesh
                     left = _LEFT_BY_HALF if name == "step" else 0.0
                     by = (pairs["mesh"] if beside_mesh else varied).moved(key, pair, left)
                     moved[name] = abs(value) if by is None else by
                 if coarser is not None:
                     by = pairs["mesh"].moved(key, coarser)
-                    moved["mesh"] = max(moved["mesh"] or 0.0, _LEFT * (by or 0.0))
+                    moved["mesh"] = max(moved["mesh"] or 0.0, abs(value) if by is None else _LEFT * by)
                 moved["shaking"] = varied.error(key)
             elif self._full and own is not None:
                 moved["mesh"] = _moved_by_mesh(key, own, beside, third)

@@ -33,9 +33,9 @@ _PART = FRAME_STEP / 2.0
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
-#: The longest steps [s] of one crack where single runs do not scatter (docs/flexible.md): at the base on a rigid plane,
-#: where a dam slides, and among waves; above it, where it strikes, at this part of that vibration. By these laws of
-#: friction they are at most so many times those of runs that scatter.
+#: The longest steps [s] of one crack on a rigid plane where single runs do not scatter (docs/flexible.md): at the base,
+#: where a dam slides; above it, where it strikes, at this part of that vibration. By these laws of friction they are at
+#: most so many times those of runs that scatter.
 _LONGEST_AT_BASE, _LONGEST_ABOVE_BASE, _STEPS_ABOVE_BASE = _PART / 6, _PART / 12, 50.0
 _SMOOTH_LAWS, _TIMES_BY_LAW = ("slip weakening", "speed weakening"), 2.0
 #: Where waves surround the dam the step goes with the dam, and is this part of that vibration, at most the longest step
@@ -60,14 +60,12 @@ _FITS = 1e-9
 def usual_step(case: Case, period: float) -> float:
     """Return a step [s] that follows a part above the crack of a case, of this longest period [s]."""
     step = short_step(case, period)
-    # A neighbour is passed by the way of a step.
-    if case.further_cracks or case.crack.kinks or case.crack.side_gap or not _is_plain(case, _SMOOTH_LAWS):
-        return step
-    # Waves that leave through damped rock have longer ones already.
-    if _is_smooth(case):
+    # A neighbour is passed by the way of a step, and the lowest pressure of water with sound needs short ones.
+    several = case.further_cracks or case.crack.kinks or case.crack.side_gap
+    if several or wave_bodies(case) or not _is_plain(case, _SMOOTH_LAWS):
         return step
     steps, longest = _STEPS_PER_PERIOD, _LONGEST_AT_BASE
-    if case.crack.elevation > 0.0 and not wave_bodies(case):
+    if case.crack.elevation > 0.0:
         steps, longest = _STEPS_ABOVE_BASE, _LONGEST_ABOVE_BASE
     wanted = min(period / steps, longest)
     if case.crack.law is not None:
