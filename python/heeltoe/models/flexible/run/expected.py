@@ -11,13 +11,15 @@ from itertools import pairwise
 from heeltoe.case.model import Case
 from heeltoe.models.cost import Cost
 from heeltoe.models.flexible.body.cost import NUMBER, building, parts_of, surroundings_of, wave_bodies
-from heeltoe.models.flexible.run.dam_runner import FRAME_STEP, usual_step
+from heeltoe.models.flexible.run.dam_runner import FRAME_STEP, short_step, usual_step
 from heeltoe.models.runner import STEP
 
 #: Fewer elements along the crack than these have no coarser mesh worth a comparison.
 FEWEST_ACROSS = 4
 # Seconds of a step, of each 2 k m in it, and of that to the power of 3/2, as caches end.
 _STEP, _ANSWERED, _FETCHED = 6e-7, 4.3e-10, 8.6e-13
+# A step costs this power of how many times it is longer than the shorter one of a case.
+_BY_LENGTH = 0.5
 # Times as much where a friction law is found by passes, 1.7 to 4 of it.
 _BY_LAW = 2.5
 # Times as much where bonds soften: 1.2 to 2 of it; seconds of a step with a body with waves, measured with
@@ -27,7 +29,7 @@ _BY_BOND, _WATERED = 2.0, 3e-6
 # 2 to 30 joints of 2 to 8 elements, within a factor of two.
 _JOINTS = 7e-9
 # Bytes of a step of the ground, and of the way of the crest with its acceleration within the band; copies of a frame.
-_GROUND, _CREST, _COPIES = 100.0, 140.0, 1.2
+_GROUND, _CREST, _COPIES = 100.0, 30.0, 1.2
 # Runs that a result takes by its evidence, in single ones, without refinement.
 _RUNS = {"full": 5.0, "step": 3.0, "none": 1.0}
 # The longest period of a free part in times that waves of compression take through its height.
@@ -57,8 +59,12 @@ def running(case: Case, end: float, frame_step: float, step: float | None = None
     """
     parts = parts_of(case)
     answers = sum(2.0 * part.nodes * part.modes for part in parts)
-    steps = end / (step or case.flexible.time_step or _step_of(case))
+    usual, short = _steps_of(case)
+    step = step or case.flexible.time_step or usual
+    steps = end / step
     seconds = steps * (_STEP * len(parts) + _ANSWERED * answers + _FETCHED * answers**1.5)
+    # More contacts change in a longer one.
+    seconds *= max(1.0, step / short) ** _BY_LENGTH
     cracks = (case.crack, *case.further_cracks)
     if any(crack.law is not None for crack in cracks):
         seconds *= _BY_LAW
@@ -123,14 +129,15 @@ def _on_other_rock(case: Case, parts: Cost, end: float, frame_step: float, step:
     )
 
 
-def _step_of(case: Case) -> float:
-    """Return about the step that the program will choose [s]."""
+def _steps_of(case: Case) -> tuple[float, float]:
+    """Return about the step that the program will choose, and that of runs that scatter [s]."""
     speed = math.sqrt((case.concrete.modulus or math.inf) / case.concrete.density)
     _, base, _, crest = case.outline.bounds
     levels = sorted({crack.elevation for crack in (case.crack, *case.further_cracks)})
     # The lowest part vibrates fastest.
     lowest = min(top - foot for foot, top in pairwise([*levels, crest - base]))
-    return usual_step(case, _PERIOD * lowest / speed)
+    period = _PERIOD * lowest / speed
+    return usual_step(case, period), short_step(case, period)
 
 
 def with_mesh(case: Case, mesh: int) -> Case:
