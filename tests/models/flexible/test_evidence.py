@@ -221,7 +221,7 @@ def test_the_mean_of_a_dam_that_strikes_and_drifts_is_that_of_other_meshes(way, 
     assert worth.shaking <= 0.035 * worth.value
     assert abs(worth.value - 1e-3 * np.mean(others)) <= np.hypot(worth.uncertainty, 1e-3 * spread / np.sqrt(runs))
     assert worth.distribution.fractile_16 < worth.value < worth.distribution.fractile_84
-    # Of 17 runs and 36 one deviation is twice the other once in a thousand times (F-distribution).
+    # One deviation of 17 runs and 36 is twice the other once in a thousand times (F-distribution).
     assert 0.5 < worth.spread / (1e-3 * spread) < 2.0
 
 
