@@ -25,7 +25,7 @@ def tab(tmp_path):
         session = socket.receive_json()["session"]
 
         def ask(what, /, **fields):
-            """Return the answer; no one is told what its files are called here."""
+            """Return the answer without the names that its files have here."""
             ask.serial += 1
             socket.send_json({"do": what, "serial": ask.serial, **fields})
             while (message := socket.receive_json()).get("serial") != ask.serial:

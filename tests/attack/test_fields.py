@@ -61,7 +61,7 @@ def cases(place: Path) -> Iterator[tuple[str, Any, Callable[[], Fields]]]:
 
     def with_it(before: Fields, written: str, value: Any) -> Fields:
         fields: Fields = json.loads(json.dumps(before))
-        # What is honestly long to compute is refused by an estimate, as long as no one has said that it may be.
+        # An estimate refuses runs that honestly take long, unless the case allows them.
         fields.setdefault("analysis", {}).setdefault("time_limit", "5 s")
         put(fields, written, value)
         return fields

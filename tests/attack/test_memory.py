@@ -16,7 +16,7 @@ from shared.attack_page import CASES, SEED
 from shared.attacked import Attack
 from shared.every_field import Fields
 
-#: Below this [B] no one is told more than "0.1 GB", and what libraries keep for themselves is as much.
+#: Below this [B] a message says "0.1 GB", and libraries keep as much for themselves.
 NOTED = 3e7
 #: Each in a process that has only loaded what all need: a heap that has been used has room that no one counts.
 PEAKS = """

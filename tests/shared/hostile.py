@@ -1,4 +1,4 @@
-"""What no one should write and somebody will: values for fields and options, of every wrong kind."""
+"""Values for fields and options that no one should write and somebody will, of every wrong kind."""
 
 from __future__ import annotations
 

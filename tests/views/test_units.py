@@ -11,7 +11,7 @@ from heeltoe.case.field_usage import unused_fields
 from shared.command import command, options
 from shared.dams import BASE, FAST
 
-# What no one in the United States would see: units of the SI behind a number.
+# Units of the SI behind a number, which no one in the United States would see.
 SI = re.compile(r"\d ?(?:m|mm|kN|MN|kPa|MPa|GPa|kg|m/s)(?:[ ,;.)/]|$)", re.MULTILINE)
 RIGID = ("run", BASE, *options(FAST), "--model", "rigid")
 

@@ -6,18 +6,10 @@ use heeltoe::flexible::{
     Shaking, Wanted,
 };
 
+use crate::bonds::{BOND, LENGTH};
 use crate::flexible::{pair_of_nodes, Pair};
 use crate::numbers::{near, GRAVITY};
 
-/// Length of the joint (m).
-const LENGTH: f64 = 10.0;
-const BOND: BondLaw = BondLaw {
-    tensile: 1e4,
-    cohesion: 2e4,
-    energy: [100.0, 300.0],
-    dynamic: 1.0,
-    first: 1.0,
-};
 /// A spring that holds it off the plane, and one in each direction of slip.
 const HELD: Pair = Pair {
     omega: [100.0, 100.0],

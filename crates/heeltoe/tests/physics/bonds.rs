@@ -7,8 +7,8 @@ use crate::flexible::{pair_of_nodes, waves, Pair};
 use crate::numbers::{near, GRAVITY};
 
 /// Length of the joint (m).
-const LENGTH: f64 = 10.0;
-const BOND: BondLaw = BondLaw {
+pub(crate) const LENGTH: f64 = 10.0;
+pub(crate) const BOND: BondLaw = BondLaw {
     tensile: 1e4,
     cohesion: 2e4,
     energy: [100.0, 300.0],

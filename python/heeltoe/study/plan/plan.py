@@ -107,8 +107,8 @@ class Pilot:
     elements_across, elements_across_below
         Along the crack; the second None where it is as the first.
     first_step_s, time_step_s
-        What the step would be without evidence, or where runs scatter, and what it is: the steps of other dams are in
-        the same proportion.
+        The step without evidence, or where runs scatter, and the step that it ends with: those of other dams are in the
+        same proportion.
     scatters
         Whether its runs scatter or a longer step moves them, so that all dams have that of runs that scatter.
     silence_s, motion
