@@ -59,7 +59,7 @@ def beside_one_component(response: R, outcome: str, slip: float | None, own: flo
     response
         With what the part above its only crack does across the valley.
     outcome, slip
-        How the run without that shaking ends, and its residual slip [m]; None without a result.
+        How the run without that shaking ends, and its residual slip [m], or the mean of several; None without a result.
     own
         Residual slip of the run that is compared with it, where that is not the one of the response [m].
     """

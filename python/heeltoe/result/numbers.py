@@ -227,7 +227,13 @@ class WithoutCrossValley(Block):
     """The same dam without the shaking across the valley."""
 
     outcome: Annotated[str, Number("How it ends.")]
-    residual_slip_m: Annotated[float | None, Number("Its residual slip; null without a result.", "m")]
+    residual_slip_m: Annotated[
+        float | None,
+        Number(
+            "Its residual slip, the mean of as many runs where single runs of the dam scatter; null without a result.",
+            "m",
+        ),
+    ]
     factor: Annotated[
         float | None,
         Number("Residual slip over that without the shaking across the valley; null where that is next to nothing."),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
@@ -14,6 +15,7 @@ from heeltoe.result.numbers import (
     CrossValley,
     FrictionEffect,
     FrictionTrial,
+    HeadlineWorth,
     RockTrial,
 )
 from heeltoe.result.outcome import Outcome
@@ -255,19 +257,27 @@ def across_sentence(response: ResponseData, units: str = "si") -> str:
     sentences = []
     if abs(slip) >= LEAST_M:
         sentences.append(f"Across the valley it slides {length(abs(slip), units)} to the {bank} bank.")
-    adds, without = _share_across(across), across.without_cross_valley
+    evidence = getattr(response, "evidence", None)
+    slip_worth = evidence.residual_slip_m if evidence is not None and evidence.scatters else None
+    adds, without = _share_across(across, slip_worth), across.without_cross_valley
     if adds and without is not None and without.residual_slip_m is not None:
         alone = length(abs(without.residual_slip_m), units)
-        sentences.append(f"The shaking across the valley {adds}: without it the dam slides {alone}.")
+        mean = "" if slip_worth is None else " in the mean"
+        sentences.append(f"The shaking across the valley {adds}: without it the dam slides {alone}{mean}.")
     return " ".join(sentences)
 
 
-def _share_across(across: CrossValley) -> str:
-    """Say by how much the shaking across the valley changes the slip; nothing where that is not known."""
+def _share_across(across: CrossValley, mean: HeadlineWorth | None) -> str:
+    """Say by how much the shaking across the valley changes the slip; nothing where that is not known. A `mean` slip
+    has a standard error, as that without this shaking has one."""
     without = across.without_cross_valley
     if without is None or without.factor is None:
         return ""
     share = 100.0 * (without.factor - 1.0)
+    if mean is not None and abs(share) <= 100.0 * math.sqrt(2.0) * abs(
+        without.factor * (mean.shaking or 0.0) / mean.value
+    ):
+        return "adds less than the scatter of single runs hides"
     if abs(share) < 0.5:
         return "adds nothing"
     return f"adds {share:.0f} %" if share > 0.0 else f"takes off {-share:.0f} %"

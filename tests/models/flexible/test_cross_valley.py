@@ -17,6 +17,8 @@ from heeltoe.models.flexible.body.across import across_dam
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.surroundings.rock import RockMaterial, reduced_rock, smooth_tractions
+from heeltoe.models.run import earthquake
+from heeltoe.result.verdict import across_sentence
 from models.rigid.test_cross_valley import MASS, el_centro, typical
 from shared.dams import TYPICAL_SECTION, plane_case
 from shared.random_dams import draw
@@ -262,6 +264,29 @@ def test_a_run_says_what_the_shaking_across_the_valley_adds():
     assert {"cross-valley-upright"} <= {notice.code for notice in response.warnings}
 
 
+@pytest.mark.slow
+def test_a_dam_whose_single_runs_scatter_is_compared_by_means():
+    motion = {
+        "file": "synthetic:M6.5,10km,seed=1",
+        "pga": "1 g",
+        "duration": "5 s",
+        "sign": "recorded",
+        "cross_valley": {"file": "synthetic:M6.5,10km,seed=5"},
+    }
+    case = case_of(
+        crack={"elevation": "61 m"}, flexible={"elements_across": 2, "theta": 0.52, "evidence": "full"}, motion=motion
+    )
+    response = flexible(case)
+    evidence, without = response.evidence, response.cross_valley.without_cross_valley
+    assert evidence.scatters
+    alone = case.with_({"motion.cross_valley": "none"})
+    dam = shaken(alone, earthquake(alone).silent(response.silence_s).shaking)
+    slips = [dam.run(evidence.varied_time_step_s, factor=scale).summary.slip for scale in evidence.scales]
+    assert without.residual_slip_m == pytest.approx(np.mean(slips), rel=1e-3)
+    assert without.factor == pytest.approx(evidence.residual_slip_m.value / np.mean(slips), rel=1e-3)
+    assert "in the mean." in across_sentence(response)
+
+
 WEAKENING = {"name": "slip weakening", "peak_friction": 1.1, "residual_friction": 0.8, "slip": "40 mm"}
 SPEED = {"name": "speed weakening", "peak_friction": 1.1, "residual_friction": 0.8, "speed": "0.3 m/s"}
 STEP_UP = [["30 m", "0 m"], ["33 m", "1.5 m"]]
@@ -409,8 +434,8 @@ def test_a_stiff_dam_with_a_law_is_the_rigid_block(law):
     case = case_of(None, crack={"law": law}, concrete=stiff, motion=motion)
     block = rigid(case)
     assert block.ok
-    earthquake = resolve_all(case)
-    shaking = Shaking(earthquake[0].time, earthquake[0].acceleration, cross=earthquake[2].acceleration)
+    motions = resolve_all(case)
+    shaking = Shaking(motions[0].time, motions[0].acceleration, cross=motions[2].acceleration)
     run = shaken(case, shaking).run(1e-4)
     # With one component, too, the elastic dam slides up to a millimetre more than the block.
     assert run.summary.slip == pytest.approx(block.residual_slip_m, abs=1.5e-3)

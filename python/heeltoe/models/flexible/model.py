@@ -21,8 +21,8 @@ from heeltoe.mechanics.references import cited
 from heeltoe.models.flexible.body.cost import check_cost
 from heeltoe.models.flexible.body.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.models.flexible.evidence.growth import self_excitation
-from heeltoe.models.flexible.evidence.refinement import Answer, answer, build_ahead
-from heeltoe.models.flexible.evidence.trials import LARGER
+from heeltoe.models.flexible.evidence.refinement import FEWEST, Answer, answer, build_ahead
+from heeltoe.models.flexible.evidence.trials import LARGER, Level, Trials
 from heeltoe.models.flexible.result.envelope import envelope_of
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.models.flexible.result.tables import crack_responses, crest_of, dam_numbers, energy_of, histories_of_cracks
@@ -34,7 +34,7 @@ from heeltoe.models.flexible.run.slip_history import Worn, law_warnings, worn_of
 from heeltoe.models.flexible.warnings import judge_outcome, stands, warnings_of
 from heeltoe.models.runner import STEP, beside_one_component, until_rest, where_of
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import CRACKED, WIDTH, headlines
+from heeltoe.result.contract import CRACKED, RESIDUAL_SLIP, WIDTH, headlines
 from heeltoe.result.crest import CrestMotion, crest_peaks
 from heeltoe.result.judge import CREST_LIMITS, Judgement, judge, leading_crack
 from heeltoe.result.limits import allowances
@@ -121,16 +121,24 @@ def run_flexible(
         crest=crest.motion(case.gravity),
         cross=earthquake.cross,
     )
-    return response if shaken.across is None else _beside_one_component(response, shaken, run, block)
+    return response if shaken.across is None else _beside_one_component(response, result, block)
 
 
-def _beside_one_component(response: FlexibleResponse, shaken: ShakenDam, run: DamRun, block: Block) -> FlexibleResponse:
-    """Add to a response of this run what the same dam does at the same step without the shaking across the valley."""
-    case, dam, leads = shaken.case, shaken.dam, response.asked
-    summary = run.summaries[leads]
-    alone = ShakenDam(case, dam, shaken.shaking.along_stream())
-    without = alone.run(summary.end_time / summary.steps, frame_step_of(shaken.shaking.end, None), stresses=False)
-    outcome, _ = judge_outcome(dam, block, without, response.silence_s)
+def _beside_one_component(response: FlexibleResponse, result: Answer, block: Block) -> FlexibleResponse:
+    """Add to a response of these runs what the same dam does at the same step without the shaking across the valley: in
+    the mean of as many runs where single runs scatter, as the difference of two of them is scatter."""
+    shaken, leads = result.shaken, response.asked
+    along = ShakenDam(shaken.case, shaken.dam, shaken.shaking.along_stream())
+    frame_step = frame_step_of(shaken.shaking.end, None)
+    if result.evidences and (evidence := result.evidences[leads]).scatters:
+        trials, level = Trials(along, evidence.varied_time_step_s or evidence.time_step_s, frame_step), Level(0, 0)
+        slips = trials.numbers(level, evidence.scales, leads)[RESIDUAL_SLIP.key]
+        good = trials.have_results(level, evidence.scales)
+        mean = float(slips[good].mean()) if np.sum(good) >= FEWEST else None
+        return beside_one_component(response, str(trials.outcome(level)), mean, evidence.residual_slip_m.value)
+    summary = result.run.summaries[leads]
+    without = along.run(summary.end_time / summary.steps, frame_step, stresses=False)
+    outcome, _ = judge_outcome(shaken.dam, block, without, response.silence_s)
     slip = without.summaries[leads].slip if outcome.has_result else None
     return beside_one_component(response, str(outcome), slip, summary.slip)
 

@@ -47,8 +47,8 @@ _AS_IT_IS: tuple[float, ...] = (1.0,)
 # Each so many runs of a sample are repeated with half the step, a finer mesh or larger surroundings, and a sample is
 # doubled so often at most.
 _PAIRED, _DOUBLINGS = 4, 1
-# Fewer runs with a result have no mean.
-_FEWEST = 2
+#: Fewer runs with a result have no mean.
+FEWEST = 2
 
 _Wanted = list[tuple[Level, Sequence[float]]]
 
@@ -249,7 +249,7 @@ class _Sample:
         place = {scale: row for row, scale in enumerate(self.scales)}
         rows = np.array([place[scale] for scale in other.scales])
         both = self.good[rows] & other.good
-        if np.sum(both) < _FEWEST:
+        if np.sum(both) < FEWEST:
             return None
         changes = (other.numbers[key] - self.numbers[key][rows])[both]
         means = float(other.known(key).mean() - self.known(key).mean())
@@ -364,7 +364,7 @@ class _Stand:
             if work > BUDGET or not trials.expected(self._level, work).within(trials.dam_of(0).case):
                 return sample, True
             sample = self._sample(self._own, scales, crack)
-            if np.sum(sample.good) < _FEWEST or sample.is_enough:
+            if np.sum(sample.good) < FEWEST or sample.is_enough:
                 break
         return sample, False
 
@@ -430,7 +430,7 @@ class _Stand:
             drawn, stopped = self._drawn(crack)
             spent = spent or stopped
             varied = drawn or varied
-            mean = drawn is not None and bool(np.sum(drawn.good) >= _FEWEST)
+            mean = drawn is not None and bool(np.sum(drawn.good) >= FEWEST)
         if mean and varied is not None:
             pairs = {name: self._sample(*pair, crack) for name, pair in self._pairs(varied.scales).items()}
         own, beside, third, farther, near = (

@@ -206,11 +206,11 @@ class Trials:
 
     def have_results(self, level: Level, scales: Sequence[float]) -> NDArray[np.bool_]:
         """Return (n,) which of these runs, all made before, end with a result."""
+        return np.array([self.outcome(level, scale).has_result for scale in scales])
+
+    def outcome(self, level: Level, scale: float = 1.0) -> Outcome:
+        """Return how a run that was made before ends."""
+        cracks = self._numbers[level, scale]
         widths = [section.crack_width for section in self.dam_of(level.mesh).dam.sections]
-        return np.array([_outcome(self._numbers[level, scale], widths).has_result for scale in scales])
-
-
-def _outcome(cracks: Sequence[Mapping[str, float]], widths: Sequence[float]) -> Outcome:
-    """Return the outcome of a run from the numbers of each of its cracks, of given widths [m]."""
-    rotation = max(float(largest_rotation(row)) for row in cracks)
-    return decide(DAM_OUTCOMES[int(cracks[0]["outcome"])], rotation=rotation, off=bool(leaves(cracks, widths)))
+        rotation = max(float(largest_rotation(row)) for row in cracks)
+        return decide(DAM_OUTCOMES[int(cracks[0]["outcome"])], rotation=rotation, off=bool(leaves(cracks, widths)))
