@@ -208,6 +208,13 @@ pub struct StressRows<'py> {
 }
 
 impl StressRows<'_> {
+    /// What is wanted of these rows, and every how many steps.
+    fn wanted(rows: &Option<Self>) -> PyResult<Option<(Vec<Stresses<'_>>, usize)>> {
+        rows.as_ref()
+            .map(|rows| Ok((rows.stresses()?, rows.stride)))
+            .transpose()
+    }
+
     fn stresses(&self) -> PyResult<Vec<Stresses<'_>>> {
         if self.stride == 0 {
             return Err(wrong("stresses need a stride"));
@@ -401,7 +408,7 @@ impl CrackedDam {
     }
 
     /// See `_kernel.pyi`.
-    #[pyo3(signature = (ground, step, theta, *, stride=0, stresses=None, crest=None, penalty=None, ending=None, until_rest=None, across=None, crest_across=None))]
+    #[pyo3(signature = (ground, step, theta, *, stride=0, stresses=None, pressures=None, crest=None, penalty=None, ending=None, until_rest=None, across=None, crest_across=None))]
     #[allow(clippy::too_many_arguments)]
     fn run<'py>(
         &self,
@@ -411,6 +418,7 @@ impl CrackedDam {
         theta: f64,
         stride: usize,
         stresses: Option<StressRows<'py>>,
+        pressures: Option<StressRows<'py>>,
         crest: Option<Numbers<'py>>,
         penalty: Option<[f64; 3]>,
         ending: Option<Bound<'py, Ending>>,
@@ -425,13 +433,16 @@ impl CrackedDam {
             step,
             &scheme,
         )?;
-        let stresses = stresses
-            .as_ref()
-            .map(|wanted| Ok::<_, PyErr>((wanted.stresses()?, wanted.stride)))
-            .transpose()?;
-        let stresses = stresses.as_ref().map(|(parts, stride)| Stressed {
-            parts,
-            stride: *stride,
+        let (stresses, pressures) = (StressRows::wanted(&stresses)?, StressRows::wanted(&pressures)?);
+        if pressures.as_ref().is_some_and(|(water, _)| water.len() != 1) {
+            return Err(wrong("the water is one part"));
+        }
+        let [stresses, pressures] = [&stresses, &pressures].map(|wanted| {
+            let (parts, stride) = wanted.as_ref()?;
+            Some(Stressed {
+                parts,
+                stride: *stride,
+            })
         });
         let crest = crest.as_ref().map(|row| row.as_slice()).transpose()?;
         if crest.is_some_and(|row| row.len() != self.dam.bodies[0].count()) {
@@ -462,6 +473,7 @@ impl CrackedDam {
                 stride,
                 modes: stride > 0,
                 stresses,
+                pressures,
                 crest,
                 rest: until_rest,
                 stop,

@@ -493,6 +493,7 @@ pub struct DamRun {
     modes: Py<PyTuple>,
     water: Table,
     extremes: Py<PyTuple>,
+    pressures: Py<StressExtremes>,
     worked: Py<WornContacts>,
     crest: Column,
     crest_cross: Column,
@@ -541,6 +542,10 @@ impl DamRun {
             modes: tables(py, frames.modes, count)?,
             water: shaped(py, frames.water, count)?.unbind(),
             extremes: PyTuple::new(py, extremes)?.unbind(),
+            pressures: Py::new(
+                py,
+                StressExtremes::of(py, run.pressures.iter().map(elastic::Extreme::row))?,
+            )?,
             crest: array(py, run.crest),
             crest_cross: array(py, run.crest_cross),
             worked: Py::new(

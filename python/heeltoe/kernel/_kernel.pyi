@@ -753,6 +753,8 @@ class DamRun:
         (f, w) velocities of the modes of the water with sound; its pressure comes of them.
     extremes
         Of the stresses of each part, from the crest down. Empty where none are wanted.
+    pressures
+        Of the pressures of water with sound, as stresses. Empty where none are wanted.
     worked
         Empty without a law.
     crest
@@ -777,6 +779,7 @@ class DamRun:
     modes: Final[tuple[Floats, ...]]
     water: Final[Floats]
     extremes: Final[tuple[StressExtremes, ...]]
+    pressures: Final[StressExtremes]
     worked: Final[WornContacts]
     crest: Final[Floats]
     crest_cross: Final[Floats]
@@ -858,6 +861,7 @@ class CrackedDam:
         *,
         stride: int = 0,
         stresses: StressRows | None = None,
+        pressures: StressRows | None = None,
         crest: Floats | None = None,
         penalty: tuple[float, float, float] | None = None,
         ending: Ending | None = None,
@@ -880,6 +884,9 @@ class CrackedDam:
             Steps from frame to frame; 0 for no frames.
         stresses
             Those whose extremes are wanted.
+        pressures
+            The same of water with sound, one part: the pressure p as the stresses p, p and 0 by the velocities of its
+            modes.
         crest
             (m,) how far each mode of the first part moves the point of it whose way is wanted.
         penalty

@@ -707,7 +707,7 @@ class ElasticCrack(CrackNumbers):
 
 
 class FacePressure(Block):
-    """The pressure of compressible water on a face over a run, by its frames."""
+    """The pressure of compressible water on a face over a run, by a state every half millisecond or longer step."""
 
     side: Annotated[str, Number("Which water: reservoir or tailwater.")]
     largest_pa: Annotated[float, Number("Largest pressure beyond that at rest.", "Pa")]

@@ -12,7 +12,9 @@ from heeltoe import run
 from heeltoe.mechanics.beam import band_of
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.body.reservoir import water_body
-from heeltoe.models.flexible.result.water import total_pressure
+from heeltoe.models.flexible.result.water import face_pressures, total_pressure
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
+from heeltoe.models.run import earthquake
 from heeltoe.views.figures.all import all_figures
 from shared.dams import plane_case
 
@@ -146,6 +148,23 @@ def test_pressure_on_the_face_of_a_stiff_dam_in_a_slow_motion():
     exact = -8.0 * 0.915966 / np.pi**2 * 1000.0 * 0.1 * case.gravity * 26.0
     assert total[frame, 0] - face.still[0] == pytest.approx(exact, rel=0.015)
     assert response.water_pressure[0].lowest_absolute_pa > 101325.0
+
+
+def test_extremes_of_the_pressure_are_those_between_frames_too():
+    case = plane_case(dam(motion={"points": PULSES, "pga": "3 g", "sign": "recorded"}))
+    shaken = ShakenDam(case, build_flexible_dam(case), earthquake(case).shaking)
+    step = shaken.first_step()
+    # Frames at the moments at which the pressures are looked at, and a few.
+    all_of_them, few = (shaken.run(step, spacing) for spacing in (5e-4, 0.01))
+    (face,) = shaken.dam.reservoir.faces
+    total, coarse = (total_pressure(face, run.water)[:, face.wet] for run in (all_of_them, few))
+    (found,) = face_pressures(shaken.dam, few)
+    beyond = total - face.still[face.wet]
+    assert found.lowest_absolute_pa == pytest.approx(101325.0 + total.min(), rel=1e-9)
+    assert found.largest_pa == pytest.approx(beyond.max(), rel=1e-9)
+    assert found.lowest_time_s == pytest.approx(all_of_them.frames.time[total.min(axis=1).argmin()])
+    assert found.lowest_z_m == face.points[face.wet[total.min(axis=0).argmin()], 1]
+    assert total.min() < coarse.min() - 1e3
 
 
 def test_water_that_tears_off_is_warned_of():

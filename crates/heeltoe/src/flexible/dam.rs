@@ -171,6 +171,8 @@ pub struct Wanted<'a> {
     pub modes: bool,
     /// Stresses whose extremes are wanted.
     pub stresses: Option<Stressed<'a>>,
+    /// The same of the pressures of water with sound, which is one part.
+    pub pressures: Option<Stressed<'a>>,
     /// How far each mode of the part at the crest moves a point of it whose way is wanted.
     pub crest: Option<&'a [f64]>,
     /// Where a dam that is at rest ends its run; it needs frames.

@@ -259,6 +259,11 @@ impl<'a> Dampers<'a> {
         self.water.as_ref().map_or(&[], Water::velocities)
     }
 
+    /// The same in groups; None without water.
+    pub(super) fn water_groups(&self) -> Option<&Vec<Group>> {
+        self.water.as_ref().map(Water::groups)
+    }
+
     /// Change the velocities without contact by what the dashpots and the water do of themselves; what acts in the crack
     /// beside contact is known by now.
     pub(super) fn begin<W: Lanes>(&mut self, bodies: &mut [ModalStepper], drive: Drive) {

@@ -1,7 +1,8 @@
 //! The largest principal stresses of a part over a run, place by place.
 //!
 //! A stress is linear in the modes, `(xx, zz, xz) = rows q`. States are gathered until there are [`BLOCK`] of them, so that
-//! the rows, which are far larger than anything a step reads, are read once for all of these; nothing else is kept.
+//! the rows, which are far larger than anything a step reads, are read once for all of these; nothing else is kept. The
+//! pressure `p` of water with sound is the stress `(p, p, 0)` by the velocities of its modes.
 
 use super::simd::{apart, Group, Lanes, Plain, LANES};
 use crate::error::Error;

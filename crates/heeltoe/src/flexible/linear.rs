@@ -216,6 +216,11 @@ impl<'a> LinearDam<'a> {
         self.dampers.water()
     }
 
+    /// The same in groups; None without water.
+    pub(super) fn water_groups(&self) -> Option<&Vec<Group>> {
+        self.dampers.water_groups()
+    }
+
     /// Energy of the bodies.
     pub(super) fn energy(&self) -> f64 {
         let of = |body: &ModalStepper| body.body.energy(&body.amplitudes(), &body.v);

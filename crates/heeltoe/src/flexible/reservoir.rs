@@ -320,6 +320,11 @@ impl<'a> Water<'a> {
         &self.velocity.as_flattened()[..self.of.modes()]
     }
 
+    /// The same in groups.
+    pub(super) fn groups(&self) -> &Vec<Group> {
+        &self.velocity
+    }
+
     /// Whether it rests, and the ground with it in a step that changes its velocity so.
     pub(super) fn rests(&self, change: [f64; 2]) -> bool {
         let zero = |numbers: &[f64]| numbers.iter().all(|x| *x == 0.0);

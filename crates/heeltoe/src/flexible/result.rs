@@ -16,6 +16,8 @@ pub struct Run {
     pub worked: Vec<Worked>,
     /// Extremes of the stresses at each place of all parts, from the crest down; none unless they were asked for.
     pub extremes: Vec<Vec<Extreme>>,
+    /// Those of the pressures of water with sound; none unless they were asked for.
+    pub pressures: Vec<Extreme>,
     /// Where the point of the part at the crest that was wanted is at the start and after each step (m), from anywhere.
     pub crest: Vec<f64>,
     /// The same across the valley (m).

@@ -66,6 +66,7 @@ fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
     }
     moreau.follow::<W>();
     moreau.stress::<W>();
+    moreau.press::<W>();
     for step in 0..shaking.ground.len() {
         moreau.set_up::<W>();
         moreau.contact::<W>();
@@ -93,6 +94,9 @@ fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
         }
         if moreau.walk.stressed(step) {
             moreau.stress::<W>();
+        }
+        if moreau.walk.pressed(step) {
+            moreau.press::<W>();
         }
         if moreau.walk.ends(step) {
             break;
@@ -385,6 +389,13 @@ impl<'a> Moreau<'a> {
     fn stress<W: Lanes>(&mut self) {
         let total = self.linear.amplitudes();
         self.walk.stress::<W>(&total);
+    }
+
+    /// Look at the pressures of the water.
+    fn press<W: Lanes>(&mut self) {
+        if let Some(water) = self.linear.water_groups() {
+            self.walk.press::<W>(water);
+        }
     }
 
     /// Keep a frame.

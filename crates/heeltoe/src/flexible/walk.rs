@@ -135,6 +135,7 @@ pub(super) struct Walk<'a> {
     since: Since,
     frames: Frames,
     envelope: Option<Envelope<'a>>,
+    pressures: Option<Envelope<'a>>,
     /// The way of a point of the part at the crest.
     pub track: Option<Track>,
 }
@@ -171,6 +172,7 @@ impl<'a> Walk<'a> {
             since: Since::new(dam),
             frames: Frames::new(dam),
             envelope: wanted.stresses.map(Envelope::new),
+            pressures: wanted.pressures.map(Envelope::new),
             track: wanted.crest.map(|row| Track::new(row, shaking.ground.len())),
         }
     }
@@ -282,6 +284,21 @@ impl<'a> Walk<'a> {
         }
     }
 
+    /// Whether the pressures of the water after this step are wanted.
+    #[inline(always)]
+    pub(super) fn pressed(&self, step: usize) -> bool {
+        self.pressures
+            .as_ref()
+            .is_some_and(|pressures| pressures.due(step))
+    }
+
+    /// Take the pressures of water with these velocities into account, where they are wanted.
+    pub(super) fn press<W: Lanes>(&mut self, water: &Vec<Group>) {
+        if let Some(pressures) = &mut self.pressures {
+            pressures.add::<W>(self.cracks[0].summary.end_time, std::slice::from_ref(water));
+        }
+    }
+
     /// Whether the run ends after this step: the dam is at rest, a part above a crack is off any scale, which the outcome
     /// says, or somebody has stopped the run.
     pub(super) fn ends(&mut self, step: usize) -> bool {
@@ -343,6 +360,9 @@ impl<'a> Walk<'a> {
             frames: self.frames,
             worked: self.crack.laws.map_or_else(Vec::new, |laws| laws.contacts),
             extremes: self.envelope.map_or_else(Vec::new, Envelope::end),
+            pressures: self
+                .pressures
+                .map_or_else(Vec::new, |water| water.end().swap_remove(0)),
             crest: self.track.map_or_else(Vec::new, Track::end),
             crest_cross,
         }

@@ -7,42 +7,40 @@ from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 
 from heeltoe.models.flexible.result.response import FlexibleResponse
-from heeltoe.models.flexible.result.water import ATMOSPHERE, VAPOUR, total_pressure, wet_nodes
+from heeltoe.models.flexible.result.water import ATMOSPHERE, VAPOUR, pressure_ranges, total_pressure
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.style import COLOURS, WIDTH, describe, styled
 
 
 @styled
 def water_pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
-    """Draw the pressure over the height of each face: at rest, its range over the run, and that at the moments of the
-    largest push on the face and of the lowest pressure."""
+    """Draw the pressure over the height of each face: at rest, its range over all steps of the run, and that at the
+    frame with the largest push on the face."""
     history = response.crack
     water, reservoir = history.water, history.dam.reservoir
     assert water is not None
     assert reservoir is not None
+    assert history.pressures is not None
     system = unit_system(units)
     figure = Figure(figsize=(WIDTH, 4.4), layout="constrained")
     describe(figure, response)
     all_axes = figure.subplots(1, len(reservoir.faces), squeeze=False)[0]
     length = system.scale("length")
     handles: dict[str, Artist] = {}
-    for axes, face in zip(all_axes, reservoir.faces, strict=True):
-        wet = wet_nodes(face)
+    for axes, of in zip(all_axes, pressure_ranges(reservoir, history.pressures), strict=True):
+        face, wet = of.face, of.face.wet
         total, z = total_pressure(face, water)[:, wet], face.points[wet, 1]
         order = np.argsort(z, kind="stable")
         total, height, still = total[:, order], length(z[order]), face.still[wet][order]
-        scale = system.scale("pressure", float(np.abs(total).max()))
+        least, most = ((still + beyond[order]) for beyond in (of.least, of.most))
+        scale = system.scale("pressure", float(max(np.abs(least).max(), np.abs(most).max())))
         pushed = int(np.argmax(np.trapezoid(total, z[order], axis=1)))
-        lowest = int(np.unravel_index(np.argmin(total), total.shape)[0])
-        low, high = scale(total.min(axis=0)), scale(total.max(axis=0))
+        low, high = scale(least), scale(most)
         axes.fill_betweenx(height, low, high, color=COLOURS["water"], label="range over the run")
         axes.plot(scale(still), height, color="#000000", linestyle="--", linewidth=1.0, label="at rest")
-        for frame, colour, dash, name in (
-            (pushed, COLOURS["slip"], "-", "largest push on the face"),
-            (lowest, COLOURS["rotation"], "-.", "lowest pressure"),
-        ):
-            axes.plot(scale(total[frame]), height, color=colour, linestyle=dash, linewidth=1.3, label=name)
-        moments = f"push at {history.time[pushed]:.2f} s, low at {history.time[lowest]:.2f} s"
+        axes.plot(scale(total[pushed]), height, color=COLOURS["slip"], linewidth=1.3, label="largest push on the face")
+        lowest = of.least_at[order][np.argmin(least)]
+        moments = f"push at {history.time[pushed]:.2f} s, lowest pressure at {lowest:.2f} s"
         axes.set_title(f"{face.side}: {moments}", fontsize=8)
         limit = scale(VAPOUR - ATMOSPHERE)
         if low.min() < 0.5 * limit:

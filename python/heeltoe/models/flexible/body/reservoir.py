@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -37,6 +38,13 @@ class WaterBody:
     coupling: tuple[Floats, ...]
     faces: tuple[WetFace, ...]
 
+    @cached_property
+    def wet_rows(self) -> Floats:
+        """The pressures at the nodes of all faces that are below the surface, face by face from below, as stresses
+        (p, w, 3): xx and zz by the velocity of each mode, no shear."""
+        pressures = np.concatenate([face.pressure[face.wet] for face in self.faces])
+        return np.stack([pressures, pressures, np.zeros_like(pressures)], axis=2)
+
     def rows(self, place: int, modes: Modes) -> Floats:
         """Return what the modes (m,) of a part are to those of the water, shape (w, m)."""
         return np.ascontiguousarray(self.coupling[place] @ modes.shapes)
@@ -62,6 +70,11 @@ class WetFace:
     points: Floats
     pressure: Floats
     still: Floats
+
+    @property
+    def wet(self) -> Integers:
+        """Which nodes are below the surface."""
+        return np.flatnonzero(self.still > 0.0)
 
 
 def water_body(case: Case, bodies: Sequence[Body], highest: float, *, longer: float = 1.0) -> WaterBody | None:

@@ -82,6 +82,7 @@ def histories_of_cracks(case: Case, dam: FlexibleDam, run: DamRun) -> tuple[Crac
                 contactors=case.flexible.contactors,
                 place=place,
                 water=run.water if dam.reservoir is not None else None,
+                pressures=run.pressures if dam.reservoir is not None else None,
             )
         )
         watched += contacts
@@ -209,7 +210,7 @@ def dam_numbers(
         self_excitation=growth,
         assumed_rock=assumed_rock,
         tension=tension,
-        water_pressure=face_pressures(dam, run.frames.time, run.water),
+        water_pressure=face_pressures(dam, run),
     )
 
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.arrays import Floats
+from heeltoe.kernel.dam import DamRun, StressExtremes
 from heeltoe.models.flexible.body.reduced import FlexibleDam
-from heeltoe.models.flexible.body.reservoir import WetFace
+from heeltoe.models.flexible.body.reservoir import WaterBody, WetFace
 from heeltoe.result.numbers import FacePressure
 from heeltoe.warnings.notice import Notice
 
@@ -22,47 +24,50 @@ def total_pressure(face: WetFace, water: Floats) -> Floats:
     return total
 
 
-def wet_nodes(face: WetFace) -> Integers:
-    """Return which nodes of a face are below the surface."""
-    wet: Integers = np.flatnonzero(face.still > 0.0)
-    return wet
+class PressureRange(NamedTuple):
+    """The range of the pressure beyond that at rest [Pa] on a face, (k,) at its nodes below the surface, and when
+    [s]."""
+
+    face: WetFace
+    most: Floats
+    most_at: Floats
+    least: Floats
+    least_at: Floats
 
 
-def face_pressures(dam: FlexibleDam, time: Floats, water: Floats) -> list[FacePressure] | None:
-    """Return the extremes of the pressure on each face; None without compressible water.
+def pressure_ranges(reservoir: WaterBody, pressures: StressExtremes) -> list[PressureRange]:
+    """Return the range of the pressure on each face over a run, by the extremes that the kernel has found of them."""
+    ranges, first = [], 0
+    for face in reservoir.faces:
+        own = slice(first, first + face.wet.size)
+        first += face.wet.size
+        columns = (pressures.tension, pressures.tension_time, pressures.compression, pressures.compression_time)
+        ranges.append(PressureRange(face, *(column[own] for column in columns)))
+    return ranges
 
-    Parameters
-    ----------
-    dam
-        Of the run.
-    time
-        (f,) moments of its frames [s].
-    water
-        (f, w) velocities of the modes of the water.
-    """
+
+def face_pressures(dam: FlexibleDam, run: DamRun) -> list[FacePressure] | None:
+    """Return the extremes of the pressure on each face in a run of a dam; None without compressible water."""
     if dam.reservoir is None:
         return None
-    pressures = []
-    for face in dam.reservoir.faces:
-        wet = wet_nodes(face)
-        total = total_pressure(face, water)[:, wet]
-        high, low = (
-            np.unravel_index(place, total.shape) for place in (np.argmax(total - face.still[wet]), np.argmin(total))
-        )
+    result = []
+    for of in pressure_ranges(dam.reservoir, run.pressures):
+        z, total = of.face.points[of.face.wet, 1], of.face.still[of.face.wet] + of.least
+        high, low = int(np.argmax(of.most)), int(np.argmin(total))
         lowest = ATMOSPHERE + float(total[low])
-        pressures.append(
+        result.append(
             FacePressure(
-                side=face.side,
-                largest_pa=float(total[high] - face.still[wet][high[1]]),
-                largest_time_s=float(time[high[0]]),
-                largest_z_m=float(face.points[wet][high[1], 1]),
+                side=of.face.side,
+                largest_pa=float(of.most[high]),
+                largest_time_s=float(of.most_at[high]),
+                largest_z_m=float(z[high]),
                 lowest_absolute_pa=lowest,
-                lowest_time_s=float(time[low[0]]),
-                lowest_z_m=float(face.points[wet][low[1], 1]),
+                lowest_time_s=float(of.least_at[low]),
+                lowest_z_m=float(z[low]),
                 cavitates=lowest < VAPOUR,
             )
         )
-    return pressures
+    return result
 
 
 def water_warnings(pressures: Sequence[FacePressure] | None) -> Iterator[Notice]:

@@ -51,6 +51,8 @@ _ENOUGH_STEPS, _FEWEST_STEPS = 30.0, 8.0
 _TOO_FEW_STEPS = 16.0
 #: Stresses are looked at about so often [s]; twice as often finds 1.3 % more at most (docs/flexible.md).
 _STRESS_STEP = 2e-3
+#: Pressures of water with sound are looked at about so often [s]: the pulse of a strike lasts a millisecond or two.
+_PRESSURE_STEP = 5e-4
 # A step need not be halved once more where it is longer by less than this part of two.
 _ABOUT = 0.1
 # A silence is a multiple of its parts where so little of one is left.
@@ -170,26 +172,30 @@ class ShakenDam:
         pauses: Pauses | None = None,
     ) -> DamRun:
         """Run at about this step, made to fit the duration [s], with the ground motion multiplied by `factor`; with
-        frames about every `frame_step`, and with them the extremes of the `stresses`; with `pauses`, on through silence
-        until the dam is at rest."""
+        frames about every `frame_step`, and with them the extremes of the `stresses` and of the pressures of the water;
+        with `pauses`, on through silence until the dam is at rest."""
         count, step, ground = self._ground(step)
         across = self._across_means(step, ground)
         if pauses is not None:
             silence = pauses.times * pauses.steps
             ground = np.vstack([ground, np.zeros((silence, 2))])
             across = None if across is None else np.append(across, np.zeros(silence))
-        stride, rows, crest = 0, None, None
+        stride, rows, wet, crest = 0, None, None, None
         if frame_step is not None:
             stride = max(1, min(count, round(frame_step / step)))
-            often = max(1, round(min(_STRESS_STEP, frame_step) / step))
             crest = self._crest_row
-            rows = StressRows(tuple(item.rows for item in self.dam.stress_places), often) if stresses else None
+        if frame_step is not None and stresses:
+            often = [max(1, round(min(spacing, frame_step) / step)) for spacing in (_STRESS_STEP, _PRESSURE_STEP)]
+            rows = StressRows(tuple(item.rows for item in self.dam.stress_places), often[0])
+            water = self.dam.reservoir
+            wet = None if water is None else StressRows((water.wet_rows,), often[1])
         return self._shaken_dam.run(
             factor * ground,
             step,
             self.case.flexible.theta,
             stride=stride,
             stresses=rows,
+            pressures=wet,
             crest=crest,
             penalty=self._penalty(),
             ending=ending,
