@@ -12,6 +12,8 @@ from heeltoe import GroundMotion, flexible, read_case, verdict
 from heeltoe.case.options import Limits
 from heeltoe.result.judge import LimitCheck
 from heeltoe.result.limits import check_limits, judge_response
+from heeltoe.result.numbers import SignNumbers
+from heeltoe.result.outcome import Outcome
 from heeltoe.result.response import Response
 from shared.dams import BASE, FAST, plane_case
 from shared.evidence import scattered
@@ -201,3 +203,19 @@ def test_a_verdict_has_mean_and_fractiles_and_says_what_is_not_converged(respons
     assert "not converged" not in text
     doubtful = with_numbers(result, evidence=replace(result.evidence, converged=False))
     assert "in the mean (not converged, numerically ± 3" in verdict(doubtful)
+
+
+def test_a_single_run_beside_a_mean_is_called_one(response):
+    way = SignNumbers(
+        sign="recorded",
+        governs=True,
+        outcome=Outcome.OK,
+        elevation_m=0.0,
+        residual_slip_m=0.04,
+        opening_m=0.0,
+        limits_not_met=0,
+    )
+    both = replace(with_numbers(response, **NUMBERS), signs=(way, replace(way, sign="reversed", governs=False)))
+    assert "This is for the motion as recorded; reversed it slides 40.0 mm." in verdict(both)
+    text = verdict(scattered(both, RUNS))
+    assert "This is for the motion as recorded; reversed a single run slides 40.0 mm." in text

@@ -13,6 +13,7 @@ from heeltoe.result.numbers import (
     BlockBond,
     BondState,
     CrossValley,
+    EvidenceNumbers,
     FrictionEffect,
     FrictionTrial,
     HeadlineWorth,
@@ -95,8 +96,8 @@ def _signs(response: ResponseData, units: str) -> str:
     if other.outcome == Outcome.OVERTURNED:
         does = "it overturns, too"
     elif other.residual_slip_m is not None:
-        slip = abs(other.residual_slip_m)
-        does = f"it slides {length(slip, units)}" if slip else "it does not slide"
+        slip, one = abs(other.residual_slip_m), "a single run" if _means(response) else "it"
+        does = f"{one} slides {length(slip, units)}" if slip else f"{one} does not slide"
     words = {"recorded": "as recorded", "reversed": "reversed"}
     return f"This is for the motion {words[own.sign]}; {words[other.sign]} {does}."
 
@@ -257,8 +258,8 @@ def across_sentence(response: ResponseData, units: str = "si") -> str:
     sentences = []
     if abs(slip) >= LEAST_M:
         sentences.append(f"Across the valley it slides {length(abs(slip), units)} to the {bank} bank.")
-    evidence = getattr(response, "evidence", None)
-    slip_worth = evidence.residual_slip_m if evidence is not None and evidence.scatters else None
+    means = _means(response)
+    slip_worth = None if means is None else means.residual_slip_m
     adds, without = _share_across(across, slip_worth), across.without_cross_valley
     if adds and without is not None and without.residual_slip_m is not None:
         alone = length(abs(without.residual_slip_m), units)
@@ -433,7 +434,8 @@ def _damping(response: ResponseData, units: str) -> str:
     """Say what twice the damping makes of the slip where a vibration grows as the dam slides."""
     growth = getattr(response, "self_excitation", None)
     other = None if growth is None else growth.twice_damped_slip_m
-    return "" if other is None else f"; {length(abs(other), units)} with twice the damping"
+    single = " in a single run" if _means(response) else ""
+    return "" if other is None else f"; {length(abs(other), units)}{single} with twice the damping"
 
 
 def rock_sentence(response: ResponseData, units: str = "si") -> str:
@@ -447,12 +449,19 @@ def rock_sentence(response: ResponseData, units: str = "si") -> str:
     if not rock.trials:
         return f"{assumed}."
     soft, stiff, rigid = (_on_other_rock(trial, units) for trial in rock.trials)
-    moduli = f"with half its modulus the dam {soft}, with twice it {stiff}"
+    dam = "the dam in a single run" if _means(response) else "the dam"
+    moduli = f"with half its modulus {dam} {soft}, with twice it {stiff}"
     slips = [trial.residual_slip_m for trial in rock.trials[:2]]
     if None not in slips:
         half, twice = (length(abs(slip or 0.0), units) for slip in slips)
-        moduli = f"with half and twice its modulus the dam slides {half} and {twice}"
+        moduli = f"with half and twice its modulus {dam} slides {half} and {twice}"
     return f"{assumed}; {moduli}, and on a rigid plane before water without sound it {rigid}."
+
+
+def _means(response: ResponseData) -> EvidenceNumbers | None:
+    """Return the evidence by which the numbers of a response are means; None where they are those of a run."""
+    evidence: EvidenceNumbers | None = getattr(response, "evidence", None)
+    return evidence if evidence is not None and evidence.scatters else None
 
 
 def _on_other_rock(trial: RockTrial, units: str) -> str:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.base.frozen import ReadOnlyArrays
 from heeltoe.base.table import column, table
-from heeltoe.kernel.dam import CONTACT_STATUSES, StressExtremes
+from heeltoe.kernel.dam import CONTACT_STATUSES
 from heeltoe.models.flexible.body.elastic import stresses
 from heeltoe.models.flexible.body.reduced import FlexibleDam
 
@@ -55,7 +55,7 @@ class CrackHistory(ReadOnlyArrays):
     water
         (f, w) velocities of the modes of compressible water; None without.
     pressures
-        The extremes of its pressure beyond that at rest, over all steps; None without.
+        (4, p) extremes of its pressure over the run, :func:`heeltoe.models.flexible.result.water.extremes_of_water`.
     """
 
     time: Floats
@@ -69,7 +69,7 @@ class CrackHistory(ReadOnlyArrays):
     place: int = 0
     damage: Floats | None = None
     water: Floats | None = None
-    pressures: StressExtremes | None = None
+    pressures: Floats | None = None
 
     def __repr__(self) -> str:
         nodes = self.upper_position.shape[-1]

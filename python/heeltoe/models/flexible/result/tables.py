@@ -19,7 +19,7 @@ from heeltoe.models.flexible.evidence.evidence import trusted
 from heeltoe.models.flexible.evidence.refinement import Answer
 from heeltoe.models.flexible.result.history import CrackHistory, watched_nodes
 from heeltoe.models.flexible.result.response import ElasticCrackResponse
-from heeltoe.models.flexible.result.water import face_pressures
+from heeltoe.models.flexible.result.water import extremes_of_water, face_pressures
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.slip_history import law_result, sliding_friction, worn_of
 from heeltoe.result.contract import ground_histories, headlines, slip_by_mode, time_by_mode
@@ -82,7 +82,7 @@ def histories_of_cracks(case: Case, dam: FlexibleDam, run: DamRun) -> tuple[Crac
                 contactors=case.flexible.contactors,
                 place=place,
                 water=run.water if dam.reservoir is not None else None,
-                pressures=run.pressures if dam.reservoir is not None else None,
+                pressures=extremes_of_water(dam, run),
             )
         )
         watched += contacts

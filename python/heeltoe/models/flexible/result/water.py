@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from heeltoe.base.arrays import Floats
-from heeltoe.kernel.dam import DamRun, StressExtremes
+from heeltoe.kernel.dam import DamRun
 from heeltoe.models.flexible.body.reduced import FlexibleDam
 from heeltoe.models.flexible.body.reservoir import WaterBody, WetFace
 from heeltoe.result.numbers import FacePressure
@@ -35,23 +35,32 @@ class PressureRange(NamedTuple):
     least_at: Floats
 
 
-def pressure_ranges(reservoir: WaterBody, pressures: StressExtremes) -> list[PressureRange]:
-    """Return the range of the pressure on each face over a run, by the extremes that the kernel has found of them."""
+def extremes_of_water(dam: FlexibleDam, run: DamRun) -> Floats | None:
+    """Return the largest pressure beyond that at rest [Pa] and when [s], the least and when, (4, p) at all nodes below
+    the surface, face by face; None without compressible water."""
+    if dam.reservoir is None:
+        return None
+    found = run.pressures
+    return np.stack([found.tension, found.tension_time, found.compression, found.compression_time])
+
+
+def pressure_ranges(reservoir: WaterBody, extremes: Floats) -> list[PressureRange]:
+    """Return the range of the pressure on each face over a run, by :func:`extremes_of_water`."""
     ranges, first = [], 0
     for face in reservoir.faces:
         own = slice(first, first + face.wet.size)
         first += face.wet.size
-        columns = (pressures.tension, pressures.tension_time, pressures.compression, pressures.compression_time)
-        ranges.append(PressureRange(face, *(column[own] for column in columns)))
+        ranges.append(PressureRange(face, *extremes[:, own]))
     return ranges
 
 
 def face_pressures(dam: FlexibleDam, run: DamRun) -> list[FacePressure] | None:
     """Return the extremes of the pressure on each face in a run of a dam; None without compressible water."""
-    if dam.reservoir is None:
+    extremes = extremes_of_water(dam, run)
+    if dam.reservoir is None or extremes is None:
         return None
     result = []
-    for of in pressure_ranges(dam.reservoir, run.pressures):
+    for of in pressure_ranges(dam.reservoir, extremes):
         z, total = of.face.points[of.face.wet, 1], of.face.still[of.face.wet] + of.least
         high, low = int(np.argmax(of.most)), int(np.argmin(total))
         lowest = ATMOSPHERE + float(total[low])
