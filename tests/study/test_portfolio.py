@@ -136,7 +136,7 @@ def test_the_command_prints_the_ranks_and_writes_them(tmp_path):
     assert places == sorted(places)
     assert page.count('class="page"') == 3
     assert ">50 m<" in page[places[0] : places[1]]
-    assert ">50 m<" not in page[places[2] :].partition("What was varied")[0]
+    assert ">50 m<" not in page[places[2] :].partition("Fields varied")[0]
 
 
 def test_a_study_without_a_table_has_no_ranks(tmp_path):

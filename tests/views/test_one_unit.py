@@ -84,7 +84,7 @@ def test_tables_of_a_study_on_the_screen(study, units, summary, tornado, speed):
     lines = text.splitlines()
     result = {
         "summary": {line.split()[-1] for line in lines if re.match(r"(residual slip|opening).*:.*[1-9]", line)},
-        "tornado": set(re.findall(r"[\d.]+ (\w+) \(", text.partition("What the slip depends on")[2])),
+        "tornado": set(re.findall(r"[\d.]+ (\w+) \(", text.partition("Fields that decide the slip")[2])),
     }
     assert result == {"summary": {summary}, "tornado": {tornado}}, text
     assert set(re.findall(r"[\d.]+ (m/s|ft/s|mm/s|in/s)", text)) == {speed}

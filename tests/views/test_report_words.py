@@ -104,7 +104,7 @@ def test_the_table_of_revisions_stands_on_page_one(typical_both):
     table = report.blocks[0]
     assert isinstance(table, Table)
     # No one has checked them: there is no such column, and no title block, for which there are no words.
-    assert table.head == ("Revision", "What was changed", "Prepared")
+    assert table.head == ("Revision", "Change", "Prepared")
     assert table.rows == (("A", "first issue", ""), ("1", "new record", "N. N."))
     assert report.about == ()
     assert "new record" in html(report)

@@ -74,7 +74,7 @@ def test_the_command_writes_figures_and_renews_them(tmp_path):
     file, out = study_file(tmp_path, text), tmp_path / "out"
     result = command("study", file, "--out", out, "--no-figures", "--details", "--json", tmp_path / "told.json")
     assert result.returncode == 0, result.stderr
-    assert "What the slip depends on" in result.stdout
+    assert "Fields that decide the slip" in result.stdout
     assert not (out / "figures").exists()
     assert len(json.loads((tmp_path / "told.json").read_text())["measures_compared"]["rigid"]["measures"]) == 7
     runs = {path.name: path.read_bytes() for path in (out / "runs").iterdir()}

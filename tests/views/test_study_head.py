@@ -58,7 +58,7 @@ def test_the_head_is_that_of_a_run(case, tmp_path, what):
 def test_the_dam_stands_below_its_heading(case, tmp_path, what):
     results = studied(case, tmp_path / what, what)
     document = study_document(study_subject(results, BASE.parent, "si", "", None))
-    heading = "The dam" if what == "suite" else "What was varied"
+    heading = "The dam" if what == "suite" else "Fields varied"
     (section,) = [block for block in document.blocks if isinstance(block, Section) and block.title == heading]
     (figure,) = [block for block in section.blocks if isinstance(block, FigureBlock)]
     # A figure that floats goes to the top of a page, above the heading.

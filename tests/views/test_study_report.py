@@ -34,7 +34,7 @@ def test_a_drawn_study(tmp_path):
     study = run_study(study_file(tmp_path, DRAWN), tmp_path / "out")
     document, text = report(study, tmp_path)
     assert titles(document) == [
-        *("Question and answer", "What was varied", "Ground motions", "Results", "Fragility"),
+        *("Question and answer", "Fields varied", "Ground motions", "Results", "Fragility"),
         *("Measures of strength compared", "How it was computed", "References", "To run it again"),
         "Appendix: the base case",
     ]
@@ -112,7 +112,7 @@ def test_what_the_slip_hangs_on_has_a_section(tmp_path, method, figure):
     listed = GRID.replace('"case.toml"\n', '"case.toml"\nmethod = "one at a time"\n', 1)
     study = run_study(study_file(tmp_path, drawn if method == "sensitivity" else listed), tmp_path / "out")
     document, _ = report(study, tmp_path, "us")
-    section = next(block for block in document.blocks if getattr(block, "title", "") == "What the slip depends on")
+    section = next(block for block in document.blocks if getattr(block, "title", "") == "Fields that decide the slip")
     assert [type(block) for block in section.blocks] == [Table, FigureBlock]
     assert section.blocks[1].name == figure
 

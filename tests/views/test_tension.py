@@ -66,7 +66,7 @@ def test_page_one_of_the_report_has_it(judged):
     case = plane_case(HEIGHT, [*SHORT, "concrete.tensile_strength=0.5 MPa"])
     text = Reader(html(build_report(case, judged))).text
     assert re.search(r"Largest tension in the concrete\s+[\d.]+ MPa", text)
-    assert re.search(r"What it bears in an earthquake\s+0\.75 MPa", text)
+    assert re.search(r"Strength in an earthquake\s+0\.75 MPa", text)
 
 
 def test_what_it_is_worth_is_said(judged):

@@ -77,7 +77,7 @@ class Project(Fields):
 _COLUMNS = {
     "revision": "Revision",
     "date": "Date",
-    "change": "What was changed",
+    "change": "Change",
     "author": "Prepared",
     "checker": "Checked",
     "approver": "Approved",

@@ -42,8 +42,8 @@ class LawCurve(Block):
     """The apparent friction of a law, strength over normal stress."""
 
     law: Annotated[str, Number("Name of the law.")]
-    title: Annotated[str, Number("What it belongs to: a case, or numbers that only show its shape.")]
-    over: Annotated[str, Number('What it goes by: "slip path", "slip speed" or "normal stress".')]
+    title: Annotated[str, Number("The owner: a case, or numbers that only show its shape.")]
+    over: Annotated[str, Number('Its argument: "slip path", "slip speed" or "normal stress".')]
     at: Annotated[Floats, Number("Places along that, in m, m/s or Pa.")]
     friction: Annotated[Floats, Number("Apparent friction there of a crack that slips.")]
     at_rest: Annotated[float, Number("Apparent friction before any slip under `normal_stress_pa`.")]

@@ -67,7 +67,7 @@ class LawFit(Block):
     """A law with the numbers that fit the tests best."""
 
     law: Annotated[str, Number("Name of the law.")]
-    over: Annotated[str, Number('What it goes by: "normal stress", "slip path" or "slip speed".')]
+    over: Annotated[str, Number('Its argument: "normal stress", "slip path" or "slip speed".')]
     points: Annotated[int, Number("Tests, or points of curves, that it was fitted to.")] = 0
     parameters: Annotated[list[Parameter], Number("Its numbers.")] = field(default_factory=list)
     covariance: Annotated[

@@ -305,7 +305,7 @@ def _joints_in_order(bonds: Sequence[tuple[CrackResponse, BondState]], units: st
         return f"None of the {len(bonds)} joints cracks."
     when, level = cracked[0]
     begins = "before the earthquake" if when == 0.0 else f"at {when:.2f} s"
-    sentences = [f"Of {len(bonds)} joints that at {_level(level, units)} cracks first, {begins}."]
+    sentences = [f"The joint at {_level(level, units)} cracks first of {len(bonds)}, {begins}."]
     through = sorted(
         (bond.cracked_through_s, crack.elevation) for crack, bond in bonds if bond.cracked_through_s is not None
     )

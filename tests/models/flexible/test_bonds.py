@@ -408,7 +408,7 @@ def test_of_many_joints_the_verdict_and_a_picture_say_which_cracks_first():
     assert list(bonds) == [20.0, 10.0, 0.0]
     first = min((bond.first_cracking_s, level) for level, bond in bonds.items() if bond.first_cracking_s is not None)
     text = verdict(response)
-    assert f"Of 3 joints that at {first[1]:g} m cracks first, at {first[0]:.2f} s." in text
+    assert f"The joint at {first[1]:g} m cracks first of 3, at {first[0]:.2f} s." in text
     for level, bond in bonds.items():
         assert (f"{level:g} m ({bond.cracked_through_s or -1.0:.2f} s)" in text) == (bond.cracked_through_s is not None)
     figures = all_figures(None, response)

@@ -32,7 +32,7 @@ function further(answer) {
 function warnings(answer) {
   if (!answer.warnings.length) return [];
   const items = answer.warnings.map((/** @type {any} */ warning) => element("li", { class: warning.severity }, warning.text));
-  return [element("h4", {}, "What to know before using these numbers"), element("ul", { class: "warnings" }, ...items)];
+  return [element("h4", {}, "Before you use these numbers"), element("ul", { class: "warnings" }, ...items)];
 }
 
 const BADGES = /** @type {Record<string, string>} */ ({ met: "✓ ", doubted: "? ", failed: "✗ ", free: "" });

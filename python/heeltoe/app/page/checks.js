@@ -58,7 +58,7 @@ export class StaticChecks {
       ...mark,
       element("p", { class: answer.ok ? "" : "bad" }, answer.failed.length ? `${answer.verdict.replace(/\.$/, "")}: ${answer.failed.join("; ")}.` : answer.verdict),
       table("Checks", ["load case", "check", "is", "required", ""], rows),
-      element("table", { class: "numbers facts", "aria-label": "What the checks rest on" }, element("tbody", {}, ...basis)),
+      element("table", { class: "numbers facts", "aria-label": "Basis of the checks" }, element("tbody", {}, ...basis)),
       ...items(answer.warnings),
     );
   }

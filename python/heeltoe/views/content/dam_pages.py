@@ -75,7 +75,7 @@ def _page(subject: StudySubject, dam: int, runs: list[dict[str, Any]]) -> Sectio
         (Code(field), shown(text, units, field.rpartition(".")[2]), shown(_base(subject.case, field), units))
         for field, text in fields.items()
     ]
-    blocks.append(Table(("field", "this dam", "base case"), tuple(rows), "What the table of dams gives.", "lrr"))
+    blocks.append(Table(("field", "this dam", "base case"), tuple(rows), "Fields that the table of dams gives.", "lrr"))
     figure = drawing(f"dam-{dam}", section_figure(case, units), "Section of the dam with its crack.", _SHARE)
     blocks += [_motions(subject, runs), replace(figure, held=True)]
     return Section(plain(name), tuple(blocks), page=True)

@@ -51,7 +51,7 @@ def document(subject: Subject) -> Document:
     blocks = without_gaps(revisions(subject.case), *sections)
     return Document(
         title=subject.title,
-        subtitle=f"What the dam does in the earthquake, by {models}",
+        subtitle=f"The dam in the earthquake, by {models}",
         footer=" · ".join([*named(subject.case), f"heeltoe {build_info()['heeltoe']}", f"input {hashed[:12]}"]),
         blocks=with_one_unit(blocks, subject.numbers),
         about=tuple((label, plain(words)) for label, words in subject.case.project.rows()),

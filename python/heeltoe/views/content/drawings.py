@@ -30,7 +30,7 @@ CAPTIONS = {
     "forces": "Forces across the crack.",
     "bearing": "Normal stress at heel and toe, straight over the crack as in static checks; where it is negative, "
     "the crack does not bear over all its width.",
-    "anchors": "What the anchors bear, tension and resistance to slip together, and what they are good for.",
+    "anchors": "Forces that the anchors bear, tension and resistance to slip together, and their capacity.",
     "crest": "How the crest moves: its displacement relative to the ground, positive downstream, and its "
     "acceleration with that of the ground.",
     "energy": "Where the energy put in by the earthquake goes.",
@@ -41,7 +41,7 @@ CAPTIONS = {
     "crack-level": "Acceleration of ground and crack, their response spectra, and the amplification; dotted: periods.",
     "joints": "How much of each joint is cracked over time, by its height; white: whole, black: cracked through.",
     "joint": "Where the bond of the joint is intact, softens and is broken, over time; above, how far it is cracked.",
-    "crack": "What each place of the crack does over time.",
+    "crack": "Each place of the crack over time.",
     "deformed": "Deformed dam with its principal stresses, tension on the left, compression on the right.",
     "tension": "Largest principal tension over the run at every place, and the largest of all.",
     "pressure": "Contact pressure along the crack over time.",

@@ -116,7 +116,7 @@ def revisions(case: Case) -> Table | None:
     if not lines:
         return None
     rows: tuple[tuple[Inline, ...], ...] = tuple(tuple(map(plain, line)) for line in lines)
-    widths = tuple(_WIDE if name == "What was changed" else 1.0 for name in head)
+    widths = tuple(_WIDE if name == "Change" else 1.0 for name in head)
     return Table(head, rows, "Revisions of this report.", "l" * len(head), widths)
 
 

@@ -60,7 +60,7 @@ def _question(subject: Subject) -> Block:
     motion = subject.first.prefix + "motion."
     n = subject.numbers
     where = "each of its cracks" if subject.case.further_cracks else "its crack"
-    before, after, asked = "What does the part of “", f"” above {where} do", "does it"
+    before, after, asked = "How does the part of “", f"” above {where} move", "does it"
     bonded = sum(alone.crack.bond is not None for alone in subject.case.single_crack_cases)
     if bonded:
         before, after = ("Does the joint of “" if bonded == 1 else "Do the joints of “"), "” crack"
@@ -158,7 +158,7 @@ def _numbers(subject: Subject) -> Block:
     if any(tensions):
         rows.append(subject.row("Largest tension in the concrete", "tension.stress_pa") + (("",) if both else ()))
     if any(tension and tension["strength"] for tension in tensions):
-        bears = subject.row("What it bears in an earthquake", "tension.strength.dynamic_pa")
+        bears = subject.row("Strength in an earthquake", "tension.strength.dynamic_pa")
         rows.append(bears + (("",) if both else ()))
     static = subject.row("Sliding safety factor before it, uplift of the case", "static.sliding_safety_factor")
     rows.append(static + (("",) if both else ()))
@@ -204,7 +204,7 @@ def _numbers_of_cracks(subject: Subject) -> Block:
     if tension:
         rows.append((*subject.row("Largest tension in the concrete", "tension.stress_pa"), *blank))
     if tension and tension["strength"]:
-        rows.append((*subject.row("What it bears in an earthquake", "tension.strength.dynamic_pa"), *blank))
+        rows.append((*subject.row("Strength in an earthquake", "tension.strength.dynamic_pa"), *blank))
     head = (
         "",
         *(written("crack at {at_m:.4g m}", subject.units, at_m=result.cracks[place].elevation) for place in places),

@@ -55,14 +55,14 @@ if TYPE_CHECKING:
 
 _CAPTIONS = {
     "section": "Section of the base case with its crack, water levels and the pressure in the crack.",
-    "bands": "What 16, 50 and 84 % of the runs stay below, by the strength of the motion; runs without a result count "
-    "as infinitely far. Thin lines, if any, are single dams in single motions.",
+    "bands": "Values that 16, 50 and 84 % of the runs stay below, by the strength of the motion; runs without a result "
+    "count as infinitely far. Thin lines, if any, are single dams in single motions.",
     "fragility": "Shares of the runs that exceed (points, with exact bounds), and fragility curves with what they lie "
     "within (shaded); dotted, where there is no curve, between which strengths half of the dams come to exceed.",
     "slips": "Share of the runs that slide farther than so much.",
     "modes": "Which mode of motion makes most of the slip, in shares of the runs that slide; above the bars how many.",
     "sobol": "Sobol’s indices of the residual slip with their intervals.",
-    "tornado": "What each field by itself makes of the mean residual slip; the line is the case as it is.",
+    "tornado": "The mean residual slip by each field alone; the line is the case as it is.",
 }
 _CAPTIONS |= {
     "suite": "Residual slip of each record, by its worse sign (bar) and the other (mark), with the numbers over all.",
@@ -171,7 +171,7 @@ def _question(subject: StudySubject) -> Section:
     dams = study.store.count // max(1, _runs_of_a_dam(subject))
     motions = len(study.manifest["motions"])
     asked = (
-        f"What does the part above the crack do in {study.store.count:,} runs: {counted(dams, 'dam')}, "
+        f"How does the part above the crack move in {study.store.count:,} runs: {counted(dams, 'dam')}, "
         f"{counted(motions, 'ground motion')} of {counted(len(study.manifest['events']), 'event')}?"
     )
     asked += "" if study.walk.every or motions == 1 else " Each dam meets one of them."
@@ -246,13 +246,15 @@ def _varied(subject: StudySubject) -> Section:
         varied = tuple(
             (Code(path), values_phrase(values, subject.units, path)) for path, values in study["vary"].items()
         )
-        blocks.append(Table(("field", "values"), varied, "What varies; all else is as in the base case.", "ll", (4, 8)))
+        blocks.append(
+            Table(("field", "values"), varied, "Fields that vary; all others are as in the base case.", "ll", (4, 8))
+        )
     else:
         blocks.append(paragraph("No field of the case varies."))
     if study["correlation"]:
         rows = tuple((Code(first), Code(second), f"{value:g}") for first, second, value in study["correlation"])
-        blocks.append(Table(("field", "and field", "rank correlation"), rows, "What is drawn together.", "llr"))
-    return Section("What was varied", (*blocks, *subject.figure("section")))
+        blocks.append(Table(("field", "and field", "rank correlation"), rows, "Fields that are drawn together.", "llr"))
+    return Section("Fields varied", (*blocks, *subject.figure("section")))
 
 
 def _motions(subject: StudySubject) -> Section:

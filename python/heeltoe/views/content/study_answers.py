@@ -583,7 +583,7 @@ def hangs_on(subject: StudySubject) -> Section | None:
         blocks = [_tornado(model, numbers, subject.units) for model, numbers in study.tornado().items()]
     else:
         return None
-    return Section("What the slip depends on", (*blocks, *subject.figure("sobol", "tornado")))
+    return Section("Fields that decide the slip", (*blocks, *subject.figure("sobol", "tornado")))
 
 
 def _sobol(model: str, numbers: Sobol) -> Block:

@@ -85,7 +85,7 @@ def _governing(row: SuiteModel, units: str) -> str:
         end = f"with a residual slip of {length(worst.residual_slip_m, units)}"
     if count == 1:
         return f"The one record{signs} is {worst.motion}, {worst.sign}, {end}."
-    return f"Of {count} records{signs} {worst.motion}, {worst.sign}, governs, {end}."
+    return f"{worst.motion}, {worst.sign}, governs among {count} records{signs.rstrip(',')}, {end}."
 
 
 def _numbers(row: SuiteModel, units: str) -> str:
@@ -176,6 +176,6 @@ def _statistics(row: SuiteModel, units: str) -> Table:
     if _ACCELERATION in numbers:
         shakes = [numbers[_ACCELERATION][name] for name in shown]
         rows += (("crest acceleration", *(NOTHING if g is None else measured(g, "g", units) for g in shakes)),)
-    over = f"Over {len(row.records)} records" if len(shown) > 1 else "Of the record"
+    over = f"Over {len(row.records)} records" if len(shown) > 1 else "The record"
     caption = f"{over}, {row.model} model, {'each ' * (len(shown) > 1)}by its worse sign."
     return Table(("", *shown.values()), rows, caption, "l" + "r" * len(shown))

@@ -19,7 +19,7 @@ export function shownMotion(motion) {
     "section", { class: "card", "data-motion": motion.way, "aria-label": `${TITLES[motion.way]} motion` },
     element("h3", {}, TITLES[motion.way]),
     element("table", { class: "numbers facts" }, element("tbody", {}, ...rows)),
-    ...(warnings.length ? [element("h4", {}, "What to know before using it"), element("ul", { class: "warnings" }, ...warnings)] : [element("p", { class: "faint" }, "The checks found nothing to warn of.")]),
+    ...(warnings.length ? [element("h4", {}, "Before you use it"), element("ul", { class: "warnings" }, ...warnings)] : [element("p", { class: "faint" }, "The checks found nothing to warn of.")]),
   );
   card.style.setProperty("--of", `var(--${COLOURS[motion.way]})`);
   return card;

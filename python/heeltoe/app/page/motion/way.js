@@ -34,7 +34,7 @@ export class Way {
       this.clear();
       other();
     } }));
-    this.stated = element("div", {}, element("p", { class: "faint" }, "What the file does not state:"), ...at("unit"), line("unit", "unit of its numbers (g, cm/s^2, m/s^2)"), ...at("time_step"), line("time_step", "time between two of them [s]"));
+    this.stated = element("div", {}, element("p", { class: "faint" }, "The file does not state:"), ...at("unit"), line("unit", "unit of its numbers (g, cm/s^2, m/s^2)"), ...at("time_step"), line("time_step", "time between two of them [s]"));
     this.made = element("div", {}, line("magnitude", "magnitude", "6.5"), line("distance", "distance [km]", "20"), line("seed", "seed", "1"));
     this.pulse = element("div", {}, line("period", "period [s]", "0.5"), ...at("period"), ...at("points"));
     this.reverse = /** @type {HTMLInputElement} */ (element("input", { type: "checkbox", id: `${name}-reverse`, onchange: changed }));

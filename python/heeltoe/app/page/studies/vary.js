@@ -22,7 +22,7 @@ export class VaryRows {
     this.list = element("div", { class: "varied" });
     this.none = element("p", { class: "faint" }, "No field of the case varies.");
     const add = element("button", { type: "button", onclick: () => this.add() }, "Add a field");
-    this.root = element("fieldset", { "data-field": "vary" }, element("legend", {}, "What varies"), this.none, this.list, add);
+    this.root = element("fieldset", { "data-field": "vary" }, element("legend", {}, "Fields that vary"), this.none, this.list, add);
   }
 
   add() {
