@@ -12,7 +12,8 @@
 //! them rebound.
 
 use super::contact::Contacts;
-use super::coulomb::disc::{Disc, Rows, Side};
+use super::coulomb::disc::{Disc, Rows, Side, SLACK};
+use super::coulomb::{Problem, Solver};
 use super::dam::{CrossShaking, Dam};
 use super::dampers::HeldNodes;
 use super::dowels::Dowels;
@@ -22,12 +23,16 @@ use super::linear::LinearDam;
 use super::modal_stepper::Drive;
 use super::place::Place;
 use super::scheme::TimeStep;
-use super::simd::Lanes;
+use super::simd::{largest, Lanes};
+use super::status::Status;
 use super::summary::CrossSummary;
 use super::track::Track;
 
 /// Closer to a neighbour than this (m) a node touches it; it may pass it by the way of one step.
 const TOUCHES: f64 = 1e-9;
+
+/// Left out is an open contact that would have to move so many times as fast to close.
+const FAR: f64 = 2.0;
 
 /// Contacts whose correlation, squared, differs from 1 by less are of the same two nodes.
 const ALIKE: f64 = 1e-9;
@@ -52,6 +57,13 @@ pub(super) struct Across<'a> {
     dowels: Option<Dowels>,
     /// Whether contacts have moved since their answers were written.
     pub moved: bool,
+    /// How often contacts have moved; at which of these times each did last, and the answer of each to each was written.
+    now: u64,
+    moved_last: Vec<u64>,
+    known: Vec<u64>,
+    /// Open contacts that the problem of a step leaves out, as long as they do not close without it. They would move in
+    /// every step, and all answers to them with them.
+    left_out: Vec<bool>,
     pub track: Option<Track>,
 }
 
@@ -78,6 +90,10 @@ impl<'a> Across<'a> {
             bonds: vec![0.0; contacts],
             dowels: Dowels::new(&dam.cracks),
             moved: true,
+            now: 1,
+            moved_last: vec![1; contacts],
+            known: vec![0; contacts * contacts],
+            left_out: vec![false; contacts],
             track: crossing.crest.map(|row| Track::new(row, crossing.ground.len())),
             crossing,
         })
@@ -100,7 +116,7 @@ impl<'a> Across<'a> {
 
     /// Leave it at rest for a step.
     pub(super) fn stay(&mut self, contacts: &Contacts) {
-        self.moved |= contacts.moved.contains(&true);
+        self.note_moved(contacts);
         self.rows.p.fill(0.0);
         self.rows.u.fill(0.0);
         if let Some(dowels) = &mut self.dowels {
@@ -115,23 +131,14 @@ impl<'a> Across<'a> {
         }
         self.linear.find_free::<W>(self.dowels.is_some(), false);
         self.disc.begin();
+        self.note_moved(contacts);
         let (linear, rows, m) = (&self.linear, &mut self.rows, contacts.len());
-        let held = &self.held[linear.damping()];
-        let all = self.moved;
-        self.moved |= contacts.moved.contains(&true);
-        let pairs = if self.moved { &contacts.pairs[..] } else { &[] };
-        for (i, one) in pairs.iter().enumerate() {
-            let Some(one) = one else { continue };
-            for (j, other) in pairs[..=i].iter().enumerate() {
-                let (Some(other), true) = (other, all || contacts.moved[i] || contacts.moved[j]) else {
-                    continue;
-                };
-                let own = if i == j { 1.0 + self.softness } else { 1.0 };
-                let answer = own * held.across(one, other);
-                (rows.g[i * m + j], rows.g[j * m + i]) = (answer, answer);
-            }
-            if rows.scale[i] == 0.0 {
-                rows.scale[i] = 1.0 / rows.g[i * m + i];
+        if self.moved {
+            let held = &self.held[linear.damping()];
+            for (scale, pair) in rows.scale.iter_mut().zip(&contacts.pairs) {
+                if let (Some(pair), 0.0) = (pair, *scale) {
+                    *scale = 1.0 / ((1.0 + self.softness) * held.across(pair, pair));
+                }
             }
         }
         contacts.relative_across(|crack| linear.free(crack), &mut rows.b);
@@ -141,12 +148,92 @@ impl<'a> Across<'a> {
             let [left, right] = self.crossing.gap;
             *touches = [slip + TOUCHES > left, TOUCHES - slip > right];
         }
-        let touched = rows.touches.iter().any(|touches| *touches != [false; 2]);
-        for contact in if touched { 1..m } else { 0..0 } {
-            if stopped_by_another(|k| contacts.pairs[k].is_some(), rows, self.softness, contact) {
-                rows.touches[contact] = [false; 2];
+        if rows.touches.iter().any(|touches| *touches != [false; 2]) {
+            self.fill(contacts, |_| true);
+            let rows = &mut self.rows;
+            for contact in 1..m {
+                if stopped_by_another(|k| contacts.pairs[k].is_some(), rows, self.softness, contact) {
+                    rows.touches[contact] = [false; 2];
+                }
             }
         }
+    }
+
+    /// Note which contacts have moved.
+    fn note_moved(&mut self, contacts: &Contacts) {
+        if contacts.moved.contains(&true) {
+            self.moved = true;
+            self.now += 1;
+            let moved = self.moved_last.iter_mut().zip(&contacts.moved);
+            moved.for_each(|(last, moved)| *last = if *moved { self.now } else { *last });
+        }
+    }
+
+    /// Write how each of the `wanted` contacts answers to any other of them, where it is not known.
+    pub(super) fn fill(&mut self, contacts: &Contacts, wanted: impl Fn(usize) -> bool) {
+        let (rows, m) = (&mut self.rows, contacts.len());
+        let held = &self.held[self.linear.damping()];
+        for (i, one) in contacts.pairs.iter().enumerate() {
+            let (Some(one), true) = (one, wanted(i)) else {
+                continue;
+            };
+            for (j, other) in contacts.pairs[..=i].iter().enumerate() {
+                let (Some(other), true) = (other, wanted(j)) else {
+                    continue;
+                };
+                let known = &mut self.known[i * m + j];
+                if *known >= self.moved_last[i].max(self.moved_last[j]) {
+                    continue;
+                }
+                *known = self.now;
+                let own = if i == j { 1.0 + self.softness } else { 1.0 };
+                let answer = own * held.across(one, other);
+                (rows.g[i * m + j], rows.g[j * m + i]) = (answer, answer);
+            }
+        }
+    }
+
+    /// Choose what the problem of a step leaves out: open contacts that have moved and do not close fast; `before` are the
+    /// velocities before the step.
+    pub(super) fn leave_out(
+        &mut self,
+        contacts: &Contacts,
+        problem: &Problem,
+        status: &[Status],
+        before: &[f64],
+    ) {
+        let m = contacts.len();
+        for (k, left_out) in self.left_out.iter_mut().enumerate() {
+            let slowest = before[m + k].min(problem.b[m + k]);
+            let stays = contacts.moved[k]
+                && status[k] == Status::Open
+                && self.rows.touches[k] == [false; 2]
+                && problem.h[k] + FAR * slowest > 0.0;
+            self.moved |= *left_out && !stays;
+            *left_out = stays;
+        }
+    }
+
+    /// Let the states be those that the problem has, or, `after` it, those of all contacts.
+    pub(super) fn mark_left_out(&self, status: &mut [Status], after: bool) {
+        for (status, left_out) in status.iter_mut().zip(&self.left_out) {
+            if *left_out {
+                *status = if after { Status::Open } else { Status::Absent };
+            }
+        }
+    }
+
+    /// Take contacts back that have been left out and would pass the other face; false where none would.
+    pub(super) fn take_back(&mut self, problem: &Problem, solver: &Solver) -> bool {
+        let (m, slack) = (self.left_out.len(), SLACK * largest(&problem.b));
+        let mut any = false;
+        for (k, left_out) in self.left_out.iter_mut().enumerate() {
+            if *left_out && solver.u[m + k] + problem.h[k] < -slack {
+                (*left_out, any) = (false, true);
+            }
+        }
+        self.moved |= any;
+        any
     }
 
     /// Motion of its contacts. Where a neighbour pushes, it bears all that acts across the valley.

@@ -174,15 +174,22 @@ impl Contacts {
 
     /// The same across the valley, of bodies whose nodes move that way alone.
     pub(super) fn relative_across<'f>(&self, of: impl Fn(usize) -> Faces<'f>, motion: &mut [f64]) {
-        for (pair, motion) in self.pairs.iter().zip(motion) {
-            let sum = |all: &[f64], nodes: &[(usize, f64); 2]| -> f64 {
-                let moving = nodes.iter().filter(|(_, weight)| *weight != 0.0);
-                moving.map(|(node, weight)| weight * all[*node]).sum()
-            };
-            *motion = pair.as_ref().map_or(0.0, |pair| {
-                let faces = of(pair.crack);
-                sum(faces.upper, &pair.upper) + sum(faces.lower, &pair.lower)
-            });
+        let sum = |all: &[f64], nodes: &[(usize, f64); 2]| -> f64 {
+            let moving = nodes.iter().filter(|(_, weight)| *weight != 0.0);
+            moving.map(|(node, weight)| weight * all[*node]).sum()
+        };
+        for (crack, (place, range, _)) in self.cracks.iter().enumerate() {
+            let (faces, motion) = (of(crack), &mut motion[range.clone()]);
+            if place.on_plane() {
+                let Span { first, count } = place.upper;
+                motion.copy_from_slice(&faces.upper[first..][..count]);
+                continue;
+            }
+            for (pair, motion) in self.pairs[range.clone()].iter().zip(motion) {
+                *motion = pair.as_ref().map_or(0.0, |pair| {
+                    sum(faces.upper, &pair.upper) + sum(faces.lower, &pair.lower)
+                });
+            }
         }
     }
 
@@ -194,10 +201,18 @@ impl Contacts {
         of: impl Fn(&mut T) -> &mut Vec<f64>,
     ) {
         parts.iter_mut().for_each(|part| of(part).fill(0.0));
-        for (pair, force) in self.pairs.iter().zip(forces) {
-            for (part, nodes) in pair.iter().flat_map(Pair::parts) {
-                for (node, weight) in nodes.iter().filter(|(_, weight)| *weight != 0.0) {
-                    of(&mut parts[part])[*node] += weight * force;
+        for (crack, (place, range, _)) in self.cracks.iter().enumerate() {
+            let forces = &forces[range.clone()];
+            if place.on_plane() {
+                let Span { first, count } = place.upper;
+                of(&mut parts[crack])[first..][..count].copy_from_slice(forces);
+                continue;
+            }
+            for (pair, force) in self.pairs[range.clone()].iter().zip(forces) {
+                for (part, nodes) in pair.iter().flat_map(Pair::parts) {
+                    for (node, weight) in nodes.iter().filter(|(_, weight)| *weight != 0.0) {
+                        of(&mut parts[part])[*node] += weight * force;
+                    }
                 }
             }
         }

@@ -17,16 +17,24 @@ pub(super) struct FacesOperator<'s, 'a> {
 }
 
 impl FacesOperator<'_, '_> {
-    /// Solve the contact problem of a step together with that across the valley.
+    /// Solve the contact problem of a step together with that across the valley; `before` are the velocities before the
+    /// step.
     pub(super) fn solve_across<W: Lanes>(
         &mut self,
         problem: &mut Problem,
         solver: &mut Solver,
         across: &mut Across,
+        before: &[f64],
     ) -> Report {
-        let report = self.solve_disc::<W>(problem, solver, across);
-        self.velocities::<W>(problem, &solver.p, &mut solver.u);
-        report
+        across.leave_out(self.contacts, problem, &solver.status, before);
+        let mut report = Report::default();
+        loop {
+            report.go_on(self.solve_disc::<W>(problem, solver, across));
+            self.velocities::<W>(problem, &solver.p, &mut solver.u);
+            if !across.take_back(problem, solver) {
+                return report;
+            }
+        }
     }
 
     /// Find the impulses of both.
@@ -36,13 +44,17 @@ impl FacesOperator<'_, '_> {
         solver: &mut Solver,
         across: &mut Across,
     ) -> Report {
-        let (status, moved) = (&solver.status, across.moved);
+        let moved = across.moved;
+        across.mark_left_out(&mut solver.status, false);
         if moved {
-            self.fill(problem, |contact| status[contact] != Status::Absent);
+            let there = |contact: usize| solver.status[contact] != Status::Absent;
+            self.fill(problem, there);
+            across.fill(self.contacts, there);
         }
         let (disc, rows) = across.problem();
         let solution = (&mut solver.p[..], &mut solver.u[..]);
         let report = disc.solve::<W>(problem, rows, &mut solver.status, solution, moved);
+        across.mark_left_out(&mut solver.status, true);
         across.note();
         across.moved = false;
         report

@@ -444,7 +444,7 @@ impl Solving<'_, '_, '_> {
                     self.step,
                     self.moved,
                 ),
-                (Some(across), None) => self.faces.solve_across::<W>(problem, solver, across),
+                (Some(across), None) => self.faces.solve_across::<W>(problem, solver, across, self.before),
                 (None, None) => solver.solve::<W>(problem, self.faces),
             });
             let across = self.across.as_deref();

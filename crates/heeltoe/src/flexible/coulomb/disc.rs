@@ -50,7 +50,7 @@ const TRIALS_BETWEEN: u32 = 15;
 const LOOK: u32 = 16;
 const SWEEPS: u32 = 4000;
 /// Relative to the largest impulse or velocity: what counts as a violation, and by how much friction may be off.
-const SLACK: f64 = 1e-11;
+pub(in super::super) const SLACK: f64 = 1e-11;
 const RIGHT: f64 = 1e-10;
 /// Corrections at most, what each may leave of what was amiss, and what they leave to rounding and to the tableaux.
 const CORRECTIONS: usize = 12;
@@ -63,8 +63,9 @@ const LOOKS: usize = 8;
 const WORN: usize = 2;
 /// Cosine of the most that a direction may turn from one step to where it goes on.
 const NEAR: f64 = 0.9;
-/// Halvings in the search for a node's lambda, which are more than a double holds.
-const HALVINGS: u32 = 200;
+/// Steps in the search for a node's lambda, which are more than it takes, and what is left to rounding.
+const SECANTS: u32 = 200;
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 /// How the bodies answer across the valley at the contacts, and what they do there.
 #[derive(Default)]
@@ -123,11 +124,19 @@ impl State {
     fn closed(self) -> bool {
         matches!(self, State::Stick | State::Slip(..))
     }
+
+    /// Whether another one is the same but for direction and share.
+    fn alike(self, other: State) -> bool {
+        matches!((self, other), (State::Slip(..), State::Slip(..))) || self == other
+    }
 }
 
 /// The solver, with the states of the last step.
 pub(in super::super) struct Disc {
     states: Vec<State>,
+    /// An earlier set in the search, to see where sets come round, and whether the last look has changed the set.
+    mark: Vec<(State, Side)>,
+    changed: bool,
     /// Where contacts were, how many differences of that are known, and whether a step begins.
     past: Vec<Past>,
     known: usize,
@@ -185,6 +194,8 @@ impl Disc {
         };
         Disc {
             states: vec![State::Stick; contacts],
+            mark: Vec::new(),
+            changed: false,
             past: vec![past; contacts],
             known: 0,
             begins: false,
@@ -294,13 +305,8 @@ impl Disc {
     /// Let impulses and directions go on by their differences, as long as no contact changes its state.
     fn go_ahead(&mut self, way: &mut Way) {
         let m = self.states.len();
-        let same = |(k, past): (usize, &Past)| {
-            way.rows.side[k] == past.side
-                && match (self.states[k], past.state) {
-                    (State::Slip(..), State::Slip(..)) => true,
-                    (state, was) => state == was,
-                }
-        };
+        let same =
+            |(k, past): (usize, &Past)| way.rows.side[k] == past.side && self.states[k].alike(past.state);
         let lasts = self.past.iter().enumerate().all(same);
         self.known = if lasts { self.known } else { 0 };
         for (k, (state, past)) in self.states.iter_mut().zip(&mut self.past).enumerate() {
@@ -329,19 +335,39 @@ impl Disc {
         self.known = (self.known + 1).min(ORDER);
     }
 
-    /// Go from set to set; false where none is right of so many.
+    /// Go from set to set; false where none is right of so many, or they come round in a circle.
     #[inline(always)]
     fn go_on<W: Lanes>(&mut self, way: &mut Way, most: u32, report: &mut Report) -> bool {
-        for _ in 0..most {
+        self.mark.clear();
+        for trial in 1..=most {
             report.iterations += 1;
-            if !self.correct::<W>(way) && !self.bend::<W>(way) {
+            let corrected = self.correct::<W>(way);
+            if !corrected && !self.bend::<W>(way) {
                 return false;
             }
             if self.turn(way) {
                 return true;
             }
+            if !corrected {
+                // The same set goes on with other directions.
+                self.mark.clear();
+            } else if self.changed && self.comes_round(way) {
+                return false;
+            }
+            if trial.is_power_of_two() {
+                self.mark.clear();
+                self.mark
+                    .extend(self.states.iter().copied().zip(way.rows.side.iter().copied()));
+            }
         }
         false
+    }
+
+    /// Whether the set is the one that was marked.
+    fn comes_round(&self, way: &Way) -> bool {
+        let mut now = self.states.iter().zip(&way.rows.side).zip(&self.mark);
+        !self.mark.is_empty()
+            && now.all(|((state, side), (marked, beside))| state.alike(*marked) && side == beside)
     }
 
     /// Let be given in the tableaux what the states say.
@@ -849,6 +875,7 @@ impl Disc {
         let most = largest(way.p).max(largest(&way.rows.p));
         let slack_p = SLACK * most;
         let mut right = true;
+        self.changed = false;
         for contact in 0..m {
             let before = self.states[contact];
             if before == State::Absent {
@@ -893,10 +920,8 @@ impl Disc {
                 }
                 State::Absent | State::Open => {}
             }
-            let same = match (before, next) {
-                (State::Slip(..), State::Slip(..)) => true,
-                (before, next) => before == next,
-            };
+            let same = before.alike(next);
+            self.changed |= !same || next_side != side;
             right &= same && !moved;
             self.states[contact] = next;
             way.rows.side[contact] = next_side;
@@ -1118,6 +1143,42 @@ fn length(a: f64, b: f64) -> f64 {
     (a * a + b * b).sqrt()
 }
 
+/// Where a function that falls from 0 on does not exceed zero any more, to rounding; `about` there. The secant of both ends
+/// finds it, the older of which counts half (Illinois; Dowell and Jarratt 1971).
+fn falls_to_zero(excess: impl Fn(f64) -> f64, about: f64) -> f64 {
+    let (mut low, mut high) = ((0.0, excess(0.0)), (about, excess(about)));
+    if low.1 <= 0.0 {
+        return 0.0;
+    }
+    while high.1 > 0.0 && high.0 < f64::MAX / 4.0 {
+        (low, high) = (high, (4.0 * high.0, excess(4.0 * high.0)));
+    }
+    let mut last_above = None;
+    for _ in 0..SECANTS {
+        if high.1 == 0.0 || high.0 - low.0 <= ROUNDED * high.0 {
+            break;
+        }
+        let secant = high.0 - high.1 * (high.0 - low.0) / (high.1 - low.1);
+        let middle = 0.5 * (low.0 + high.0);
+        let next = if secant > low.0 && secant < high.0 {
+            secant
+        } else {
+            middle
+        };
+        let now = (next, excess(next));
+        let above = now.1 > 0.0;
+        let again = last_above.replace(above) == Some(above);
+        if above {
+            low = now;
+            high.1 *= if again { 0.5 } else { 1.0 };
+        } else {
+            high = now;
+            low.1 *= if again { 0.5 } else { 1.0 };
+        }
+    }
+    high.0
+}
+
 /// A contact by itself, the others held.
 struct Node {
     /// Answers along and along, along and normal, normal and normal, across and across.
@@ -1190,32 +1251,18 @@ impl Node {
         if stick[1] >= 0.0 && size(stick) <= self.mu[0] * stick[1] + self.added[0] {
             return (State::Stick, stick);
         }
-        let too_much = |lambda: f64| {
+        let excess = |lambda: f64| {
             let p = at(lambda);
-            size(p) > self.mu[1] * p[1] + self.added[1]
+            size(p) - self.mu[1] * p[1] - self.added[1]
         };
-        let (mut low, mut high) = (0.0, own.max(self.yy));
-        while too_much(high) && high < f64::MAX / 4.0 {
-            (low, high) = (high, 4.0 * high);
-        }
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            if too_much(middle) {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        let p = at(high);
+        let lambda = falls_to_zero(excess, own.max(self.yy));
+        let p = at(lambda);
         let size = size(p);
         if size == 0.0 {
             return (State::Slip([1.0, 0.0], 0.0), p);
         }
         // |z| is that of p and of what it slips by.
-        let share = 1.0 / (1.0 + self.rho * high);
+        let share = 1.0 / (1.0 + self.rho * lambda);
         (State::Slip([p[0] / size, p[2] / size], share), p)
     }
 }
