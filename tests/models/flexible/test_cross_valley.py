@@ -220,6 +220,17 @@ def test_a_crack_at_a_height_and_rock_follow_it():
         assert run.summary.cross_slip != 0.0
 
 
+@pytest.mark.parametrize("friction", [0.8, 1.2])
+def test_a_part_that_rocks_under_faint_shaking_across_goes_as_with_one_component(friction):
+    """The solver of one component leaves no contact out, however far it is open."""
+    case, shaking = case_of(friction, crack={"elevation": "60 m"}), made(3.0)
+    faint, alone = both(case, replace(shaking, cross=1e-9 * shaking.cross))
+    assert 0.0 < abs(faint.cross_slip) < 1e-8
+    assert min(alone.opening_upstream, alone.opening_downstream) > 5e-3
+    for name in ("slip", "opening_upstream", "opening_downstream", "rotation_min", "rotation_max"):
+        assert getattr(faint, name) == pytest.approx(getattr(alone, name), rel=1e-7), name
+
+
 def test_a_strip_on_rock_answers_across_as_in_closed_form():
     base = np.column_stack([np.linspace(-40.0, 40.0, 17), np.zeros(17)])
     material = RockMaterial(20e9, 0.25, 2650.0)

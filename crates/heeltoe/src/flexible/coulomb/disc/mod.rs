@@ -28,19 +28,22 @@
 //! directions and shares that they have come to. Whatever the corrections before have shown of the matrix is used
 //! (Broyden; Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, chapter 7). The last word has
 //! `G` itself: a tableau may be off by rounding, and by how far `G` has moved since. Where sets of states come round in a
-//! circle, sweeps help: each node by itself, the others held, has a solution by one number `lambda >= 0` with
-//! `u_T = -lambda p_T`. A law adds a constant to `mu p_n`.
+//! circle, sweeps over the nodes help, see [`node`]. A law adds a constant to `mu p_n`.
 //!
 //! A neighbour that a node touches is a plastic stop: where it pushes, `u_y = 0`, it takes all that acts across the valley,
 //! and friction acts along the crack alone. The forces that a node bears there are a convex set, half of a disc and half of a
 //! strip, to which the slip is normal; one that stopped a node within a step would make them jump.
 
-use super::super::simd::{add_times, apart, dot, fill, in_groups, inlined, largest, Group, Lanes, LANES};
+mod node;
+mod slide;
+
+use self::node::sweep;
+use self::slide::{Sliding, CLOSER};
+use super::super::simd::{apart, fill, in_groups, inlined, largest, Group, Lanes, LANES};
 use super::super::status::Status;
 use super::past::{next, Course, ORDER};
 use super::problem::Problem;
 use super::tableau::Tableau;
-use super::triangles::{eliminate, inverse};
 use super::Report;
 
 /// Most sets of states in turn, at first and between sweeps.
@@ -52,20 +55,11 @@ const SWEEPS: u32 = 4000;
 /// Relative to the largest impulse or velocity: what counts as a violation, and by how much friction may be off.
 pub(in super::super) const SLACK: f64 = 1e-11;
 const RIGHT: f64 = 1e-10;
-/// Corrections at most, what each may leave of what was amiss, and what they leave to rounding and to the tableaux.
-const CORRECTIONS: usize = 12;
-const CLOSER: f64 = 0.5;
-const LEFT: f64 = 0.5;
-/// How often its matrix may be renewed in one set of corrections.
-const RENEWALS: u32 = 3;
 /// Looks at the velocities of a set of states at most, and how many of them say that the tableaux are worn.
 const LOOKS: usize = 8;
 const WORN: usize = 2;
 /// Cosine of the most that a direction may turn from one step to where it goes on.
 const NEAR: f64 = 0.9;
-/// Steps in the search for a node's lambda, which are more than it takes, and what is left to rounding.
-const SECANTS: u32 = 200;
-const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 /// How the bodies answer across the valley at the contacts, and what they do there.
 #[derive(Default)]
@@ -163,18 +157,6 @@ pub(in super::super) struct Disc {
     lu: Vec<f64>,
     pivots: Vec<usize>,
     steps: Vec<Group>,
-}
-
-/// A contact that slips on the way to its solution: friction, velocities, the normal impulse that friction is of and the
-/// one that it leads to.
-#[derive(Clone, Copy, Default)]
-struct Sliding {
-    p: [f64; 2],
-    u: [f64; 2],
-    normal: f64,
-    pressed: f64,
-    /// Velocity of an impulse, to measure by.
-    per: f64,
 }
 
 /// Where a contact was at the last step: its state, its neighbour, and its impulses with their differences until there.
@@ -415,34 +397,6 @@ impl Disc {
         }
     }
 
-    /// Write how the contacts that slip answer to their friction.
-    #[inline(always)]
-    fn gather(&mut self, way: &Way) {
-        let (m, count) = (self.states.len(), self.slips.len());
-        let [plane, across] = &self.tableaux;
-        let stride = (3 * count).div_ceil(LANES);
-        self.answers.clear();
-        self.answers.resize((2 * count * stride).max(1), [0.0; LANES]);
-        self.near.resize(stride, [0.0; LANES]);
-        for (c, &to) in self.slips.iter().enumerate() {
-            let column = self.answers[c * stride..][..stride].as_flattened_mut();
-            for (r, &k) in self.slips.iter().enumerate() {
-                column[r] = plane.answer(k, to);
-                if plane.given(m + k) {
-                    column[count + r] = plane.answer(m + k, to);
-                }
-            }
-            if way.rows.side[to] == Side::None {
-                let column = self.answers[(count + c) * stride..][..stride].as_flattened_mut();
-                for (r, &k) in self.slips.iter().enumerate() {
-                    if way.rows.side[k] == Side::None {
-                        column[2 * count + r] = across.answer(k, to);
-                    }
-                }
-            }
-        }
-    }
-
     /// Let impulses and velocities answer to what is given now, as `x` has it.
     #[inline(always)]
     fn respond<W: Lanes>(&mut self, way: &mut Way) {
@@ -558,245 +512,6 @@ impl Disc {
         }
         self.met.clear();
         false
-    }
-
-    /// Solve for friction where the contacts slip, the others as they are given; false where that does not come closer
-    /// fast.
-    #[inline(always)]
-    fn slide<W: Lanes>(&mut self, way: &mut Way, enough: f64) -> bool {
-        if self.slips.is_empty() {
-            return true;
-        }
-        self.look(way);
-        self.move_on::<W>(way);
-        let (mut before, mut renewals) = (f64::INFINITY, 0);
-        self.steps.clear();
-        for _ in 0..CORRECTIONS {
-            let known = !self.inverse.is_empty();
-            let now = if known { self.missing(way) } else { f64::INFINITY };
-            if now <= LEFT * enough {
-                self.pass_on(way);
-                self.respond::<W>(way);
-                return true;
-            }
-            if now.is_nan() {
-                break;
-            }
-            if !known || now > CLOSER * before {
-                self.see(way);
-                if renewals == RENEWALS || !self.renew::<W>(way) {
-                    break;
-                }
-                renewals += 1;
-                before = f64::INFINITY;
-                self.steps.clear();
-                continue;
-            }
-            before = now;
-            self.find::<W>();
-            self.learn::<W>();
-            if !self.apply::<W>(way) {
-                break;
-            }
-        }
-        self.inverse.clear();
-        false
-    }
-
-    /// Take the contacts that slip as they are.
-    #[inline(always)]
-    fn look(&mut self, way: &Way) {
-        let m = self.states.len();
-        self.sliding.clear();
-        self.sliding.extend(self.slips.iter().map(|&k| Sliding {
-            p: [way.p[k], way.rows.p[k]],
-            u: [way.u[k], way.rows.u[k]],
-            normal: way.p[m + k],
-            pressed: way.p[m + k],
-            per: 1.0 / way.rho(k),
-        }));
-    }
-
-    /// Let friction be that of normal impulses and directions, and all answer to its change.
-    #[inline(always)]
-    fn move_on<W: Lanes>(&mut self, way: &Way) {
-        let count = self.slips.len();
-        for (c, (sliding, &k)) in self.sliding.iter_mut().zip(&self.slips).enumerate() {
-            let State::Slip([t, y], _) = self.states[k] else {
-                continue;
-            };
-            let limit = way.limit(k, true, sliding.normal);
-            let p = [
-                limit * t,
-                if way.rows.side[k] == Side::None {
-                    limit * y
-                } else {
-                    sliding.p[1]
-                },
-            ];
-            (self.x[c], self.x[count + c]) = (p[0] - sliding.p[0], p[1] - sliding.p[1]);
-            sliding.p = p;
-        }
-        self.feel::<W>();
-    }
-
-    /// Let contacts that slip answer to a change of their friction.
-    #[inline(always)]
-    fn feel<W: Lanes>(&mut self) {
-        let count = self.slips.len();
-        self.near.fill([0.0; LANES]);
-        inlined::combine::<W>(
-            &self.answers,
-            self.near.len(),
-            &self.x[..2 * count],
-            &mut self.near,
-        );
-        let near = self.near.as_flattened();
-        for (c, sliding) in self.sliding.iter_mut().enumerate() {
-            sliding.u[0] += near[c];
-            sliding.pressed += near[count + c];
-            sliding.u[1] += near[2 * count + c];
-        }
-    }
-
-    /// Write what is missing as right-hand sides, and return the most of it, as a velocity.
-    #[inline(always)]
-    fn missing(&mut self, way: &Way) -> f64 {
-        let count = self.slips.len();
-        for (c, (sliding, &k)) in self.sliding.iter().zip(&self.slips).enumerate() {
-            let State::Slip([t, y], share) = self.states[k] else {
-                continue;
-            };
-            self.x[c] = (sliding.pressed - sliding.normal) * sliding.per;
-            self.x[count + c] = if way.rows.side[k] == Side::None {
-                share * (y * sliding.u[0] - t * sliding.u[1])
-            } else {
-                0.0
-            };
-        }
-        largest(&self.x[..2 * count])
-    }
-
-    /// Let the shares be those of impulses and velocities as they are.
-    #[inline(always)]
-    fn see(&mut self, way: &Way) {
-        for (sliding, &k) in self.sliding.iter().zip(&self.slips) {
-            if way.rows.side[k] == Side::None {
-                if let State::Slip(to, _) = self.states[k] {
-                    let (_, share) = way.slide_of(k, sliding.p, sliding.u, sliding.normal);
-                    self.states[k] = State::Slip(to, share.min(1.0));
-                }
-            }
-        }
-    }
-
-    /// Find the inverse of Newton's matrix of directions and shares as they are; false where it has none.
-    #[inline(always)]
-    fn renew<W: Lanes>(&mut self, way: &Way) -> bool {
-        let (count, stride) = (self.slips.len(), self.near.len());
-        let n = 2 * count;
-        self.lu.clear();
-        self.lu.resize(n * n, 0.0);
-        for (c, &to) in self.slips.iter().enumerate() {
-            let State::Slip([t, y], share) = self.states[to] else {
-                continue;
-            };
-            let stopped = way.rows.side[to] != Side::None;
-            let (per, mu) = (self.sliding[c].per, way.problem.mu_slip[to]);
-            let along = self.answers[c * stride..][..stride].as_flattened();
-            let across = self.answers[(count + c) * stride..][..stride].as_flattened();
-            // To a change of the normal impulse, and of friction at right angles to its direction.
-            for (column, [by_t, by_y]) in [(c, [mu * t, mu * y]), (count + c, [-y, t])] {
-                let [by_t, by_y] = match (stopped, column == c) {
-                    (false, _) => [by_t, by_y],
-                    (true, true) => [by_t, 0.0],
-                    (true, false) => [0.0; 2],
-                };
-                let column = &mut self.lu[column * n..][..n];
-                for (r, (sliding, &k)) in self.sliding.iter().zip(&self.slips).enumerate() {
-                    let State::Slip([t, y], share) = self.states[k] else {
-                        continue;
-                    };
-                    column[r] = -by_t * along[count + r] * sliding.per;
-                    if way.rows.side[k] == Side::None {
-                        let u = [by_t * along[r], by_y * across[2 * count + r]];
-                        column[count + r] = share * (t * u[1] - y * u[0]);
-                    }
-                }
-            }
-            self.lu[c * n + c] += per;
-            let own = if stopped { 1.0 } else { 1.0 - share };
-            self.lu[(count + c) * n + count + c] += own * per;
-        }
-        self.sum.resize(n.div_ceil(LANES), [0.0; LANES]);
-        if !eliminate::<W>(&mut self.lu, n, &mut self.pivots) {
-            self.inverse.clear();
-            return false;
-        }
-        inverse::<W>(&self.lu, &self.pivots, n, &mut self.inverse);
-        true
-    }
-
-    /// Turn the right-hand sides into the solution by the inverse.
-    #[inline(always)]
-    fn find<W: Lanes>(&mut self) {
-        let n = 2 * self.slips.len();
-        self.sum.fill([0.0; LANES]);
-        inlined::combine::<W>(&self.inverse, self.sum.len(), &self.x[..n], &mut self.sum);
-    }
-
-    /// Change a correction by what those before it have shown, and keep it.
-    #[inline(always)]
-    fn learn<W: Lanes>(&mut self) {
-        let stride = self.sum.len();
-        let mut steps = self.steps.chunks_exact(stride);
-        if let Some(mut last) = steps.next() {
-            for step in steps {
-                add_times::<W>(share(last, &self.sum), step, &mut self.sum);
-                last = step;
-            }
-            let left = 1.0 - share(last, &self.sum);
-            if left > CLOSER {
-                self.sum.as_flattened_mut().iter_mut().for_each(|x| *x /= left);
-            }
-        }
-        self.steps.extend_from_slice(&self.sum);
-    }
-
-    /// Change normal impulses and directions by the solution; false where a node that slips is not pressed any more.
-    #[inline(always)]
-    fn apply<W: Lanes>(&mut self, way: &Way) -> bool {
-        let (count, x) = (self.slips.len(), self.sum.as_flattened());
-        for (c, (sliding, &k)) in self.sliding.iter_mut().zip(&self.slips).enumerate() {
-            sliding.normal += x[c];
-            if let (State::Slip(to, _), Side::None) = (&mut self.states[k], way.rows.side[k]) {
-                let limit = way.limit(k, true, sliding.normal);
-                if limit <= 0.0 {
-                    return false;
-                }
-                let turn = x[count + c] / limit;
-                let turned = [to[0] - to[1] * turn, to[1] + to[0] * turn];
-                let size = length(turned[0], turned[1]);
-                *to = [turned[0] / size, turned[1] / size];
-            }
-        }
-        self.move_on::<W>(way);
-        true
-    }
-
-    /// Hand the friction that has been found over as what is given.
-    #[inline(always)]
-    fn pass_on(&mut self, way: &mut Way) {
-        let m = self.states.len();
-        self.x.fill(0.0);
-        for (sliding, &k) in self.sliding.iter().zip(&self.slips) {
-            self.x[k] = sliding.p[0] - way.p[k];
-            way.p[k] = sliding.p[0];
-            if way.rows.side[k] == Side::None {
-                self.x[2 * m + k] = sliding.p[1] - way.rows.p[k];
-                way.rows.p[k] = sliding.p[1];
-            }
-        }
     }
 
     /// By how much velocities and friction are amiss.
@@ -929,45 +644,6 @@ impl Disc {
         right
     }
 
-    /// What [`sweep`] does.
-    fn sweeps(&mut self, way: &mut Way, most: u32) -> bool {
-        let m = self.states.len();
-        for contact in 0..m {
-            let limit = way.limit(contact, false, way.p[m + contact].max(0.0));
-            if !self.states[contact].closed() {
-                (way.p[contact], way.p[m + contact], way.rows.p[contact]) = (0.0, 0.0, 0.0);
-            }
-            way.p[m + contact] = way.p[m + contact].max(0.0);
-            let size = length(way.p[contact], way.rows.p[contact]);
-            if size > limit {
-                way.p[contact] *= limit / size;
-                way.rows.p[contact] *= limit / size;
-            }
-        }
-        for _ in 0..most {
-            way.velocities::<super::super::simd::Plain>();
-            let (mut change, mut most) = (0.0_f64, 0.0_f64);
-            for contact in 0..m {
-                if self.states[contact] == State::Absent {
-                    continue;
-                }
-                let node = Node::of(way, contact);
-                let (state, side, p) = node.solve();
-                (self.states[contact], way.rows.side[contact]) = (state, side);
-                let before = [way.p[contact], way.p[m + contact], way.rows.p[contact]];
-                let step = [0, 1, 2].map(|k| p[k] - before[k]);
-                change = step.iter().fold(change, |a, x| a.max(x.abs()));
-                most = most.max(p[1]);
-                (way.p[contact], way.p[m + contact], way.rows.p[contact]) = (p[0], p[1], p[2]);
-                way.add(contact, step);
-            }
-            if change <= 1e-13 * most {
-                return true;
-            }
-        }
-        false
-    }
-
     /// By what the worst contact breaks its conditions, over the impulse that would stop the fastest, or the largest.
     fn residual(&self, way: &Way) -> f64 {
         let m = self.states.len();
@@ -1083,18 +759,6 @@ impl Way<'_> {
         rows.u.copy_from_slice(&room_y.as_flattened()[..count]);
     }
 
-    /// Add to the velocities what a change of the impulses of a contact makes.
-    fn add(&mut self, contact: usize, [t, n, y]: [f64; 3]) {
-        let m = self.rows.p.len();
-        let along = &self.problem.g[contact * 2 * m..][..2 * m];
-        let normal = &self.problem.g[(m + contact) * 2 * m..][..2 * m];
-        for ((u, a), b) in self.u.iter_mut().zip(along).zip(normal) {
-            *u += t * a + n * b;
-        }
-        let across = &self.rows.g[contact * m..][..m];
-        self.rows.u.iter_mut().zip(across).for_each(|(u, g)| *u += y * g);
-    }
-
     /// Which neighbour pushes a contact next.
     fn side_of(&self, contact: usize, slack_u: f64, slack_p: f64) -> Side {
         let [left, right] = self.rows.touches[contact];
@@ -1130,153 +794,15 @@ fn refill(groups: &mut [Group], matrix: &[f64], count: usize) -> bool {
     other
 }
 
-/// How much of a correction another one has.
-#[inline(always)]
-fn share(step: &[Group], sum: &[Group]) -> f64 {
-    let (step, sum) = (step.as_flattened(), sum.as_flattened());
-    dot(step, sum) / dot(step, step)
-}
-
 /// Length of a vector; unlike `hypot` it costs next to nothing.
 #[inline(always)]
 fn length(a: f64, b: f64) -> f64 {
     (a * a + b * b).sqrt()
 }
 
-/// Where a function that falls from 0 on does not exceed zero any more, to rounding; `about` there. The secant of both ends
-/// finds it, the older of which counts half (Illinois; Dowell and Jarratt 1971).
-fn falls_to_zero(excess: impl Fn(f64) -> f64, about: f64) -> f64 {
-    let (mut low, mut high) = ((0.0, excess(0.0)), (about, excess(about)));
-    if low.1 <= 0.0 {
-        return 0.0;
-    }
-    while high.1 > 0.0 && high.0 < f64::MAX / 4.0 {
-        (low, high) = (high, (4.0 * high.0, excess(4.0 * high.0)));
-    }
-    let mut last_above = None;
-    for _ in 0..SECANTS {
-        if high.1 == 0.0 || high.0 - low.0 <= ROUNDED * high.0 {
-            break;
-        }
-        let secant = high.0 - high.1 * (high.0 - low.0) / (high.1 - low.1);
-        let middle = 0.5 * (low.0 + high.0);
-        let next = if secant > low.0 && secant < high.0 {
-            secant
-        } else {
-            middle
-        };
-        let now = (next, excess(next));
-        let above = now.1 > 0.0;
-        let again = last_above.replace(above) == Some(above);
-        if above {
-            low = now;
-            high.1 *= if again { 0.5 } else { 1.0 };
-        } else {
-            high = now;
-            low.1 *= if again { 0.5 } else { 1.0 };
-        }
-    }
-    high.0
-}
-
-/// A contact by itself, the others held.
-struct Node {
-    /// Answers along and along, along and normal, normal and normal, across and across.
-    tt: f64,
-    tn: f64,
-    nn: f64,
-    yy: f64,
-    /// Velocities without its impulses.
-    free: [f64; 3],
-    touches: [bool; 2],
-    mu: [f64; 2],
-    /// Impulse that it bears beside that.
-    added: [f64; 2],
-    rho: f64,
-}
-
-impl Node {
-    fn of(way: &Way, contact: usize) -> Self {
-        let (problem, rows, m) = (way.problem, &*way.rows, way.rows.p.len());
-        let g = |r: usize, c: usize| problem.g[(contact + r * m) * 2 * m + contact + c * m];
-        let (tt, tn, nn, yy) = (g(0, 0), g(0, 1), g(1, 1), rows.g[contact * (m + 1)]);
-        let (t, n, y) = (way.p[contact], way.p[m + contact], rows.p[contact]);
-        Node {
-            tt,
-            tn,
-            nn,
-            yy,
-            free: [
-                way.u[contact] - tt * t - tn * n,
-                way.u[m + contact] + problem.h[contact] - tn * t - nn * n,
-                rows.u[contact] - yy * y,
-            ],
-            touches: rows.touches[contact],
-            mu: [problem.mu_stick[contact], problem.mu_slip[contact]],
-            added: [false, true].map(|slips| problem.added(contact, slips, 0.0)),
-            rho: way.rho(contact),
-        }
-    }
-
-    /// Return state, neighbour and impulses.
-    fn solve(&self) -> (State, Side, [f64; 3]) {
-        let ([left, right], across) = (self.touches, self.free[2]);
-        let side = match () {
-            () if left && across > 0.0 => Side::Left,
-            () if right && across < 0.0 => Side::Right,
-            () => {
-                let (state, p) = self.plane(across);
-                return (state, Side::None, p);
-            }
-        };
-        let (state, p) = self.plane(0.0);
-        (state, side, [p[0], p[1], -across / self.yy])
-    }
-
-    /// The state and the impulses with friction alone, where this moves it across the valley.
-    fn plane(&self, across: f64) -> (State, [f64; 3]) {
-        let [along, normal, _] = self.free;
-        if normal >= 0.0 {
-            return (State::Open, [0.0; 3]);
-        }
-        // With the normal impulse eliminated.
-        let own = self.tt - self.tn * self.tn / self.nn;
-        let pushed = along - self.tn * normal / self.nn;
-        let at = |lambda: f64| {
-            let (t, y) = (-pushed / (own + lambda), -across / (self.yy + lambda));
-            [t, -(normal + self.tn * t) / self.nn, y]
-        };
-        let size = |p: [f64; 3]| length(p[0], p[2]);
-        let stick = at(0.0);
-        if stick[1] >= 0.0 && size(stick) <= self.mu[0] * stick[1] + self.added[0] {
-            return (State::Stick, stick);
-        }
-        let excess = |lambda: f64| {
-            let p = at(lambda);
-            size(p) - self.mu[1] * p[1] - self.added[1]
-        };
-        let lambda = falls_to_zero(excess, own.max(self.yy));
-        let p = at(lambda);
-        let size = size(p);
-        if size == 0.0 {
-            return (State::Slip([1.0, 0.0], 0.0), p);
-        }
-        // |z| is that of p and of what it slips by.
-        let share = 1.0 / (1.0 + self.rho * lambda);
-        (State::Slip([p[0] / size, p[2] / size], share), p)
-    }
-}
-
 apart! {
     /// Go from set to set with these problem and solution; false where none is right of so many.
     fn search(disc: &mut Disc, way: &mut Way<'_>, most: u32, report: &mut Report) -> bool = Disc::go_on;
-}
-
-/// Sweep so often; true where nothing changes any more.
-// In line it would be compiled a few times over.
-#[inline(never)]
-fn sweep(disc: &mut Disc, way: &mut Way, most: u32) -> bool {
-    disc.sweeps(way, most)
 }
 
 #[cfg(test)]
@@ -1286,7 +812,7 @@ mod tests {
     use super::super::Problem;
     use super::{Disc, Rows};
 
-    const CONTACTS: usize = 6;
+    pub(super) const CONTACTS: usize = 6;
 
     fn number(k: usize) -> f64 {
         ((k * 7919 + 13) % 1009) as f64 / 1009.0 - 0.5
@@ -1305,7 +831,7 @@ mod tests {
         g
     }
 
-    fn problem(seed: usize, mu: f64) -> (Problem, Rows) {
+    pub(super) fn problem(seed: usize, mu: f64) -> (Problem, Rows) {
         let m = CONTACTS;
         let g = positive(2 * m, seed);
         let b = (0..2 * m).map(|k| number(seed + 3 * k) - if k < m { 0.0 } else { 0.4 });
@@ -1417,31 +943,6 @@ mod tests {
                     disc.solve::<Plain>(&problem, &mut rows, &mut status, (&mut p, &mut u), step == 0);
                 assert!(report.residual < 1e-8, "{seed} {step}: {}", report.residual);
             }
-        }
-    }
-
-    #[test]
-    fn a_node_by_itself_has_a_solution_however_strong_its_friction_is() {
-        for seed in 0..500 {
-            let (problem, mut rows) = problem(41 * seed, 4.0);
-            let mut other = Rows::new(CONTACTS);
-            std::mem::swap(&mut other, &mut rows);
-            let (mut p, mut u) = (vec![0.0; 2 * CONTACTS], problem.b.clone());
-            other.u.clone_from(&other.b);
-            let way = super::Way {
-                problem: &problem,
-                rows: &mut other,
-                p: &mut p,
-                u: &mut u,
-            };
-            let node = super::Node::of(&way, 0);
-            let (_, _, [t, n, y]) = node.solve();
-            assert!(
-                n >= 0.0 && super::length(t, y) <= 4.0 * n * (1.0 + 1e-9),
-                "{seed}"
-            );
-            let apart = node.free[1] + node.tn * t + node.nn * n;
-            assert!(apart > -1e-9 && (n * apart).abs() < 1e-9, "{seed}");
         }
     }
 }
