@@ -37,8 +37,6 @@
 mod node;
 mod slide;
 
-use self::node::sweep;
-use self::slide::{Sliding, CLOSER};
 use super::super::simd::{apart, fill, in_groups, inlined, largest, Group, Lanes, LANES};
 use super::super::status::Status;
 use super::past::{next, Course, ORDER};
@@ -55,6 +53,8 @@ const SWEEPS: u32 = 4000;
 /// Relative to the largest impulse or velocity: what counts as a violation, and by how much friction may be off.
 pub(in super::super) const SLACK: f64 = 1e-11;
 const RIGHT: f64 = 1e-10;
+/// What each correction may leave of what was amiss.
+const CLOSER: f64 = 0.5;
 /// Looks at the velocities of a set of states at most, and how many of them say that the tableaux are worn.
 const LOOKS: usize = 8;
 const WORN: usize = 2;
@@ -159,6 +159,18 @@ pub(in super::super) struct Disc {
     steps: Vec<Group>,
 }
 
+/// A contact that slips on the way to its solution: friction, velocities, the normal impulse that friction is of and the
+/// one that it leads to.
+#[derive(Clone, Copy, Default)]
+struct Sliding {
+    p: [f64; 2],
+    u: [f64; 2],
+    normal: f64,
+    pressed: f64,
+    /// Velocity of an impulse, to measure by.
+    per: f64,
+}
+
 /// Where a contact was at the last step: its state, its neighbour, and its impulses with their differences until there.
 #[derive(Clone, Copy)]
 struct Past {
@@ -251,7 +263,7 @@ impl Disc {
         while !found && swept < SWEEPS {
             report.swept = true;
             swept += look;
-            if sweep(self, &mut way, look) {
+            if self.sweeps(&mut way, look) {
                 break;
             }
             look *= 2;

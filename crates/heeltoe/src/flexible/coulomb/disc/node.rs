@@ -13,8 +13,10 @@ const SECANTS: u32 = 200;
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 impl Disc {
-    /// What [`sweep`] does.
-    fn sweeps(&mut self, way: &mut Way, most: u32) -> bool {
+    /// Sweep so often; true where nothing changes any more.
+    // In line it would be compiled a few times over.
+    #[inline(never)]
+    pub(super) fn sweeps(&mut self, way: &mut Way, most: u32) -> bool {
         let m = self.states.len();
         for contact in 0..m {
             let limit = way.limit(contact, false, way.p[m + contact].max(0.0));
@@ -189,13 +191,6 @@ impl Node {
         let share = 1.0 / (1.0 + self.rho * lambda);
         (State::Slip([p[0] / size, p[2] / size], share), p)
     }
-}
-
-/// Sweep so often; true where nothing changes any more.
-// In line it would be compiled a few times over.
-#[inline(never)]
-pub(super) fn sweep(disc: &mut Disc, way: &mut Way, most: u32) -> bool {
-    disc.sweeps(way, most)
 }
 
 #[cfg(test)]

@@ -2,26 +2,13 @@
 
 use super::super::super::simd::{add_times, dot, inlined, largest, Group, Lanes, LANES};
 use super::super::triangles::{eliminate, inverse};
-use super::{length, Disc, Side, State, Way};
+use super::{length, Disc, Side, Sliding, State, Way, CLOSER};
 
-/// Corrections at most, what each may leave of what was amiss, and what they leave to rounding and to the tableaux.
+/// Corrections at most, and what they leave to rounding and to the tableaux.
 const CORRECTIONS: usize = 12;
-pub(super) const CLOSER: f64 = 0.5;
 const LEFT: f64 = 0.5;
 /// How often its matrix may be renewed in one set of corrections.
 const RENEWALS: u32 = 3;
-
-/// A contact that slips on the way to its solution: friction, velocities, the normal impulse that friction is of and the
-/// one that it leads to.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Sliding {
-    pub p: [f64; 2],
-    u: [f64; 2],
-    pub normal: f64,
-    pressed: f64,
-    /// Velocity of an impulse, to measure by.
-    per: f64,
-}
 
 impl Disc {
     /// Write how the contacts that slip answer to their friction.
