@@ -9,8 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from heeltoe.kernel.block import OUTCOMES
+from heeltoe.models.runner import outcomes_of
 from heeltoe.result.judge import LIMITS, judge
-from heeltoe.result.outcome import Outcome, decide
+from heeltoe.result.outcome import LARGEST_ROTATION, Outcome, decide
 
 KEYS = sorted({key for limit in LIMITS.values() for key in limit.keys})
 SIZES = st.floats(0.0, 2.0) | st.just(0.0)
@@ -90,3 +92,31 @@ def test_failures_exceed_every_limit_and_what_is_not_known_is_neither():
 )
 def test_the_first_line_that_applies_is_the_outcome(word, facts, outcome):
     assert decide(word, **facts) == outcome
+
+
+@given(
+    runs=st.lists(
+        st.tuples(
+            st.sampled_from(OUTCOMES),
+            st.sampled_from([0.0, LARGEST_ROTATION, np.nextafter(LARGEST_ROTATION, 1.0), math.nan]),
+            st.booleans(),
+            st.booleans(),
+        ),
+        min_size=1,
+        max_size=8,
+    ),
+    finite=st.booleans(),
+)
+def test_the_outcomes_of_many_runs_are_those_of_each(runs, finite):
+    words, turned, off, on = zip(*runs, strict=True)
+    table = {
+        "rotation_min": -np.array(turned),
+        "rotation_max": np.zeros(len(runs)),
+        "slip_min": np.zeros(len(runs)),
+        "slip_max": np.where(off, 3.0, 1.0),
+        "keeps_sliding": np.array(on, dtype=np.float64),
+    }
+    each = [
+        decide(word, rotation=turn, finite=finite, off=leaves, slows=not slides) for word, turn, leaves, slides in runs
+    ]
+    assert outcomes_of(words, [table], [2.0], finite=finite).tolist() == each

@@ -23,7 +23,7 @@ from heeltoe.result.contract import JOINT_METER_M, OPENINGS
 from heeltoe.result.judge import LimitCheck, slides_off
 from heeltoe.result.limits import check_limits, judge_response
 from heeltoe.result.numbers import AnchorForce, CrackNumbers, CrossValley, SignNumbers, WithoutCrossValley
-from heeltoe.result.outcome import Outcome, decide
+from heeltoe.result.outcome import LARGEST_ROTATION, Outcome, decide
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest, last_of, rests_from
 from heeltoe.units.sentences import Sentence
@@ -92,9 +92,15 @@ def outcomes_of(
     their cracks, which are so wide [m]."""
     turned = np.max([largest_rotation(table) for table in tables], axis=0)
     slides = tables[0].get("keeps_sliding", np.zeros_like(turned)) != 0.0
-    rows = zip(outcomes, turned.tolist(), leaves(tables, widths).tolist(), slides.tolist(), strict=True)
-    words = [decide(word, rotation=turn, finite=finite, off=off, slows=not on) for word, turn, off, on in rows]
-    return np.array(words, dtype=object)
+    off, words = leaves(tables, widths), np.array(outcomes, dtype=object)
+    decided = np.full(words.shape, Outcome.OK, dtype=object)
+    # Most runs end as they should: there is nothing to decide.
+    doubtful = (words != Outcome.OK.value) | off | slides | ~(turned <= LARGEST_ROTATION)
+    for row in np.flatnonzero(doubtful).tolist():
+        decided[row] = decide(
+            words[row], rotation=float(turned[row]), finite=finite, off=bool(off[row]), slows=not slides[row]
+        )
+    return decided
 
 
 def leaves(tables: Sequence[Mapping[str, Floats | float]], widths: Sequence[Floats | float]) -> NDArray[np.bool_]:

@@ -13,6 +13,7 @@ import pytest
 from heeltoe import GroundMotion, InputError, read_record
 from heeltoe.motion.measures import fourier_amplitudes, measures
 from heeltoe.motion.records.catalog import available, find
+from heeltoe.motion.records.lines import parted, parted_all
 from heeltoe.motion.records.read import read_text
 from heeltoe.motion.records.to_motion import Options
 
@@ -369,3 +370,8 @@ def test_amplitudes_of_a_band_are_those_of_the_padded_transform(monkeypatch):
     direct = fourier_amplitudes(motion, 0.001, (0.25, 20.0))
     assert direct[0] == pytest.approx(padded[0], rel=1e-12)
     assert direct[1] == pytest.approx(padded[1], abs=1e-9 * padded[1].max())
+
+
+@pytest.mark.parametrize("lines", [[], [""], ["0.1, 2;3", '"4"\t5', ""], ["1 2", "0.1-0.2", "1D-3", "3"]])
+def test_lines_are_parted_as_each_by_itself(lines):
+    assert parted_all(lines) == [parted(line) for line in lines]

@@ -61,6 +61,14 @@ def parted(line: str) -> str:
     return unglued(line.translate(_SEPARATORS))
 
 
+def parted_all(lines: list[str]) -> list[str]:
+    """Return lines as :func:`parted` does; those of most files are parted together."""
+    together = "\n".join(lines).translate(_SEPARATORS)
+    if _GLUED.search(together) is None and together.count("\n") == len(lines) - 1:
+        return together.split("\n")
+    return list(map(parted, lines))
+
+
 def is_data(line: str) -> bool:
     """Whether a line starts with something that wants to be a number; a NaN does, or it would pass for a header."""
     word = parted(line).split()[:1]

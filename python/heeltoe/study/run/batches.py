@@ -236,7 +236,7 @@ def _crest_moves(plan: Plan, values: Mapping[str, NDArray[Any]], blocks: Sequenc
 
 def _outcomes(case: Case, table: Mapping[str, Floats], width: Floats) -> Words:
     """Return how the rows of a table of blocks on cracks of these widths [m] ended."""
-    words = [OUTCOMES[place] for place in table["outcome"].astype(np.int64).tolist()]
+    words = np.array(OUTCOMES, dtype=object)[table["outcome"].astype(np.int64)]
     return outcomes_of(words, [table], [width], finite=case.analysis.rotation == "finite")
 
 
@@ -440,19 +440,28 @@ def _both_ways(factor: Floats) -> Floats:
 
 def _table(plan: Plan, runs: Runs, results: PartResults) -> pa.Table:
     """Return the runs with their results, as they are stored."""
-    names = np.array([shake.name for shake in plan.shakes])
-    events = np.array([plan.events[shake.event] for shake in plan.shakes])
+    names = [shake.name for shake in plan.shakes]
+    events = [plan.events[shake.event] for shake in plan.shakes]
     turned = np.array([shake.turned for shake in plan.shakes])
 
     def words(values: Any) -> pa.Array:
         return pa.array(values, type=pa.string()).dictionary_encode()
 
+    def named(names: Sequence[str], places: Integers) -> pa.Array:
+        # The words in the order in which they come first, as :func:`words` has them.
+        places = np.unique(names, return_inverse=True)[1][places]
+        used, first, place = np.unique(places, return_index=True, return_inverse=True)
+        order = np.argsort(first)
+        indices = pa.array(np.argsort(order)[place], type=pa.int32())
+        known = np.unique(names)[used[order]].tolist()
+        return pa.DictionaryArray.from_arrays(indices, pa.array(known, type=pa.string()))
+
     columns: dict[str, Any] = {
         "run": pa.array(runs.number),
         "sample": pa.array(runs.sample),
-        "model": words(np.array(plan.study.model)[runs.model]),
-        "event": words(events[runs.motion]),
-        "motion": words(names[runs.motion]),
+        "model": named(plan.study.model, runs.model),
+        "event": named(events, runs.motion),
+        "motion": named(names, runs.motion),
         "reversed": pa.array(turned[runs.motion]),
         "factor": pa.array(runs.factor),
     }

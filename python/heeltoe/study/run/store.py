@@ -177,7 +177,9 @@ class Store:
         import pyarrow.parquet as pq
 
         whole = pa.BufferOutputStream()
-        pq.write_table(table, whole, compression="zstd")
+        # Hardly a number comes twice: a dictionary of them takes time and room.
+        words = [column.name for column in table.schema if pa.types.is_dictionary(column.type)]
+        pq.write_table(table, whole, compression="zstd", use_dictionary=words)
         content = whole.getvalue().to_pybytes()
         path = self.directory / RUNS / self._name(part, content)
         with written(path, "--out", within=self.directory) as fresh:

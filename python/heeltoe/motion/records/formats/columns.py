@@ -23,7 +23,7 @@ import numpy as np
 from heeltoe.base.arrays import Floats, median
 from heeltoe.base.pattern import pattern
 from heeltoe.errors.error import InputError
-from heeltoe.motion.records.lines import is_data, is_row, parted
+from heeltoe.motion.records.lines import is_data, is_row, parted, parted_all
 from heeltoe.motion.records.quantities import (
     direction_in,
     is_direction,
@@ -114,7 +114,7 @@ def read(lines: list[str], name: str, layout: str | None = None, field: str = "m
     lines = _headed(lines)
     header, first = _split(lines)
     points, commas = _with_points(lines[first:], name, first + 1)
-    data = [parted(line.split("#")[0]) for line in points]
+    data = parted_all([line.split("#")[0] for line in points])
     widths = [len(line.split()) for line in data]
     width = widths[0]
     bare = [line.replace('"', "") for line in header]
