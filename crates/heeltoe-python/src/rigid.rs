@@ -13,13 +13,15 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::law::FrictionLaw;
-use crate::results::{by_column, BlockRun};
+use crate::results::BlockRun;
 use crate::tables::{flags, named, pool, row, rows, slice, wrong, Flags, Numbers};
 use crate::watch::{prompt, watched};
 
 /// Runs of no more events, samples and moments that are wanted take a few milliseconds: no one interrupts them.
 const EVENTS_AT_ONCE: u64 = 2000;
 const MOMENTS_AT_ONCE: usize = 50_000;
+/// So many runs of many are made, side by side, before their numbers are put into columns.
+const TOGETHER: usize = 4096;
 
 /// How far a run has come (s).
 fn reached(run: &Run) -> Option<[f64; 2]> {
@@ -292,20 +294,39 @@ pub fn run_rigid_many<'py>(
         )
     };
     let pool = pool(threads)?;
-    let runs = watched(
-        py,
-        None,
-        |_| None,
-        |stop| pool.install(|| many::run(count, options, stop, case)),
-    )?;
-    let table = by_column(py, Summary::FIELDS, runs.iter().map(|(summary, _)| summary.row()))?;
+    let mut columns: [Vec<f64>; Summary::FIELDS.len()] = std::array::from_fn(|_| Vec::with_capacity(count));
+    let mut peaks: [Vec<f64>; 2] = Default::default();
+    // The summaries of all runs would be in memory beside what is made of them.
+    for start in (0..count).step_by(TOGETHER) {
+        let some = TOGETHER.min(count - start);
+        let runs = watched(
+            py,
+            None,
+            |_| None,
+            |stop| pool.install(|| many::run(some, options, stop, |k| case(start + k))),
+        )?;
+        for (summary, crest) in runs {
+            for (column, number) in columns.iter_mut().zip(summary.row()) {
+                column.push(number);
+            }
+            if moves.is_some() {
+                peaks
+                    .iter_mut()
+                    .zip(crest)
+                    .for_each(|(column, peak)| column.push(peak));
+            }
+        }
+    }
+    let table = PyDict::new(py);
+    for (name, column) in Summary::FIELDS.into_iter().zip(columns) {
+        table.set_item(name, column.into_pyarray(py))?;
+    }
     if moves.is_some() {
-        for (k, name) in ["crest_displacement", "crest_acceleration"]
+        for (name, column) in ["crest_displacement", "crest_acceleration"]
             .into_iter()
-            .enumerate()
+            .zip(peaks)
         {
-            let peaks: Vec<f64> = runs.iter().map(|(_, peaks)| peaks[k]).collect();
-            table.set_item(name, peaks.into_pyarray(py))?;
+            table.set_item(name, column.into_pyarray(py))?;
         }
     }
     Ok(table)

@@ -21,6 +21,9 @@ pub struct Peak {
     pub total_acceleration: f64,
 }
 
+/// So many oscillators are followed side by side.
+const LANES: usize = 8;
+
 /// The oscillator, by its circular frequency and damping ratio below one.
 #[derive(Clone, Copy)]
 struct Oscillator {
@@ -81,10 +84,17 @@ impl Oscillator {
         let (w, z) = (self.frequency, self.damping);
         let (mut before, mut term) = (0.0, 1.0);
         let (mut constant, mut ramp, mut power) = (0.0, 0.0, h * h);
+        // A term that changes nothing may be zero; where two do so, none of the smaller ones behind them does.
+        let mut idle = 0;
         for n in 1..16 {
             let k = f64::from(n);
+            let sums = (constant, ramp);
             constant -= term * power / (k + 1.0);
             ramp -= term * power * h / ((k + 1.0) * (k + 2.0));
+            idle = if (constant, ramp) == sums { idle + 1 } else { 0 };
+            if idle == 2 {
+                break;
+            }
             let next = -(2.0 * z * w * k * term + w * w * before) / (k * (k + 1.0));
             (before, term) = (term, next);
             power *= h;
@@ -93,7 +103,7 @@ impl Oscillator {
     }
 
     /// Relative acceleration.
-    #[inline]
+    #[inline(always)]
     fn rate(&self, u: f64, v: f64, a: f64) -> f64 {
         -a - self.drag * v - self.stiffness * u
     }
@@ -121,11 +131,12 @@ trait Quantity {
 struct Displacement;
 
 impl Quantity for Displacement {
-    #[inline]
+    #[inline(always)]
     fn value_and_rate(_: &Oscillator, [u, v, _]: [f64; 3]) -> [f64; 2] {
         [u, v]
     }
 
+    #[inline(always)]
     fn bend(o: &Oscillator, [u, v, a]: [f64; 3], _: f64) -> f64 {
         o.rate(u, v, a)
     }
@@ -135,16 +146,28 @@ impl Quantity for Displacement {
 struct Total;
 
 impl Quantity for Total {
-    #[inline]
+    #[inline(always)]
     fn value_and_rate(o: &Oscillator, [u, v, a]: [f64; 3]) -> [f64; 2] {
         let total = -o.drag * v - o.stiffness * u;
         [total, -o.drag * (total - a) - o.stiffness * v]
     }
 
+    #[inline(always)]
     fn bend(o: &Oscillator, [u, v, a]: [f64; 3], slope: f64) -> f64 {
         let rate = o.rate(u, v, a);
         -o.drag * (-slope - o.drag * rate - o.stiffness * v) - o.stiffness * rate
     }
+}
+
+/// A quantity does not get farther between two states, so much time apart.
+#[inline(always)]
+fn farthest<Q: Quantity>(o: &Oscillator, start: [f64; 3], end: [f64; 3], slope: f64, length: f64) -> f64 {
+    let ([f0, g0], [f1, g1]) = (Q::value_and_rate(o, start), Q::value_and_rate(o, end));
+    let (b0, b1) = (Q::bend(o, start, slope), Q::bend(o, end, slope));
+    // Inside, a rate exceeds those at both ends by half the length times the largest rate of its own, which on an
+    // eighth of a period is less than twice the larger one of the ends.
+    let fastest = g0.abs().max(g1.abs()) + length * b0.abs().max(b1.abs());
+    f0.abs().max(f1.abs()) + length * fastest
 }
 
 /// One piece: displacement, velocity and ground acceleration at its start, slope of the ground, length.
@@ -164,18 +187,11 @@ impl Piece<'_> {
 
     /// Largest size of a quantity at the turning points inside the piece; `end` is the state at its end. Nothing is
     /// looked for that could not exceed `known`.
-    #[inline]
     fn turning<Q: Quantity>(&self, end: [f64; 3], known: f64) -> f64 {
         let o = self.oscillator;
         let ([f0, g0], [f1, g1]) = (Q::value_and_rate(o, self.start), Q::value_and_rate(o, end));
         let bend = |state| Q::bend(o, state, self.slope);
         let (b0, b1) = (bend(self.start), bend(end));
-        // Inside, a rate exceeds those at both ends by half the length times the largest rate of its own, which on an
-        // eighth of a period is less than twice the larger one of the ends.
-        let fastest = g0.abs().max(g1.abs()) + self.length * b0.abs().max(b1.abs());
-        if f0.abs().max(f1.abs()) + self.length * fastest <= known {
-            return 0.0;
-        }
         // From rest, or to rest, the way is that of the rate just after or just before.
         let rises = g0 > 0.0 || (g0 == 0.0 && b0 > 0.0);
         let turns = rises != (g1 > 0.0 || (g1 == 0.0 && b1 < 0.0));
@@ -234,68 +250,200 @@ impl Piece<'_> {
     }
 }
 
-/// Peaks of one oscillator of circular frequency `frequency` > 0 and damping ratio in [0, 1).
-pub fn peak(time: &[f64], ground: &[f64], frequency: f64, damping: f64) -> Peak {
-    let o = Oscillator::new(frequency, damping);
-    let longest = std::f64::consts::TAU / frequency / 8.0;
-    let mut step = o.step(longest);
-    let (mut known_length, mut parts, mut inverse) = (longest, 1.0, 1.0 / longest);
-    let (mut u, mut v) = (0.0, 0.0);
-    let mut largest = Peak::default();
-    let mut walk = |length: f64, a_start: f64, a_end: f64| {
-        if length <= 0.0 {
+/// Oscillators side by side, and where they are: what is done to each is the same arithmetic, so that the registers of
+/// the machine hold several.
+struct Row<'a, const L: usize> {
+    oscillators: &'a [Oscillator; L],
+    drag: [f64; L],
+    stiffness: [f64; L],
+    longest: [f64; L],
+    /// Length of the last piece, in how many steps it was gone over, one over it, and the maps over such a step.
+    known_length: [f64; L],
+    parts: [usize; L],
+    inverse: [f64; L],
+    length: [f64; L],
+    to_u: [[f64; L]; 4],
+    to_v: [[f64; L]; 4],
+    u: [f64; L],
+    v: [f64; L],
+    largest: [[f64; L]; 2],
+}
+
+impl<'a, const L: usize> Row<'a, L> {
+    fn new(oscillators: &'a [Oscillator; L]) -> Self {
+        let longest = oscillators
+            .each_ref()
+            .map(|o| std::f64::consts::TAU / o.frequency / 8.0);
+        let mut row = Row {
+            oscillators,
+            drag: oscillators.each_ref().map(|o| o.drag),
+            stiffness: oscillators.each_ref().map(|o| o.stiffness),
+            longest,
+            known_length: longest,
+            parts: [1; L],
+            inverse: longest.map(|length| 1.0 / length),
+            length: longest,
+            to_u: [[0.0; L]; 4],
+            to_v: [[0.0; L]; 4],
+            u: [0.0; L],
+            v: [0.0; L],
+            largest: [[0.0; L]; 2],
+        };
+        for (l, length) in longest.into_iter().enumerate() {
+            row.set_step(l, length);
+        }
+        row
+    }
+
+    fn set_step(&mut self, l: usize, length: f64) {
+        let step = self.oscillators[l].step(length);
+        self.length[l] = length;
+        for i in 0..4 {
+            (self.to_u[i][l], self.to_v[i][l]) = (step.u[i], step.v[i]);
+        }
+    }
+
+    /// Go over a piece of this length.
+    #[inline(always)]
+    fn walk(&mut self, lengths: [f64; L], a_start: f64, a_end: f64) {
+        // Equal steps differ by the rounding of their times; that is no other step, and divisions are dear.
+        let other = |l: usize, known: f64| (lengths[l] - known).abs() > 1e-9 * lengths[l];
+        if (0..L).any(|l| other(l, self.known_length[l])) {
+            for (l, length) in lengths.into_iter().enumerate() {
+                if other(l, self.known_length[l]) {
+                    let parts = (length / self.longest[l]).ceil().max(1.0);
+                    self.known_length[l] = length;
+                    self.parts[l] = parts as usize;
+                    self.inverse[l] = 1.0 / length;
+                    self.set_step(l, length / parts);
+                }
+            }
+        }
+        let slope = self.inverse.map(|inverse| (a_end - a_start) * inverse);
+        let most = self.parts.iter().fold(0, |most, parts| most.max(*parts));
+        for k in 0..most {
+            self.step(k, a_start, &slope);
+        }
+    }
+
+    /// Go over the part of this number of a piece.
+    #[inline(always)]
+    fn step(&mut self, k: usize, a_start: f64, slope: &[f64; L]) {
+        let (mut u1, mut v1, mut a0) = ([0.0; L], [0.0; L], [0.0; L]);
+        // What each is known to reach, and how far it may get in between.
+        let (mut known, mut far) = ([[0.0; L]; 2], [[0.0; L]; 2]);
+        for l in 0..L {
+            let (u, v, s, h) = (self.u[l], self.v[l], slope[l], self.length[l]);
+            let (drag, stiffness) = (self.drag[l], self.stiffness[l]);
+            let a = a_start + s * (k as f64 * h);
+            let [to_u, to_v] =
+                [&self.to_u, &self.to_v].map(|to| to[0][l] * u + to[1][l] * v + to[2][l] * a + to[3][l] * s);
+            (u1[l], v1[l], a0[l]) = (to_u, to_v, a);
+            let o = &Oscillator {
+                drag,
+                stiffness,
+                ..self.oscillators[l]
+            };
+            let (start, end) = ([u, v, a], [to_u, to_v, a + s * h]);
+            known[0][l] = self.largest[0][l].max(to_u.abs());
+            known[1][l] = self.largest[1][l].max((drag * to_v + stiffness * to_u).abs());
+            far[0][l] = farthest::<Displacement>(o, start, end, s, h);
+            far[1][l] = farthest::<Total>(o, start, end, s, h);
+        }
+        let near = (0..L).all(|l| far[0][l] <= known[0][l] && far[1][l] <= known[1][l]);
+        if near && self.parts.iter().all(|parts| k < *parts) {
+            (self.u, self.v, self.largest) = (u1, v1, known);
             return;
         }
-        // Equal steps differ by the rounding of their times; that is no other step, and divisions are dear.
-        if (length - known_length).abs() > 1e-9 * length {
-            known_length = length;
-            parts = (length / longest).ceil().max(1.0);
-            step = o.step(length / parts);
-            inverse = 1.0 / length;
-        }
-        let h = step.length;
-        let s = (a_end - a_start) * inverse;
-        for k in 0..parts as usize {
-            let a = a_start + s * (k as f64 * h);
-            let (u1, v1) = step.apply(u, v, a, s);
+        for l in (0..L).filter(|l| k < self.parts[*l]) {
             let piece = Piece {
-                oscillator: &o,
-                start: [u, v, a],
-                slope: s,
-                length: h,
+                oscillator: &self.oscillators[l],
+                start: [self.u[l], self.v[l], a0[l]],
+                slope: slope[l],
+                length: self.length[l],
             };
-            let end = [u1, v1, a + s * h];
-            let known = largest.displacement.max(u1.abs());
-            largest.displacement = known.max(piece.turning::<Displacement>(end, known));
-            let known = largest
-                .total_acceleration
-                .max((o.drag * v1 + o.stiffness * u1).abs());
-            largest.total_acceleration = known.max(piece.turning::<Total>(end, known));
-            (u, v) = (u1, v1);
+            let end = [u1[l], v1[l], a0[l] + slope[l] * self.length[l]];
+            self.largest[0][l] = known[0][l];
+            if far[0][l] > known[0][l] {
+                self.largest[0][l] = known[0][l].max(piece.turning::<Displacement>(end, known[0][l]));
+            }
+            self.largest[1][l] = known[1][l];
+            if far[1][l] > known[1][l] {
+                self.largest[1][l] = known[1][l].max(piece.turning::<Total>(end, known[1][l]));
+            }
+            (self.u[l], self.v[l]) = (u1[l], v1[l]);
         }
-    };
-    for k in 1..time.len() {
-        walk(time[k] - time[k - 1], ground[k - 1], ground[k]);
     }
-    walk(8.0 * longest, 0.0, 0.0);
-    largest
+}
+
+/// Peaks of some oscillators, of whose damping ratios each is in [0, 1).
+#[inline(always)]
+fn peaks_of<const L: usize>(time: &[f64], ground: &[f64], oscillators: &[Oscillator; L]) -> [Peak; L] {
+    let mut row = Row::new(oscillators);
+    for k in 1..time.len() {
+        let length = time[k] - time[k - 1];
+        if length > 0.0 {
+            row.walk([length; L], ground[k - 1], ground[k]);
+        }
+    }
+    row.walk(row.longest.map(|longest| 8.0 * longest), 0.0, 0.0);
+    let [displacement, total] = row.largest;
+    std::array::from_fn(|l| Peak {
+        displacement: displacement[l],
+        total_acceleration: total[l],
+    })
+}
+
+/// The same by registers of four numbers, to the bit.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn peaks_by_four<const L: usize>(time: &[f64], ground: &[f64], oscillators: &[Oscillator; L]) -> [Peak; L] {
+    peaks_of(time, ground, oscillators)
+}
+
+fn peaks<const L: usize>(time: &[f64], ground: &[f64], oscillators: &[Oscillator; L]) -> [Peak; L] {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("avx2") {
+        // SAFETY: the machine has them.
+        return unsafe { peaks_by_four(time, ground, oscillators) };
+    }
+    peaks_of(time, ground, oscillators)
+}
+
+/// Peaks of one oscillator of circular frequency `frequency` > 0 and damping ratio in [0, 1).
+pub fn peak(time: &[f64], ground: &[f64], frequency: f64, damping: f64) -> Peak {
+    let [peak] = peaks(time, ground, &[Oscillator::new(frequency, damping)]);
+    peak
 }
 
 /// Peaks of many oscillators, by their periods; a period of zero is the ground itself.
 pub fn spectrum(time: &[f64], ground: &[f64], periods: &[f64], damping: f64, stop: Stop) -> Vec<Peak> {
-    each(periods.len(), 1, |k| {
+    let moving: Vec<f64> = periods.iter().copied().filter(|period| *period != 0.0).collect();
+    let of = |period: &f64| Oscillator::new(std::f64::consts::TAU / period, damping);
+    let rows = each(moving.len().div_ceil(LANES), 1, |row| {
+        let here = &moving[row * LANES..moving.len().min((row + 1) * LANES)];
         if stop.asked() {
-            return Peak::default();
+            return vec![Peak::default(); here.len()];
         }
-        if periods[k] == 0.0 {
-            let pga = ground.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
-            return Peak {
-                displacement: 0.0,
-                total_acceleration: pga,
-            };
+        match here {
+            [period] => vec![peaks(time, ground, &[of(period)])[0]],
+            _ => {
+                // The last ones stand for those that are missing.
+                let all: [Oscillator; LANES] = std::array::from_fn(|l| of(&here[l.min(here.len() - 1)]));
+                peaks(time, ground, &all)[..here.len()].to_vec()
+            }
         }
-        peak(time, ground, std::f64::consts::TAU / periods[k], damping)
-    })
+    });
+    let mut peaks = rows.into_iter().flatten();
+    let still = Peak {
+        displacement: 0.0,
+        total_acceleration: ground.iter().fold(0.0_f64, |m, a| m.max(a.abs())),
+    };
+    periods
+        .iter()
+        .map(|period| if *period == 0.0 { Some(still) } else { peaks.next() })
+        .map(Option::unwrap_or_default)
+        .collect()
 }
 
 #[cfg(test)]
@@ -358,5 +506,21 @@ mod tests {
     fn a_stiff_oscillator_follows_the_ground() {
         let p = peak(&[0.0, 1.0, 2.0], &[0.0, 5.0, 0.0], 2.0 * PI / 1e-4, 0.05);
         close(p.total_acceleration, 5.0, 1e-4);
+    }
+
+    #[test]
+    fn side_by_side_each_oscillator_has_the_bits_that_it_has_alone() {
+        let time: Vec<f64> = (0..=400).map(|k| f64::from(k) * 0.02).collect();
+        let ground: Vec<f64> = time.iter().map(|t| (7.0 * t).sin() * (1.3 * t).cos()).collect();
+        // Steps of one part and of several, a ground between them, and two that have no row of their own.
+        let mut periods = vec![0.03, 0.05, 0.0, 0.1, 0.2, 0.35, 0.5, 0.8, 1.3, 2.5, 0.04];
+        let side_by_side = spectrum(&time, &ground, &periods, 0.05, Stop::default());
+        let largest = ground.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+        assert_eq!(side_by_side[2].total_acceleration, largest);
+        let mut peaks = side_by_side;
+        (periods.remove(2), peaks.remove(2));
+        for (period, found) in periods.iter().zip(peaks) {
+            assert_eq!(found, peak(&time, &ground, 2.0 * PI / period, 0.05), "{period}");
+        }
     }
 }

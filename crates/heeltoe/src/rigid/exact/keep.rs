@@ -3,7 +3,7 @@
 use super::super::block::{Vector, HEEL, SLIP, TOE};
 use super::super::course::Course;
 use super::super::event;
-use super::super::ledger::work;
+use super::super::ledger::{work, SIXTH};
 use super::super::mode::{Corner, Mode, Slip};
 use super::super::shaking::Piece;
 use super::stretch::Stretch;
@@ -123,20 +123,20 @@ impl Exact<'_> {
             [turn(v), turn_0, turn_1],
         ];
         let reach =
-            |c: usize| step * (v[c].abs() + step * (a[c][0].abs() / 2.0 + step * a[c][1].abs() / 6.0));
+            |c: usize| step * (v[c].abs() + step * (a[c][0].abs() / 2.0 + step * a[c][1].abs() * SIXTH));
         let [slide, rise_heel, rise_toe] = [SLIP, HEEL, TOE].map(reach);
         let (now, spin, s) = (turn(w), (rise_heel + rise_toe) / block.width, &self.walk.summary);
-        // Where nothing on this piece can go beyond what has been, there is no need to look where it turns.
-        if w[SLIP] + slide <= s.slip_range[1]
-            && w[SLIP] - slide >= s.slip_range[0]
-            && w[HEEL] + rise_heel <= s.largest_gap[0]
-            && w[TOE] + rise_toe <= s.largest_gap[1]
-            && now + spin <= s.rotation_range[1]
-            && now - spin >= s.rotation_range[0]
-        {
-            return;
-        }
-        for rate in rates.into_iter().filter(|rate| *rate != [0.0; 3]) {
+        // Where one of them cannot go beyond what has been on this piece, there is no need to look where it turns.
+        let beyond = [
+            w[SLIP] + slide > s.slip_range[1] || w[SLIP] - slide < s.slip_range[0],
+            w[HEEL] + rise_heel > s.largest_gap[0],
+            w[TOE] + rise_toe > s.largest_gap[1],
+            now + spin > s.rotation_range[1] || now - spin < s.rotation_range[0],
+        ];
+        for (rate, beyond) in rates.into_iter().zip(beyond) {
+            if !beyond || rate == [0.0; 3] {
+                continue;
+            }
             let moments = event::sign_changes(rate[0], rate[1], rate[2] / 2.0, step);
             for t in moments.into_iter().flatten() {
                 let mut at = *w;

@@ -97,6 +97,9 @@ impl Polynomial {
 
     /// The same from a moment on.
     pub(super) fn after(&self, since: f64) -> Self {
+        if since == 0.0 {
+            return *self;
+        }
         let mut all = self.0;
         for row in 0..PLACES - 1 {
             for k in (row..PLACES - 1).rev() {
@@ -159,24 +162,38 @@ impl Polynomial {
     }
 }
 
+/// How many ways there are to choose so many of so many.
+const BINOMIAL: [[f64; PLACES]; PLACES] = {
+    let mut rows = [[0.0; PLACES]; PLACES];
+    let mut i = 0;
+    while i < PLACES {
+        rows[i][0] = 1.0;
+        let mut k = 1;
+        while k <= i {
+            rows[i][k] = rows[i - 1][k - 1] + rows[i - 1][k];
+            k += 1;
+        }
+        i += 1;
+    }
+    rows
+};
+
 /// Coefficients in Bernstein's basis on `[0, end]`.
 fn bernstein(terms: &[f64; PLACES], end: f64) -> [f64; PLACES] {
     // With t = s end, s^k = sum over i of binomial(i, k) / binomial(n, k) b_i.
     let n = PLACES - 1;
     let mut scaled = *terms;
-    let (mut power, mut choose) = (1.0, 1.0);
-    for (k, term) in scaled.iter_mut().enumerate() {
+    let mut power = 1.0;
+    for (term, choose) in scaled.iter_mut().zip(BINOMIAL[n]) {
         *term *= power / choose;
         power *= end;
-        choose = choose * (n - k) as f64 / (k + 1) as f64;
     }
     let mut result = [0.0; PLACES];
-    for (i, b) in result.iter_mut().enumerate() {
-        let mut choose = 1.0;
-        for (k, term) in scaled[..=i].iter().enumerate() {
-            *b += choose * term;
-            choose = choose * (i - k) as f64 / (k + 1) as f64;
-        }
+    for (b, row) in result.iter_mut().zip(&BINOMIAL) {
+        *b = scaled
+            .iter()
+            .zip(row)
+            .fold(0.0, |sum, (term, choose)| sum + choose * term);
     }
     result
 }

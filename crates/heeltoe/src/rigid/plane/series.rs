@@ -116,15 +116,21 @@ pub(super) fn go_on(forces: &Forces, u: [f64; 2], left: f64, stops: Option<f64>,
     let mut by_law = forces.law.and_then(|law| law.unfold(first));
     for k in 0..TERMS {
         if k > 0 {
-            // Two sums each, of every second term, as an addition waits for the one before.
+            // Two sums each, which end with what is known last: an addition waits for the one before.
             let mut longer = [[0.0; 2]; 2];
             let mut turned = [[0.0; 2]; 2];
-            let known = growth[1..k].iter().zip(&terms[1..k]);
-            for (j, ((growth, term), d)) in known.zip(direction[1..k].iter().rev()).enumerate() {
+            let mut add = |half: usize, j: usize| {
+                let d = direction[k - j];
                 for i in 0..2 {
-                    longer[j % 2][i] += growth[i] * d[i];
-                    turned[j % 2][i] += term[2] * d[i];
+                    longer[half][i] += growth[j][i] * d[i];
+                    turned[half][i] += terms[j][2] * d[i];
                 }
+            };
+            for j in 0..k / 2 {
+                add(0, k / 2 - j);
+            }
+            for j in k / 2 + 1..k {
+                add(1, j);
             }
             let along = |i: usize| longer[0][i] + longer[1][i] + growth[k][i] * d0[i];
             let speed = (along(0) + along(1)) * INVERSE[k];
