@@ -93,7 +93,7 @@ def outcomes_of(
     turned = np.max([largest_rotation(table) for table in tables], axis=0)
     slides = tables[0].get("keeps_sliding", np.zeros_like(turned)) != 0.0
     off, words = leaves(tables, widths), np.array(outcomes, dtype=object)
-    decided = np.full(words.shape, Outcome.OK, dtype=object)
+    decided = np.array([Outcome.OK] * words.size, dtype=object)
     # Most runs end as they should: there is nothing to decide.
     doubtful = (words != Outcome.OK.value) | off | slides | ~(turned <= LARGEST_ROTATION)
     for row in np.flatnonzero(doubtful).tolist():
