@@ -3,9 +3,8 @@
 //! Input is the work of all applied loads and of the ground's inertia force on the motion relative to the ground;
 //! on a piece force is linear and velocity quadratic in time, so the work is a polynomial in the piece's length.
 
-/// Multiplied by, as a division takes longer than all else that a piece takes.
+/// Multiplied by, as divisions take a good part of what a piece takes.
 const THIRD: f64 = 1.0 / 3.0;
-pub(super) const SIXTH: f64 = 1.0 / 6.0;
 
 /// Work, and how much goes to and fro in it: the parts of a constant force and of its change by themselves. Their sum
 /// may vanish where neither does, and is no scale to judge rounding by.
@@ -30,7 +29,7 @@ pub(super) fn work(force: [f64; 2], v0: f64, a: [f64; 2], end: f64) -> Work {
 #[inline(always)]
 pub(super) fn path_and_moment(v0: f64, a: [f64; 2], end: f64) -> (f64, f64) {
     let t = end;
-    let path = t * (v0 + t * (a[0] / 2.0 + t * a[1] * SIXTH));
+    let path = t * (v0 + t * (a[0] / 2.0 + t * a[1] / 6.0));
     let moment = t * t * (v0 / 2.0 + t * (a[0] * THIRD + t * a[1] / 8.0));
     (path, moment)
 }

@@ -3,7 +3,7 @@
 use super::super::block::{Vector, HEEL, SLIP, TOE};
 use super::super::course::Course;
 use super::super::event;
-use super::super::ledger::{work, SIXTH};
+use super::super::ledger::work;
 use super::super::mode::{Corner, Mode, Slip};
 use super::super::shaking::Piece;
 use super::stretch::Stretch;
@@ -123,7 +123,7 @@ impl Exact<'_> {
             [turn(v), turn_0, turn_1],
         ];
         let reach =
-            |c: usize| step * (v[c].abs() + step * (a[c][0].abs() / 2.0 + step * a[c][1].abs() * SIXTH));
+            |c: usize| step * (v[c].abs() + step * (a[c][0].abs() / 2.0 + step * a[c][1].abs() / 6.0));
         let [slide, rise_heel, rise_toe] = [SLIP, HEEL, TOE].map(reach);
         let (now, spin, s) = (turn(w), (rise_heel + rise_toe) / block.width, &self.walk.summary);
         // Where one of them cannot go beyond what has been on this piece, there is no need to look where it turns.
