@@ -47,8 +47,12 @@ impl Past {
         u.iter_mut().zip(&self.b).for_each(|(u, b)| *u -= b);
         for (now, past) in [(p, &mut self.p), (&mut *u, &mut self.change)] {
             past.resize(now.len(), [0.0; ORDER]);
-            for (now, past) in now.iter_mut().zip(past) {
-                *now = next(*now, past, self.known);
+            let both = now.iter_mut().zip(past);
+            if self.known == ORDER {
+                // As nearly always: the same for each, so that it need not be looked at for each.
+                both.for_each(|(now, past)| *now = next(*now, past, ORDER));
+            } else {
+                both.for_each(|(now, past)| *now = next(*now, past, self.known));
             }
         }
         self.known = (self.known + 1).min(ORDER);
