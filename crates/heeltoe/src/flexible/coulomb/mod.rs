@@ -69,7 +69,7 @@ const SLACK: f64 = 1e-11;
 /// What rounding may leave where corrections do no better.
 const ROUNDED: f64 = 1e-11;
 /// From so many contacts on an inverse that goes from set to set costs less than factors.
-pub(super) const MANY: usize = 40;
+pub(super) const MANY: usize = 16;
 
 /// Sweeps in turn with the same states after which they are looked at for the first time; each look in vain doubles them.
 const SETTLED: u32 = 16;
