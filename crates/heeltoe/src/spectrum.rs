@@ -328,7 +328,7 @@ impl<'a, const L: usize> Row<'a, L> {
     #[inline(always)]
     fn step(&mut self, k: usize, a_start: f64, slope: &[f64; L]) {
         let (mut u1, mut v1, mut a0) = ([0.0; L], [0.0; L], [0.0; L]);
-        // What each is known to reach, and how far it may get in between.
+        // Each is known to reach so much, and gets no farther than that in between.
         let (mut known, mut far) = ([[0.0; L]; 2], [[0.0; L]; 2]);
         for l in 0..L {
             let (u, v, s, h) = (self.u[l], self.v[l], slope[l], self.length[l]);
