@@ -333,7 +333,8 @@ class _Stand:
         if self.mesh is not None:
             pairs["mesh"] = (self.mesh, scales if self.mesh < self._own else some)
         if self._third is not None:
-            pairs["third mesh"] = (self._third, scales)
+            # With rock and water around it a coarse mesh costs nearly as much as the own one.
+            pairs["third mesh"] = (self._third, some if self._larger is not None else scales)
         if self._larger is not None:
             pairs["surroundings"] = (self._larger, some)
         return pairs
