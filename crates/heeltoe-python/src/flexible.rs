@@ -208,7 +208,7 @@ pub struct StressRows<'py> {
 }
 
 impl StressRows<'_> {
-    /// What is wanted of these rows, and every how many steps.
+    /// The stresses of these rows, and after how many steps each time they are wanted.
     fn wanted(rows: &Option<Self>) -> PyResult<Option<(Vec<Stresses<'_>>, usize)>> {
         rows.as_ref()
             .map(|rows| Ok((rows.stresses()?, rows.stride)))

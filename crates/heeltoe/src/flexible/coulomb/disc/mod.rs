@@ -53,7 +53,7 @@ const SWEEPS: u32 = 4000;
 /// Relative to the largest impulse or velocity: what counts as a violation, and by how much friction may be off.
 pub(in super::super) const SLACK: f64 = 1e-11;
 const RIGHT: f64 = 1e-10;
-/// What each correction may leave of what was amiss.
+/// The part of what was amiss that each correction may leave.
 const CLOSER: f64 = 0.5;
 /// Looks at the velocities of a set of states at most, and how many of them say that the tableaux are worn.
 const LOOKS: usize = 8;
