@@ -183,7 +183,7 @@ def report(count: int = 100_000) -> str:
                 ],
                 timings,
             ),
-            "What happened in the runs, on average. `ended early` counts runs whose outcome is not `ok`; the last "
+            "The runs on average. `ended early` counts runs whose outcome is not `ok`; the last "
             "column is the largest relative gap in any energy balance.",
             table(
                 [

@@ -32,7 +32,7 @@ def engines() -> str:
             best += [exact] if exact is quick else [exact, quick]
     text = (
         f"Push-and-sine block, exact slip {EXACT[-1]:.10f} m after 5 s. Errors are the largest at any tenth of a "
-        "second, relative to the slip in the end. Of each engine the setting with the smallest error at each step, "
+        "second, relative to the slip in the end. Each engine has the setting with the smallest error at each step, "
         "and the quickest if that is another."
     )
     return "\n\n".join([text, table(COLUMNS, rows(own, best)), *remarks])

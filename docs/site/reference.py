@@ -21,12 +21,13 @@ PAGES = {
     "study": (
         "Fields of a study",
         ("field of a study",),
-        "What varies is a list of values or, under `vary.*`, a distribution; [studies](../studies.md) have examples.",
+        "A field that varies has a list of values or, under `vary.*`, a distribution; [studies](../studies.md) have "
+        "examples.",
     ),
     "json": (
         "Keys of the JSON",
         ("key of the JSON",),
-        "What `--json` writes, and `response.to_json()` returns. `[]` is a place in a list, `*` any name. Numbers are "
+        "The numbers of `--json` and of `response.to_json()`. `[]` is a place in a list, `*` any name. Numbers are "
         "SI, per metre of dam. [How to read results in pandas](../howto/pandas.md) has examples.",
     ),
     "columns": (
@@ -115,7 +116,7 @@ def _text(text: str) -> str:
 def combinations() -> Iterator[str]:
     """Walk the page of what goes with what, from the table that the checks read."""
     yield from (
-        "# What goes with what",
+        "# Fields that go together",
         "",
         "A case that has both is refused, with the field and the remedy; or it runs, and a warning says what is left",
         "out. Whatever is not listed here goes together. [Fields of a case](case.md) say which models read them.",
@@ -138,7 +139,7 @@ def _commands() -> Iterator[str]:
     yield from (
         "# Commands",
         "",
-        "What `heeltoe COMMAND --help` says. Exit codes: 0 a result, 2 the input is wrong,",
+        "The words of `heeltoe COMMAND --help`. Exit codes: 0 a result, 2 the input is wrong,",
         "3 the run ended without a result to trust, 1 a bug.",
         "",
     )
@@ -156,7 +157,7 @@ def _commands() -> Iterator[str]:
             yield from (
                 f"`{written}{value}`",
                 "",
-                f": {_text(getattr(item, 'help', None) or 'What it is about.')}{default}",
+                f": {_text(getattr(item, 'help', None) or 'Its subject.')}{default}",
                 "",
             )
 

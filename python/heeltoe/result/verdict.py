@@ -275,10 +275,10 @@ def _share_across(across: CrossValley, mean: HeadlineWorth | None) -> str:
     if without is None or without.factor is None:
         return ""
     share = 100.0 * (without.factor - 1.0)
-    if mean is not None and abs(share) <= 100.0 * math.sqrt(2.0) * abs(
-        without.factor * (mean.shaking or 0.0) / mean.value
-    ):
-        return "adds less than the scatter of single runs hides"
+    if mean is not None:
+        error = 100.0 * math.sqrt(2.0) * without.factor * (mean.shaking or 0.0)
+        if abs(share * mean.value) <= abs(error):
+            return "adds less than the scatter of single runs hides"
     if abs(share) < 0.5:
         return "adds nothing"
     return f"adds {share:.0f} %" if share > 0.0 else f"takes off {-share:.0f} %"

@@ -364,6 +364,14 @@ FURTHER = {
 }
 
 
+def test_contacts_that_are_left_out_do_not_make_a_step_look_worse():
+    """The residual is one over the impulse that would stop the fastest node, which is open where a part rocks."""
+    law = {"name": "cohesion", "residual_friction": 1.3, "cohesion": "0.5 MPa", "slip": "20 mm"}
+    case = case_of(None, crack={"elevation": "20 m", "kinks": STEP_UP, "law": law}, flexible={"contactors": 3})
+    run = shaken(case, made(0.8, 647, 2.0, 1e-9)).run(5e-5)
+    assert run.summary.contact_residual < 1e-6
+
+
 @pytest.mark.parametrize("name", FURTHER)
 def test_what_a_crack_may_have_besides_keeps_ledger_mirror_and_bits(name):
     friction, more = FURTHER[name]

@@ -287,9 +287,8 @@ impl<'a> Walk<'a> {
     /// Whether the pressures of the water after this step are wanted.
     #[inline(always)]
     pub(super) fn pressed(&self, step: usize) -> bool {
-        self.pressures
-            .as_ref()
-            .is_some_and(|pressures| pressures.due(step))
+        let wanted = |pressures: &Envelope| pressures.due(step) || self.due(step);
+        self.pressures.as_ref().is_some_and(wanted)
     }
 
     /// Take the pressures of water with these velocities into account, where they are wanted.

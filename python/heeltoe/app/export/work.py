@@ -88,7 +88,7 @@ def program(options: Wanted) -> str:
     ]
     if options.report:
         lines += [
-            "# What the result of a block depends on: the shaking varied by 1 %.",
+            "# The shaking varied by 1 %, on which the result of a block depends.",
             "result = result.with_responses(",
             "    lambda run: run if run.elastic or not run.ok else heeltoe.with_spread(run, case)",
             ")",

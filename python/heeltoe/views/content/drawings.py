@@ -45,7 +45,7 @@ CAPTIONS = {
     "deformed": "Deformed dam with its principal stresses, tension on the left, compression on the right.",
     "tension": "Largest principal tension over the run at every place, and the largest of all.",
     "pressure": "Contact pressure along the crack over time.",
-    "water-pressure": "Pressure of the water on the face: at rest, its range over the run, and at two moments.",
+    "water-pressure": "Pressure of the water on the face: at rest, its range over the run, and at the largest push.",
     "mesh": "The mesh, and the nodes of the crack.",
     "modes": "Lowest vibration modes of the intact dam.",
 }

@@ -247,7 +247,7 @@ def _law(subject: Subject) -> list[Block]:
         whose = "" if len(subject.runs) == 1 else f", {run.name}"
         for prefix, elevation, law in _laws_of(run.response):
             at = _where(subject, elevation)
-            blocks.append(paragraph(f"Its state at the end{at}{whose}: {law_line(law, subject.units)}."))
+            blocks.append(paragraph(f"The law at the end{at}{whose}: {law_line(law, subject.units)}."))
             caption = f"The friction law{at}{whose}."
             blocks.append(subject.known(labels_of(type(law)), f"{run.prefix}{prefix}friction_law.", caption))
     return blocks

@@ -14,7 +14,7 @@ from heeltoe.views.figures.style import COLOURS, WIDTH, describe, styled
 
 @styled
 def water_pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
-    """Draw the pressure over the height of each face: at rest, its range over all steps of the run, and that at the
+    """Draw the pressure over the height of each face: at rest, its range over the run, and that at the
     frame with the largest push on the face."""
     history = response.crack
     water, reservoir = history.water, history.dam.reservoir

@@ -660,17 +660,22 @@ impl Disc {
     fn residual(&self, way: &Way) -> f64 {
         let m = self.states.len();
         let (problem, rows) = (way.problem, &*way.rows);
-        let (mut worst, mut most) = (0.0_f64, 0.0_f64);
+        let mut worst = 0.0_f64;
+        // A contact that is left out moves, too.
+        let mut most = (0..m).fold(0.0_f64, |most, contact| {
+            let stops = [
+                problem.b[contact] * problem.scale[contact],
+                problem.b[m + contact] * problem.scale[m + contact],
+                rows.b[contact] * rows.scale[contact],
+            ];
+            stops.iter().fold(most, |most, stop| most.max(stop.abs()))
+        });
         // Rows of a contact that meets nothing are old.
         let there = |(_, state): &(usize, &State)| **state != State::Absent;
         for (contact, state) in self.states.iter().enumerate().filter(there) {
             let (p_t, p_n, p_y) = (way.p[contact], way.p[m + contact], rows.p[contact]);
             let scale = [problem.scale[contact], problem.scale[m + contact]];
-            let stops = (problem.b[contact] * scale[0])
-                .abs()
-                .max((problem.b[m + contact] * scale[1]).abs())
-                .max((rows.b[contact] * rows.scale[contact]).abs());
-            most = most.max(p_n).max(stops);
+            most = most.max(p_n);
             let apart = p_n.min((way.u[m + contact] + problem.h[contact]) * scale[1]);
             let slips = *state != State::Stick;
             let (limit, rho) = (way.limit(contact, slips, p_n.max(0.0)), way.rho(contact));
