@@ -244,7 +244,10 @@ class CrossValley(Block):
     """Motion of the part above a crack across the valley, positive to the left bank."""
 
     residual_slip_cross_m: Annotated[
-        float, Number("Slip across the valley at the end, positive to the left bank.", "m")
+        float,
+        Number(
+            "Slip across the valley at the end, positive to the left bank; the mean where single runs scatter.", "m"
+        ),
     ]
     peak_slip_cross_left_m: Annotated[float, Number("Largest slip to the left bank on the way.", "m")]
     peak_slip_cross_right_m: Annotated[

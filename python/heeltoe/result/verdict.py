@@ -255,15 +255,14 @@ def across_sentence(response: ResponseData, units: str = "si") -> str:
         return ""
     slip = across.residual_slip_cross_m
     bank = "left" if slip > 0.0 else "right"
-    sentences = []
+    means, sentences = _means(response), []
+    mean = "" if means is None else " in the mean"
     if abs(slip) >= LEAST_M:
-        sentences.append(f"Across the valley it slides {length(abs(slip), units)} to the {bank} bank.")
-    means = _means(response)
+        sentences.append(f"Across the valley it slides {length(abs(slip), units)}{mean} to the {bank} bank.")
     slip_worth = None if means is None else means.residual_slip_m
     adds, without = _share_across(across, slip_worth), across.without_cross_valley
     if adds and without is not None and without.residual_slip_m is not None:
         alone = length(abs(without.residual_slip_m), units)
-        mean = "" if slip_worth is None else " in the mean"
         sentences.append(f"The shaking across the valley {adds}: without it the dam slides {alone}{mean}.")
     return " ".join(sentences)
 

@@ -295,7 +295,11 @@ def test_a_dam_whose_single_runs_scatter_is_compared_by_means():
     slips = [dam.run(evidence.varied_time_step_s, factor=scale).summary.slip for scale in evidence.scales]
     assert without.residual_slip_m == pytest.approx(np.mean(slips), rel=1e-3)
     assert without.factor == pytest.approx(evidence.residual_slip_m.value / np.mean(slips), rel=1e-3)
-    assert "in the mean." in across_sentence(response)
+    assert response.cross_valley.residual_slip_cross_m == evidence.residual_slip_cross_m.value
+    assert evidence.residual_slip_cross_m.value != evidence.residual_slip_cross_m.run
+    text = across_sentence(response)
+    assert "in the mean to the" in text
+    assert "in the mean." in text
 
 
 WEAKENING = {"name": "slip weakening", "peak_friction": 1.1, "residual_friction": 0.8, "slip": "40 mm"}

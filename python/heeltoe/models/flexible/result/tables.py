@@ -125,17 +125,18 @@ def crack_numbers(
         evidence=evidence,
         friction_law=None if worn is None else law_result(worn, run, place),
         joint=bond_of(case, dam, run, place),
-        cross_valley=_across(raw) if run.crest_cross.size else None,
+        cross_valley=_across(raw, evidence) if run.crest_cross.size else None,
     )
     # Where single runs scatter, what is shown first is the mean of several.
     means: dict[str, Any] = {} if evidence is None else trusted(evidence)
     return replace(numbers, **means)
 
 
-def _across(raw: DamSummary) -> CrossValley:
-    """Return what the part above a crack does across the valley."""
+def _across(raw: DamSummary, evidence: EvidenceNumbers | None) -> CrossValley:
+    """Return what the part above a crack does across the valley; its slip is the mean where single runs scatter."""
+    worth = None if evidence is None else evidence.residual_slip_cross_m
     return CrossValley(
-        residual_slip_cross_m=raw.cross_slip + 0.0,
+        residual_slip_cross_m=(raw.cross_slip if worth is None else worth.value) + 0.0,
         peak_slip_cross_left_m=raw.cross_slip_max + 0.0,
         peak_slip_cross_right_m=raw.cross_slip_min + 0.0,
         slip_path_m=raw.cross_slip_path,
