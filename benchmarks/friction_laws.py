@@ -138,8 +138,13 @@ def page(text: str, results: str) -> str:
     return f"{before}{BEGINS}\n{laws}\n\n{ENDS}{rest.split(ENDS)[1]}"
 
 
+def renew() -> None:
+    """Write the costs of results.md into the page."""
+    PAGE.write_text(page(PAGE.read_text(encoding="utf-8"), RESULTS.read_text(encoding="utf-8")), encoding="utf-8")
+
+
 if __name__ == "__main__":
     if "--page" in sys.argv:
-        PAGE.write_text(page(PAGE.read_text(encoding="utf-8"), RESULTS.read_text(encoding="utf-8")), encoding="utf-8")
+        renew()
     else:
         print(report())

@@ -1,4 +1,5 @@
-"""Run the benchmarks, all or those that are named; write their tables to results.md, our figures to history.md.
+"""Run the benchmarks, all or those that are named; write their tables to results.md and the pages that show them, our
+figures to history.md.
 
 python benchmarks/run.py                      # all parts, one after the other
 python benchmarks/run.py crack_dam crack_peers
@@ -76,6 +77,8 @@ def main() -> None:
         TARGET.write_text(renewed(old, report), encoding="utf-8")
         history.add(history.picked(report, history.commit_now()))
         print(f"{part}: {time.perf_counter() - start:.0f} s, written to {TARGET}")
+        for shown in ("friction_laws", "short"):
+            import_module(shown).renew()
     sys.exit(failed)
 
 

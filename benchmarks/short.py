@@ -184,6 +184,11 @@ def renewed(page: str, text: str) -> str:
     return f"{before}{BEGINS}\n{table(text)}\n{quicker(text)}\n{ENDS}{rest.split(ENDS)[1]}"
 
 
-if __name__ == "__main__":
+def renew() -> None:
+    """Write the table of results.md into the pages."""
     for path in PAGES:
         path.write_text(renewed(path.read_text(encoding="utf-8"), RESULTS.read_text(encoding="utf-8")), "utf-8")
+
+
+if __name__ == "__main__":
+    renew()
