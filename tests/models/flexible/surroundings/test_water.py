@@ -200,3 +200,13 @@ def test_floor_of_rock():
     assert floor_reflection(1000.0, 1440.0, 2640.0, 2500.0) == pytest.approx((1 - 0.21818) / (1 + 0.21818), rel=1e-4)
     assert floor_admittance(1440.0, 1.0) == 0.0
     assert floor_admittance(1440.0, 0.0) == 1.0 / 1440.0
+
+
+@pytest.mark.parametrize("depth", [0.01, 0.05, 0.3])
+def test_a_little_water_far_from_zero_pushes_as_water_without_sound(depth):
+    """By far below the first frequency of the water, 0.543 rho h^2 of it move with a rigid wall (Westergaard 1933)."""
+    face = np.column_stack([70.0 + 0.0 * HEIGHTS, 0.2 * HEIGHTS + 30.0])
+    water = reduced_water([face], depth, wave_speed=SPEED, reflection=1.0, density=DENSITY, upstream=False)
+    omega = 2.0 * np.pi * 5.0
+    _, force = answer(water, omega, water.ground[:, 0] / (1j * omega))
+    assert abs(abs(force) / (0.5428 * DENSITY * depth**2) - 1.0) < 0.01

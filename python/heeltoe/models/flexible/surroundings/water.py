@@ -293,8 +293,13 @@ def _near_mesh(line: Floats, bottom: float, depth: float, longest: float, near: 
     def flow(v: Any, _: Any) -> Any:
         return 1.0 * v
 
+    # scikit-fem 12 looks for points of a facet in its element to an absolute tolerance, which rounding of coordinates far
+    # from zero exceeds where the water is a few centimetres deep.
     at_floor = skfem.FacetBasis(
-        quads, element, facets=square.facets_satisfying(lambda x: np.abs(x[1] - bottom) < 1e-9 * depth), intorder=5
+        quads.translated((-start, -bottom)),
+        element,
+        facets=square.facets_satisfying(lambda x: np.abs(x[1] - bottom) < 1e-9 * depth),
+        intorder=5,
     )
     slack = 1e-9
     face, end = np.flatnonzero(along > 1.0 - slack), np.flatnonzero(along < slack)
