@@ -147,15 +147,17 @@ pub(in super::super) struct Disc {
     answers: Vec<Group>,
     /// How far the solution for them has come.
     sliding: Vec<Sliding>,
-    /// The inverse of Newton's matrix, column by column, each filled up to whole groups; empty where there is none.
+    /// Factors of Newton's matrix, without pivots where there are none; how many corrections they have made, and, after a
+    /// few, the inverse that they have been turned into, column by column, each filled up to whole groups.
+    lu: Vec<f64>,
+    pivots: Vec<usize>,
+    made: usize,
     inverse: Vec<Group>,
-    /// Right-hand sides, and room for answers, for a solution, for factors, and for the corrections of a set.
+    /// Right-hand sides, and room for answers, for a solution, and for the corrections of a set.
     x: Vec<f64>,
     sums: [Vec<Group>; 2],
     near: Vec<Group>,
     sum: Vec<Group>,
-    lu: Vec<f64>,
-    pivots: Vec<usize>,
     steps: Vec<Group>,
 }
 
@@ -199,13 +201,14 @@ impl Disc {
             slips: Vec::new(),
             answers: Vec::new(),
             sliding: Vec::new(),
+            lu: Vec::new(),
+            pivots: Vec::new(),
+            made: 0,
             inverse: Vec::new(),
             x: vec![0.0; 3 * contacts],
             sums: [2 * contacts, contacts].map(|size| vec![[0.0; LANES]; size.div_ceil(LANES)]),
             near: Vec::new(),
             sum: Vec::new(),
-            lu: Vec::new(),
-            pivots: Vec::new(),
             steps: Vec::new(),
         }
     }
@@ -405,7 +408,7 @@ impl Disc {
             self.slips
                 .extend((0..m).filter(|k| matches!(self.states[*k], State::Slip(..))));
             self.gather(way);
-            self.inverse.clear();
+            self.pivots.clear();
         }
     }
 

@@ -1,7 +1,7 @@
 //! Friction of the contacts that slip, by corrections of their normal impulses and directions: see [`super`].
 
-use super::super::super::simd::{add_times, dot, inlined, largest, Group, Lanes, LANES};
-use super::super::triangles::{eliminate, inverse};
+use super::super::super::simd::{add_times, dot, fill, inlined, largest, Group, Lanes, LANES};
+use super::super::triangles::{eliminate, inverse, substitute};
 use super::{length, Disc, Side, Sliding, State, Way, CLOSER};
 
 /// Corrections at most, and what they leave to rounding and to the tableaux.
@@ -9,6 +9,8 @@ const CORRECTIONS: usize = 12;
 const LEFT: f64 = 0.5;
 /// How often its matrix may be renewed in one set of corrections.
 const RENEWALS: u32 = 3;
+/// Factors make one correction for so many unknowns; then they are turned into the inverse, with which each takes less time.
+const UNKNOWNS: usize = 4;
 
 impl Disc {
     /// Write how the contacts that slip answer to their friction.
@@ -51,7 +53,7 @@ impl Disc {
         let (mut before, mut renewals) = (f64::INFINITY, 0);
         self.steps.clear();
         for _ in 0..CORRECTIONS {
-            let known = !self.inverse.is_empty();
+            let known = !self.pivots.is_empty();
             let now = if known { self.missing(way) } else { f64::INFINITY };
             if now <= LEFT * enough {
                 self.pass_on(way);
@@ -78,7 +80,7 @@ impl Disc {
                 break;
             }
         }
-        self.inverse.clear();
+        self.pivots.clear();
         false
     }
 
@@ -169,7 +171,7 @@ impl Disc {
         }
     }
 
-    /// Find the inverse of Newton's matrix of directions and shares as they are; false where it has none.
+    /// Factor Newton's matrix of directions and shares as they are; false where it has no inverse.
     #[inline(always)]
     pub(super) fn renew<W: Lanes>(&mut self, way: &Way) -> bool {
         let (count, stride) = (self.slips.len(), self.near.len());
@@ -209,17 +211,27 @@ impl Disc {
         }
         self.sum.resize(n.div_ceil(LANES), [0.0; LANES]);
         if !eliminate::<W>(&mut self.lu, n, &mut self.pivots) {
-            self.inverse.clear();
+            self.pivots.clear();
             return false;
         }
-        inverse::<W>(&self.lu, &self.pivots, n, &mut self.inverse);
+        self.inverse.clear();
+        self.made = 0;
         true
     }
 
-    /// Turn the right-hand sides into the solution by the inverse.
+    /// Turn the right-hand sides into the solution, by the factors or, after some corrections, by the inverse.
     #[inline(always)]
     pub(super) fn find<W: Lanes>(&mut self) {
         let n = 2 * self.slips.len();
+        self.made += 1;
+        if self.made <= n / UNKNOWNS {
+            fill(&self.x[..n], &mut self.sum);
+            substitute::<W>(&self.lu, &self.pivots, &mut self.sum.as_flattened_mut()[..n]);
+            return;
+        }
+        if self.inverse.is_empty() {
+            inverse::<W>(&self.lu, &self.pivots, n, &mut self.inverse);
+        }
         self.sum.fill([0.0; LANES]);
         inlined::combine::<W>(&self.inverse, self.sum.len(), &self.x[..n], &mut self.sum);
     }
