@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import io
+from contextlib import nullcontext
+
 import matplotlib as mpl
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from heeltoe.views.figures.style import STYLE, align_labels, fit_words
+from heeltoe import rigid
+from heeltoe.views.content.drawings import drawing
+from heeltoe.views.figures.all import all_figures
+from heeltoe.views.figures.style import STYLE, align_labels, fit_words, laid_out
 from heeltoe.views.figures.summary import summary_figure
 from shared.dams import example
 
@@ -60,3 +66,41 @@ def test_words_of_time_fit_below_a_narrow_panel_and_others_stay():
     words = left.xaxis.label.get_window_extent()
     assert words.width < 1.2 * left.get_window_extent().width
     assert not words.overlaps(right.xaxis.label.get_window_extent())
+
+
+def _drawn(case):
+    file = io.BytesIO()
+    figure = summary_figure(case, (rigid(case),))
+    with laid_out(figure):
+        figure.savefig(file, format="svg", metadata={"Date": None})
+    return file.getvalue()
+
+
+def test_ticks_found_once_and_words_measured_together_make_the_same_drawing(monkeypatch):
+    case = example("typical-base", "motion.duration=4s")
+    quick = _drawn(case)
+    monkeypatch.setattr("heeltoe.views.figures.style._steady", lambda figure: nullcontext())
+    monkeypatch.setattr("heeltoe.views.figures.style._measured", lambda figure: nullcontext())
+    assert _drawn(case) == quick
+
+
+def test_a_figure_that_was_laid_out_is_as_before():
+    figure = Figure(layout="constrained")
+    axes, canvas, engine = figure.subplots(), figure.canvas, figure.get_layout_engine()
+    with laid_out(figure):
+        assert "_update_ticks" in vars(axes.xaxis)
+    assert "_update_ticks" not in vars(axes.xaxis)
+    assert figure.canvas is canvas
+    assert figure.get_layout_engine() is engine
+    axes.set_xlim(0.0, 5000.0)
+    FigureCanvasAgg(figure).draw()
+    assert axes.get_xticklabels()[-1].get_text() == "5000"
+
+
+def test_ticks_of_a_report_are_those_of_its_letters():
+    response = rigid(example("typical-base", "motion.duration=4s"))
+    reports = []
+    for size in (8.0, 30.0):
+        with mpl.rc_context({"font.size": size}):
+            reports.append(drawing("spectrum", all_figures(None, response)["spectrum"], "The spectrum.").svg)
+    assert reports[0] == reports[1]

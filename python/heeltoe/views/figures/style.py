@@ -10,11 +10,12 @@ import re
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from functools import wraps
+from functools import lru_cache, partial, wraps
 from typing import Any, ParamSpec, TypeVar
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
 from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox, ScaledTranslation
 
@@ -182,15 +183,79 @@ def _without_way(text: str) -> str:
 def laid_out(figure: Figure) -> Iterator[None]:
     """Lay a figure out once for all files that are made of it; each would do it anew, with a drawing for nothing."""
     engine = figure.get_layout_engine()
-    with mpl.rc_context(STYLE | {"figure.constrained_layout.use": False, "figure.autolayout": False}):
+    with mpl.rc_context(STYLE | {"figure.constrained_layout.use": False, "figure.autolayout": False}), _steady(figure):
         if engine is not None:
-            with _roughly_first(figure):
+            with _roughly_first(figure), _measured(figure):
                 engine.execute(figure)
         figure.set_layout_engine(None)
+        try:
+            yield
+        finally:
+            figure.set_layout_engine(engine)
+
+
+@contextmanager
+def _measured(figure: Figure) -> Iterator[None]:
+    """Let one renderer measure the words of all figures, as many of them recur."""
+    canvas = figure.canvas
+    _Ruler(figure)
     try:
         yield
     finally:
-        figure.set_layout_engine(engine)
+        figure.set_canvas(canvas)
+
+
+class _Ruler(FigureCanvasAgg):
+    """A canvas on which nothing is drawn."""
+
+    def get_renderer(self) -> RendererAgg:
+        return _ruler(float(self.figure.dpi))
+
+
+@lru_cache(maxsize=4)
+def _ruler(dpi: float) -> RendererAgg:
+    return RendererAgg(1, 1, dpi)  # type: ignore[no-untyped-call]
+
+
+@contextmanager
+def _steady(figure: Figure) -> Iterator[None]:
+    """Let the axes of a figure, in which nothing is changed meanwhile, find their ticks once for each size, and measure
+    the numbers at them once for each place; each spine and label would do it anew."""
+    every: list[Any] = [axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)]
+    for axis in every:
+        axis._update_ticks = _Once(axis._update_ticks, partial(_size, axis))
+        axis._get_ticklabel_bboxes = _Once(axis._get_ticklabel_bboxes, partial(_place, axis))
+    try:
+        yield
+    finally:
+        for axis in every:
+            del axis._update_ticks, axis._get_ticklabel_bboxes
+
+
+class _Once:
+    """Takes the place of a method as long as the state of its axis is the same."""
+
+    def __init__(self, method: Callable[..., Any], state: Callable[..., Any]) -> None:
+        self._method, self._state = method, state
+        self._before: Any = None
+        self._result: Any = None
+
+    def __call__(self, *args: Any) -> Any:
+        state = self._state(*args)
+        if state != self._before:
+            self._before, self._result = state, self._method(*args)
+        return self._result
+
+
+def _size(axis: Any) -> tuple[float, ...]:
+    """Return what the ticks of an axis depend on: its ends, and how large its axes are [in]."""
+    box = axis.axes.bbox
+    return (*axis.get_view_interval(), *(round(float(side) / axis.axes.figure.dpi, 9) for side in box.size))
+
+
+def _place(axis: Any, ticks: list[Any], renderer: Any) -> tuple[Any, ...]:
+    """Return what the boxes of the numbers at ticks depend on."""
+    return (*axis.get_view_interval(), *axis.axes.bbox.bounds, renderer, *ticks)
 
 
 # Labels around the axes of a panel over time, from the left counter-clockwise [pt].
