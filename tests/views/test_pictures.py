@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from scipy.ndimage import uniform_filter1d
 
 from heeltoe import rigid, run, statics, with_spread
 from heeltoe.mechanics.law_curve import curve_of
@@ -15,6 +16,7 @@ from heeltoe.motion.measures import velocity_displacement
 from heeltoe.motion.sequence import joined
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.energy import friction_loss
+from heeltoe.views.figures.histories import _running_mean
 from heeltoe.views.figures.panels import draw_rotation, draw_slip
 from heeltoe.views.figures.statics.checks import statics_figure
 from heeltoe.views.figures.stress.deformed import _levels, deformed_figure
@@ -106,3 +108,10 @@ def test_page_one_has_the_slip_of_every_crack(typical_both):
     labels = [line.get_label() for line in slip.lines if line.get_label().startswith("crack")]
     assert sorted(labels) == ["crack at 0 m", "crack at 90 m"]
     assert "largest tension" in deformed_figure(typical_both)._supxlabel.get_text()
+
+
+@pytest.mark.parametrize("step", [0.01, 0.0125, 0.02])
+def test_a_running_mean_holds_its_ends(step):
+    time = step * np.arange(200)
+    values = np.random.default_rng(1).normal(size=time.size)
+    assert _running_mean(time, values) == pytest.approx(uniform_filter1d(values, round(0.1 / step), mode="nearest"))

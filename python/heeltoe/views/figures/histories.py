@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
-from scipy.ndimage import uniform_filter1d
 
 from heeltoe.base.arrays import Floats
 from heeltoe.result.contract import RESIDUAL_SLIP
@@ -294,7 +293,8 @@ def bearing_figure(response: Response, units: str = "si") -> Figure:
 def _running_mean(time: Floats, values: Floats) -> Floats:
     """Return the mean of values (n,) around each moment (n,) [s]."""
     several = max(1, round(_MEAN_S / float(np.median(np.diff(time)))))
-    return np.asarray(uniform_filter1d(values, several, mode="nearest"), dtype=np.float64)
+    longer = np.pad(values, (several // 2, (several - 1) // 2), mode="edge")
+    return np.convolve(longer, np.full(several, 1.0 / several), mode="valid")
 
 
 _PANELS = (
