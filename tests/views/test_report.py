@@ -21,7 +21,7 @@ from heeltoe.errors.sanitize import LONGEST, plain
 from heeltoe.result.write import json_text
 from heeltoe.views.content.drawings import caption
 from heeltoe.views.content.input import fields, input_hash
-from heeltoe.views.content.tree import Beside, Document, FigureBlock, Section, paragraph
+from heeltoe.views.content.tree import Beside, Document, FigureBlock, Section, glued, paragraph
 from heeltoe.views.figures.all import all_figures
 from heeltoe.views.figures.write import save_all
 from heeltoe.views.report.html import html
@@ -340,6 +340,11 @@ def test_figures_drawn_ahead_make_the_same_report_and_are_let_go(block, tmp_path
     assert build_report(case, response, figures=ahead.figures, ahead=ahead) == expected
     for path in later.iterdir():
         assert (first / path.name).read_bytes() == path.read_bytes()
+
+
+def test_a_number_stays_with_its_unit_on_paper():
+    document = Document("x", "y", "z", (paragraph(glued("damped by 5 % at 20 GPa")),))
+    assert "by 5\u00a0% at 20\u00a0GPa" in source(document)
 
 
 def test_packages_that_do_not_work_are_named(monkeypatch):

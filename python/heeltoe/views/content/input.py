@@ -58,7 +58,7 @@ def _loads(subject: Subject) -> tuple[Block, ...]:
     rows[-1] = tuple(Strong(cell) if isinstance(cell, str) and cell else "" for cell in rows[-1])
     caption = (
         f"Loads before the earthquake on the part above the crack at {at}, {subject.per_width}: H positive downstream, "
-        "V upward, M = x V − z H counter-clockwise; arms from the heel of the closed part."
+        "V upward, M = x\u00a0V\u00a0−\u00a0z\u00a0H counter-clockwise; arms from the heel of the closed part."
     )
     caption += entered(joint.statics, subject.units)
     return (Table(written.head[:-1], tuple(rows), caption, "lrrrrr"),)

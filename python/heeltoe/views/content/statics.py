@@ -207,7 +207,8 @@ def _forces(subject: _Subject, load_case: LoadCase) -> Table:
     last: tuple[Inline, ...] = tuple(Strong(cell) if cell else "" for cell in rows[-1])
     name = load_case.name[0].upper() + load_case.name[1:]
     caption = (
-        f"{name}: H positive downstream, V upward, M = x V − z H counter-clockwise; arms from the heel of the contact."
+        f"{name}: H positive downstream, V upward, M = x\u00a0V\u00a0−\u00a0z\u00a0H counter-clockwise; arms from the "
+        "heel of the contact."
     )
     return Table(written.head, (*rows[:-1], last), caption, "lrrrrrl", _FORCES)
 

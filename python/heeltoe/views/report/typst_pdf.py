@@ -276,5 +276,5 @@ def _breakable(text: str, most: int) -> str:
 
 def _string(text: str) -> str:
     """Return a string of typst's: nothing in it is markup."""
-    plain = "".join(c if c.isprintable() or c in "\u200b\u2060" else " " for c in text)
+    plain = "".join(c if c.isprintable() or c in "\u00a0\u200b\u2060" else " " for c in text)
     return '"' + plain.replace("\\", "\\\\").replace('"', '\\"') + '"'
