@@ -436,6 +436,16 @@ def test_a_block_loads_no_statistics_no_meshes_no_tables_and_no_figures():
     assert ended.stderr.splitlines()[-1] == "[] False"
 
 
+def test_names_of_files_load_no_libraries_of_figures():
+    program = (
+        "import sys; import heeltoe.views.files.write\n"
+        "print([name for name in ('scipy', 'matplotlib', 'pyarrow', 'heeltoe.models.flexible.body') "
+        "if name in sys.modules])"
+    )
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=True)
+    assert ended.stdout == "[]\n"
+
+
 @pytest.mark.parametrize(
     ("words", "opening", "unloaded"),
     [

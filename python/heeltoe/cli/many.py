@@ -78,7 +78,7 @@ class Output:
 
 def run_many(runner: Runner, output: Output) -> None:
     """Run a study or a suite, write and show it."""
-    from heeltoe.views.files.statics import WORKBOOK
+    from heeltoe.views.files.names import WORKBOOK
     from heeltoe.views.files.workbook import check_workbook
     from heeltoe.views.files.write import STUDY_REPORT, write_study
     from heeltoe.views.report.write import check_packages, write_study_report

@@ -210,7 +210,7 @@ def _write(
 
     def report(fresh: Path) -> None:
         if request.xlsx:
-            from heeltoe.views.files.statics import WORKBOOK
+            from heeltoe.views.files.names import WORKBOOK
             from heeltoe.views.files.workbook import fill_workbook
 
             fill_workbook(results, fresh / WORKBOOK)

@@ -13,6 +13,7 @@ from heeltoe.result.write import write_json, write_table
 from heeltoe.study.small.run_table import SmallStudy
 from heeltoe.study.small.statics import StaticsTable, statics_json
 from heeltoe.views.figures.write import save_all
+from heeltoe.views.files.names import WORKBOOK
 
 _REPORT = ("report.pdf", "report.html")
 _TABLES = ("result.json", "sheet.csv", "checks.csv", "table.csv", "table.parquet")
@@ -20,8 +21,6 @@ _FIGURES = tuple(
     f"{name}{suffix}" for name in ("section", "checks", "forces-*", "at-*-forces-*") for suffix in (".png", ".svg")
 )
 #: Names of all files that the static checks may leave.
-#: The tables as a workbook.
-WORKBOOK = "workbook.xlsx"
 OWN = (*_TABLES, *_FIGURES, *_REPORT, WORKBOOK)
 
 

@@ -19,11 +19,10 @@ from heeltoe.errors.error import package
 from heeltoe.geometry.axes import in_x_and_z, places
 from heeltoe.models.flexible.body.elastic import principal, stresses
 from heeltoe.models.flexible.result.history import CrackHistory
+from heeltoe.views.files.names import VTK_FILES
 
 #: Frames written where none are chosen: 10 s at 20 pictures per second.
 _FRAMES = 200
-#: Patterns of the names of all files of a series.
-OWN = ("dam.pvd", "crack.pvd", "dam-*.vtu", "crack-*.vtu")
 
 
 def write_vtk_series(history: CrackHistory, directory: Path, *, frames: Sequence[int] | None = None) -> Path:
@@ -65,7 +64,7 @@ def write_vtk_series(history: CrackHistory, directory: Path, *, frames: Sequence
         Where the files cannot be written, or the package meshio is missing.
     """
     _meshio(directory)
-    write_whole(lambda fresh: write_frames(history, fresh, frames=frames), directory, OWN, field="directory")
+    write_whole(lambda fresh: write_frames(history, fresh, frames=frames), directory, VTK_FILES, field="directory")
     return directory / "dam.pvd"
 
 

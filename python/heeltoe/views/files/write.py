@@ -10,8 +10,7 @@ from heeltoe.base.atomic_files import write_whole
 from heeltoe.result.response import Response
 from heeltoe.result.write import write_json, write_table
 from heeltoe.views.figures.names import NAMES
-from heeltoe.views.files.statics import WORKBOOK, write_run_table
-from heeltoe.views.files.vtk import OWN as VTK_FILES
+from heeltoe.views.files.names import VTK_FILES, WORKBOOK
 
 # Not at run time: each result needs the libraries of its own figures, and no others'.
 if TYPE_CHECKING:
@@ -124,7 +123,7 @@ def write_all(
         _write(result, fresh, suffix, vtk)
         if drawn:
             save_all(drawn, fresh, finish)
-        if report:
+            if report:
             report(fresh)
 
     own = (*names(".parquet", ".csv", report=report is not None), *VTK_FILES)
@@ -284,6 +283,8 @@ def _write(result: Response | SmallStudy, directory: Path, suffix: str, vtk: boo
     if isinstance(result, Response):
         _write_response(result, directory, suffix, vtk)
     else:
+        from heeltoe.views.files.statics import write_run_table
+
         write_run_table(result, directory)
 
 
