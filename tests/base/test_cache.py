@@ -5,7 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from heeltoe.base.cache import Kept
+from heeltoe.base.cache import Kept, forget_all
 
 
 def test_the_last_few_are_kept():
@@ -99,3 +99,11 @@ def test_what_cannot_be_built_is_not_kept():
     with pytest.raises(ValueError, match="no mesh"):
         kept.get("dam", fail)
     assert kept.get("dam", lambda: "built") == "built"
+
+
+def test_all_caches_forget():
+    first, second = Kept(2), Kept(2)
+    first.get("dam", lambda: "old")
+    second.get("water", lambda: "old")
+    forget_all()
+    assert first.get("dam", lambda: "new") == second.get("water", lambda: "new") == "new"

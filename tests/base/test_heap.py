@@ -3,8 +3,11 @@
 import os
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import pytest
+
+from heeltoe.base.heap import give_back
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="other systems have other heaps")
 
@@ -72,3 +75,11 @@ def test_threads_share_a_heap_for_each_processor(tmp_path, kind):
 def test_what_is_free_goes_back():
     # Nearly all of 100 MB.
     assert int(output(FREED)) > 80e6
+
+
+def test_arrow_gives_its_heap_back_too(monkeypatch):
+    released = []
+    pool = SimpleNamespace(release_unused=lambda: released.append(True))
+    monkeypatch.setitem(sys.modules, "pyarrow", SimpleNamespace(default_memory_pool=lambda: pool))
+    give_back()
+    assert released == [True]

@@ -5,9 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable
 from concurrent.futures import Future
 from threading import Lock
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
+from weakref import WeakSet
 
 T = TypeVar("T")
+_ALL: WeakSet[Kept[Any]] = WeakSet()
+
+
+def forget_all() -> None:
+    """Forget all objects of all caches, where no run follows."""
+    for kept in list(_ALL):
+        kept.clear()
 
 
 class Kept(Generic[T]):
@@ -26,6 +34,7 @@ class Kept(Generic[T]):
         self._lock = Lock()
         # From the one asked for longest ago to the newest.
         self._entries: dict[Hashable, Future[T]] = {}
+        _ALL.add(self)
 
     def clear(self) -> None:
         """Forget all."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import sys
 from typing import Any
 
 # Names of glibc (malloc.h).
@@ -26,7 +27,10 @@ def share_heaps() -> None:
 
 
 def give_back() -> None:
-    """Give free memory back to the system."""
+    """Give free memory back to the system; Arrow, where it is loaded, keeps a heap of its own."""
+    pool = getattr(sys.modules.get("pyarrow"), "default_memory_pool", None)
+    if pool is not None:
+        pool().release_unused()
     trim = _function("malloc_trim")
     if trim is not None:
         trim(ctypes.c_size_t(0))

@@ -274,16 +274,18 @@ def _write(
     result: Response | SmallStudy, case: Case, request: RunOptions, place: Path, say: Callable[[str], None]
 ) -> list[Path]:
     """Write files and report; what asks for a report alone has its figures in it."""
+    from heeltoe.base.cache import forget_all
     from heeltoe.base.heap import give_back
-    from heeltoe.study.small.run_table import SmallStudy
+    from heeltoe.result.response import Response
     from heeltoe.views.files.write import figures_of, write_all
 
     say("writing")
     # Figures need the room that the models have left.
+    forget_all()
     give_back()
     units = units_of(case, request.units)
     ahead = None
-    if request.report and not isinstance(result, SmallStudy):
+    if request.report and isinstance(result, Response):
         from heeltoe.views.report.write import draw_ahead
 
         ahead = draw_ahead(case, result, units)
@@ -295,7 +297,7 @@ def _write(
             from heeltoe.views.files.workbook import fill_workbook
 
             fill_workbook(result, fresh / WORKBOOK)
-        if not request.report or isinstance(result, SmallStudy):
+        if not request.report or not isinstance(result, Response):
             return
         from heeltoe.views.report.write import build_report, write_kinds
 

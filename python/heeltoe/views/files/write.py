@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.base.atomic_files import write_whole
+from heeltoe.base.heap import give_back
 from heeltoe.result.response import Response
 from heeltoe.result.write import write_json, write_table
 from heeltoe.views.figures.names import NAMES
@@ -121,9 +122,11 @@ def write_all(
 
     def write(fresh: Path) -> None:
         _write(result, fresh, suffix, vtk)
+        give_back()
         if drawn:
             save_all(drawn, fresh, finish)
-            if report:
+            give_back()
+        if report:
             report(fresh)
 
     own = (*names(".parquet", ".csv", report=report is not None), *VTK_FILES)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from heeltoe.base.atomic_files import write_whole
+from heeltoe.base.heap import give_back
 from heeltoe.errors.error import InputError, expect
 
 if TYPE_CHECKING:
@@ -204,6 +205,7 @@ def write_kinds(document: Document, fresh: Path, kinds: Sequence[str] = ("pdf", 
     """Write the files of a report into a directory without one."""
     # The PDF last, as typst keeps what it has read.
     for kind in sorted(kinds):
+        give_back()
         (fresh / f"report.{kind}").write_bytes(_rendered(document, kind))
 
 
