@@ -306,11 +306,12 @@ def _write_response(response: Response, directory: Path, suffix: str, vtk: bool)
         write_table(other.to_table(), directory / name / f"histories{suffix}")
         if other.event_log:
             write_table(other.events_table(), directory / name / f"events{suffix}")
-    from heeltoe.models.flexible.result.history import crack_table
     from heeltoe.models.flexible.result.response import FlexibleResponse
 
     if not isinstance(response, FlexibleResponse):
         return
+    from heeltoe.models.flexible.result.history import crack_table
+
     write_table(crack_table(response.crack), directory / f"crack{suffix}")
     for name, at_crack in response.others.items():
         write_table(crack_table(at_crack.crack), directory / name / f"crack{suffix}")
