@@ -41,6 +41,9 @@ def test_numbers_stay_with_their_units():
         ([["0.0 m", "0.0 m"], ["80.0 m", "0.0 m"]], "(0 m, 0 m), (80 m, 0 m)"),
         ({"step": "band-pass", "low": "0.1 Hz", "high": None}, "step band-pass, low 0.1 Hz"),
         (list(range(20)), "0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 and 8 more"),
+        ("4e+09 B", "4 GB"),
+        ("2.5e+06 B", "2.5 MB"),
+        ("512.0 B", "512 B"),
     ],
 )
 def test_input_is_shown_with_units(value, text):

@@ -30,6 +30,7 @@ _SI = {
     "pressure": ((1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
     "force": ((1e6, "MN/m"), (1e3, "kN/m"), (1.0, "N/m")),
 }
+_MEMORY = ((1e9, "GB"), (1e6, "MB"), (0.0, "B"))
 # Half a metre is half a metre.
 _ENOUGH = {"m": 0.5}
 # No stress in a dam comes to so much, and all moduli do [Pa].
@@ -144,6 +145,9 @@ def _quantity(number: float, unit: str, name: str, units: str, largest: Mapping[
         return angle(number)
     if unit == "rad":
         return f"{_number(np.degrees(number).item())}°"
+    if unit == "B":
+        step, unit = next(step for step in _MEMORY if number >= step[0])
+        number /= step or 1.0
     if unit not in UNITS:
         return f"{_number(number)} {unit}"
     kind, value = _kind(number, unit, name)
