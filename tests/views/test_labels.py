@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from heeltoe import rigid
 from heeltoe.views.content.drawings import drawing
 from heeltoe.views.figures.all import all_figures
-from heeltoe.views.figures.style import STYLE, align_labels, fit_words, laid_out
+from heeltoe.views.figures.style import STYLE, align_labels, even_lines, fit_words, laid_out
 from heeltoe.views.figures.summary import summary_figure
 from shared.dams import example
 
@@ -104,3 +104,9 @@ def test_ticks_of_a_report_are_those_of_its_letters():
         with mpl.rc_context({"font.size": size}):
             reports.append(drawing("spectrum", all_figures(None, response)["spectrum"], "The spectrum.").svg)
     assert reports[0] == reports[1]
+
+
+def test_lines_of_words_are_about_equally_long():
+    assert even_lines("displacements exaggerated 20 times", 28) == "displacements\nexaggerated 20 times"
+    assert even_lines("short", 28) == "short"
+    assert even_lines("", 28) == ""

@@ -169,9 +169,17 @@ def fit_words(figure: Figure) -> None:
         figure.legend(handles, lines, loc="outside lower center", ncols=columns, columnspacing=1.2, handlelength=1.8)
     if figure.get_supxlabel():
         words = "\n".join(
-            textwrap.fill(line, int(room / (_LETTER * _SMALL))) for line in figure.get_supxlabel().split("\n")
+            even_lines(line, int(room / (_LETTER * _SMALL))) for line in figure.get_supxlabel().split("\n")
         )
         figure.supxlabel(words, fontsize=_SMALL)
+
+
+def even_lines(text: str, width: int) -> str:
+    """Break a text into as few lines as a width in letters asks for, none much shorter than the others."""
+    count = len(textwrap.wrap(text, width))
+    longest = max(map(len, text.split()), default=1)
+    fitting = (narrow for narrow in range(longest, width) if len(textwrap.wrap(text, narrow)) == count)
+    return textwrap.fill(text, next(fitting, width))
 
 
 def _without_way(text: str) -> str:
