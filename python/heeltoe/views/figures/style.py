@@ -230,14 +230,20 @@ def _steady(figure: Figure) -> Iterator[None]:
     """Let the axes of a figure, in which nothing is changed meanwhile, find their ticks once for each size, and measure
     the numbers at them once for each place; each spine and label would do it anew."""
     every: list[Any] = [axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)]
-    for axis in every:
-        axis._update_ticks = _Once(axis._update_ticks, partial(_size, axis))
-        axis._get_ticklabel_bboxes = _Once(axis._get_ticklabel_bboxes, partial(_place, axis))
+    # Names inside matplotlib 3.11: a version without them finds all anew.
+    held = [
+        (axis, name, state)
+        for axis in every
+        for name, state in (("_update_ticks", _size), ("_get_ticklabel_bboxes", _place))
+        if hasattr(axis, name)
+    ]
+    for axis, name, state in held:
+        setattr(axis, name, _Once(getattr(axis, name), partial(state, axis)))
     try:
         yield
     finally:
-        for axis in every:
-            del axis._update_ticks, axis._get_ticklabel_bboxes
+        for axis, name, _ in held:
+            delattr(axis, name)
 
 
 class _Once:

@@ -293,8 +293,8 @@ def _near_mesh(line: Floats, bottom: float, depth: float, longest: float, near: 
     def flow(v: Any, _: Any) -> Any:
         return 1.0 * v
 
-    # scikit-fem 12 looks for points of a facet in its element to an absolute tolerance, which rounding of coordinates far
-    # from zero exceeds where the water is a few centimetres deep.
+    # scikit-fem 12 looks for points of a facet in its element to an absolute tolerance, which rounding of coordinates
+    # far from zero exceeds where the water is a few centimetres deep.
     at_floor = skfem.FacetBasis(
         quads.translated((-start, -bottom)),
         element,
