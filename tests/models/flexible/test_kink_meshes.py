@@ -34,8 +34,10 @@ def test_where_a_hundredth_of_the_shaking_decides_no_mesh_mends_it():
 
 @pytest.mark.slow
 @pytest.mark.product
-def test_eight_elements_across_are_too_few_for_a_step():
-    """A straight crack has converged with them; a step has not, as two to four nodes carry the dam on it."""
+def test_sixteen_elements_across_are_enough_for_a_straight_crack_and_too_few_for_a_step():
+    """Two to four nodes carry the dam on a step with eight of them; twice as many still miss it."""
     straight, step = (LINES[name] for name in ("straight, 0.9", "27°, 0.9"))
-    assert slips(*straight, 8, 2e-4)[0] == pytest.approx(slips(*straight, 24, 2e-4)[0], rel=0.01)
-    assert slips(*step, 8, 2e-4)[0] < 0.9 * slips(*step, 24, 2e-4)[0]
+    assert slips(*straight, 16, 2e-4)[0] == pytest.approx(slips(*straight, 24, 2e-4)[0], rel=0.01)
+    eight, sixteen, fine = (slips(*step, across, 2e-4)[0] for across in (8, 16, 24))
+    assert eight < 0.9 * fine
+    assert abs(sixteen - fine) > 0.04 * fine
