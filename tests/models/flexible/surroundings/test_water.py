@@ -204,7 +204,7 @@ def test_floor_of_rock():
 
 @pytest.mark.parametrize("depth", [0.01, 0.05, 0.3])
 def test_a_little_water_far_from_zero_pushes_as_water_without_sound(depth):
-    """By far below the first frequency of the water, 0.543 rho h^2 of it move with a rigid wall (Westergaard 1933)."""
+    """Far below the first frequency of the water 0.543 rho h^2 of it move with a rigid wall (Westergaard 1933)."""
     face = np.column_stack([70.0 + 0.0 * HEIGHTS, 0.2 * HEIGHTS + 30.0])
     water = reduced_water([face], depth, wave_speed=SPEED, reflection=1.0, density=DENSITY, upstream=False)
     omega = 2.0 * np.pi * 5.0

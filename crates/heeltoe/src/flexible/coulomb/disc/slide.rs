@@ -9,7 +9,8 @@ const CORRECTIONS: usize = 12;
 const LEFT: f64 = 0.5;
 /// How often its matrix may be renewed in one set of corrections.
 const RENEWALS: u32 = 3;
-/// Factors make one correction for so many unknowns; then they are turned into the inverse, with which each takes less time.
+/// Factors make one correction for so many unknowns; then they are turned into the inverse, with which each takes less
+/// time. A step with 32 elements across, whose states change often, took 17 to 27 % less than with the inverse at once.
 const UNKNOWNS: usize = 4;
 
 impl Disc {
